@@ -1,0 +1,89 @@
+#include "cli/command.hpp"
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "tables/atomic_file.hpp"
+
+namespace irido {
+
+void add_stack_options(CLI::App& command, StackRequest& request) {
+    command
+        .add_option("STACK", request.stack,
+                    "stack file (.json), - for standard input, or an expression\n"
+                    "\"air | SiO2@100 | Si\": media from the incident side, @ nm")
+        ->required();
+    command
+        .add_option("--set", request.set,
+                    "PATH=VALUE: override a value of the stack by dotted path,\n"
+                    "repeatable: layers.0.thickness_nm=400")
+        ->type_name("PATH=VALUE")
+        ->allow_extra_args(false);
+}
+
+void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats) {
+    command
+        .add_option("-o,--output", output.file,
+                    "write to FILE (whole or not at all); the format follows the\n"
+                    "extension [standard output]")
+        ->type_name("FILE");
+    command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
+}
+
+void add_threads_option(CLI::App& command, unsigned& threads) {
+    command
+        .add_option_function<std::string>(
+            "-j,--threads",
+            [&threads](const std::string& text) {
+                const std::vector<double> values = parse_list("--threads", text, 1, 4096);
+                if (values.size() != 1 || values[0] != static_cast<unsigned>(values[0]))
+                    throw UsageError("--threads: must be one whole number (got '" + text + "')");
+                threads = static_cast<unsigned>(values[0]);
+            },
+            "threads [all cores]; the answer does not depend on it")
+        ->type_name("N");
+}
+
+void set_examples(CLI::App& command, const std::vector<std::string>& examples) {
+    std::string text = "Examples:";
+    for (const std::string& example : examples) text += "\n  " + example;
+    command.footer(text);
+}
+
+std::string resolved_format(const OutputOptions& output) {
+    if (!output.format.empty()) return output.format;
+    const std::size_t slash = output.file.find_last_of('/');
+    const std::size_t dot = output.file.find_last_of('.');
+    if (output.file.empty() || output.file.starts_with("/dev/")) return "csv";
+    if (dot == std::string::npos || (slash != std::string::npos && dot < slash))
+        throw UsageError(
+            "--output: must have an extension that names the format, or use --format "
+            "(got '" +
+            output.file + "')");
+    return output.file.substr(dot + 1);
+}
+
+const RecordFormat& resolved_record_format(const OutputOptions& output) {
+    const std::string name = resolved_format(output);
+    if (const RecordFormat* format = find_record_format(name)) return *format;
+    throw UsageError("--format: must be one of csv, json, npy (got '" + name + "')");
+}
+
+void write_records(const Records& records, const OutputOptions& output) {
+    const RecordFormat& format = resolved_record_format(output);
+    write_bytes(format.write(records), output, format.name == "npy");
+}
+
+void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary) {
+    if (!output.file.empty()) return write_file(output.file, bytes);
+    if (is_binary && isatty(STDOUT_FILENO))
+        throw UsageError("--format: binary data does not go to a terminal, use --output FILE");
+    write_stdout(bytes);
+}
+
+void note(const std::string& text, bool quiet) {
+    if (!quiet) std::cerr << "irido: note: " << text << '\n';
+}
+
+}  // namespace irido

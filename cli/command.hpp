@@ -1,0 +1,56 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cli/list.hpp"
+#include "schemas/stack_document.hpp"
+#include "tables/records.hpp"
+
+namespace irido {
+
+/// What main runs once the command line is parsed; returns the exit status.
+using Run = std::function<int()>;
+
+/// Each command adds itself to the program and sets `run` when it is the one that was typed.
+void add_spectrum_command(CLI::App& program, Run& run);
+void add_color_command(CLI::App& program, Run& run);
+void add_materials_command(CLI::App& program, Run& run);
+void add_validate_command(CLI::App& program, Run& run);
+
+/// Where a command's answer goes, as typed.
+struct OutputOptions {
+    std::string file;    ///< "" for standard output
+    std::string format;  ///< "" to follow the file's extension
+};
+
+/// STACK and --set.
+void add_stack_options(CLI::App& command, StackRequest& request);
+
+/// -o and -f; `formats` as the help shows them.
+void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
+
+/// -j
+void add_threads_option(CLI::App& command, unsigned& threads);
+
+/// The last lines of a help page.
+void set_examples(CLI::App& command, const std::vector<std::string>& examples);
+
+/// The format's name as typed or as the file's extension says, "csv" if by neither. UsageError.
+std::string resolved_format(const OutputOptions& output);
+
+/// The format of tables/records.hpp of that name. Throws UsageError.
+const RecordFormat& resolved_record_format(const OutputOptions& output);
+
+/// Writes records to the file or to standard output.
+void write_records(const Records& records, const OutputOptions& output);
+
+/// Writes bytes of a text or binary format to the file or to standard output.
+void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary);
+
+/// One line on standard error, unless quiet.
+void note(const std::string& text, bool quiet);
+
+}  // namespace irido

@@ -1,0 +1,110 @@
+#include "cli/list.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "schemas/number.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr std::size_t kMostValues = 10'000'000;
+
+class ListParser {
+public:
+    ListParser(std::string_view option, double lowest, double highest)
+        : option_(option), lowest_(lowest), highest_(highest) {}
+
+    void add(std::string_view item) {
+        const std::size_t first = item.find(':');
+        if (first == std::string_view::npos) return push(number(item));
+        const std::string_view start = item.substr(0, first), rest = item.substr(first + 1);
+        if (const std::size_t slash = rest.find('/'); slash != std::string_view::npos)
+            return add_count(number(start), number(rest.substr(0, slash)), rest.substr(slash + 1));
+        const std::size_t second = rest.find(':');
+        if (second == std::string_view::npos)
+            fail("must be start:stop:step or start:stop/count (got '" + std::string(item) + "')");
+        add_steps(start, rest.substr(0, second), rest.substr(second + 1));
+    }
+
+    std::vector<double> values;
+
+private:
+    [[noreturn]] void fail(const std::string& text) const {
+        throw UsageError(std::string(option_) + ": " + text);
+    }
+
+    double number(std::string_view text) const {
+        const auto value = parse_number(trimmed(text));
+        if (!value) fail("must be a number (got '" + std::string(text) + "')");
+        return *value;
+    }
+
+    void push(double value) {
+        if (values.size() >= kMostValues)
+            fail("must have at most " + std::to_string(kMostValues) + " values");
+        try {
+            require_in_range(option_, value, lowest_, highest_);
+        } catch (const DomainError&) {
+            fail("must be in [" + to_text(lowest_) + ", " + to_text(highest_) + "] (got " +
+                 to_text(value) + ")");
+        }
+        values.push_back(value);
+    }
+
+    void add_count(double start, double stop, std::string_view text) {
+        const double count = number(text);
+        if (count != std::floor(count) || count < 1 || count > static_cast<double>(kMostValues))
+            fail("must have a whole number of values from 1 to 10000000 after '/' (got '" +
+                 std::string(text) + "')");
+        if (count == 1 && start != stop) fail("must have at least 2 values from start to stop");
+        for (double i = 0; i < count; ++i)
+            push(i + 1 == count ? stop : start + (stop - start) * i / (count - 1));
+    }
+
+    /// Digits after the decimal point, or -1 for a number with an exponent.
+    static int decimals(std::string_view text) {
+        if (text.find_first_of("eE") != std::string_view::npos) return -1;
+        const std::size_t point = text.find('.');
+        return point == std::string_view::npos ? 0 : static_cast<int>(text.size() - point - 1);
+    }
+
+    void add_steps(std::string_view start_text, std::string_view stop_text,
+                   std::string_view step_text) {
+        const double start = number(start_text), stop = number(stop_text), step = number(step_text);
+        if (step == 0 || (stop - start) / step < 0)
+            fail("must have a step that leads from start to stop (got '" + std::string(step_text) +
+                 "')");
+        const double count = std::floor((stop - start) / step + 1e-9);
+        if (count >= static_cast<double>(kMostValues))
+            fail("must have at most " + std::to_string(kMostValues) + " values");
+        // whole multiples of the last decimal place, so that no rounding piles up
+        const int places = std::max(decimals(trimmed(start_text)), decimals(trimmed(step_text)));
+        const bool exact = places >= 0 && places <= 12 && decimals(trimmed(start_text)) >= 0 &&
+                           decimals(trimmed(step_text)) >= 0;
+        const double scale = exact ? std::pow(10.0, places) : 1;
+        const double a = exact ? std::round(start * scale) : start;
+        const double b = exact ? std::round(step * scale) : step;
+        for (double i = 0; i <= count; ++i) push((a + i * b) / scale);
+    }
+
+    std::string_view option_;
+    double lowest_, highest_;
+};
+
+}  // namespace
+
+std::vector<double> parse_list(std::string_view option, std::string_view text, double lowest,
+                               double highest) {
+    ListParser parser(option, lowest, highest);
+    for (std::size_t begin = 0;;) {
+        const std::size_t comma = text.find(',', begin);
+        parser.add(text.substr(begin, comma == std::string_view::npos ? comma : comma - begin));
+        if (comma == std::string_view::npos) return std::move(parser.values);
+        begin = comma + 1;
+    }
+}
+
+}  // namespace irido

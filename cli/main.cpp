@@ -1,0 +1,88 @@
+#include <csignal>
+#include <iostream>
+#include <new>
+
+#include <unistd.h>
+
+#include "cli/command.hpp"
+#include "core/error.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/nearest.hpp"
+#include "tables/atomic_file.hpp"
+
+namespace {
+
+using namespace irido;
+
+constexpr int kUsageOrInput = 2;
+
+extern "C" void stop_on_signal(int signal) {
+    remove_unfinished_file();
+    _exit(128 + signal);
+}
+
+void handle_signals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (std::signal(signal, stop_on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), handled there
+}
+
+std::string version_text() {
+    return std::string("irido ") + IRIDO_VERSION + ", " + IRIDO_COMPILER + ", SIMD baseline";
+}
+
+int fail(const std::string& text) {
+    std::string line = text;
+    for (char& c : line)
+        if (c == '\n') c = ' ';
+    std::cerr << "irido: error: " << line << '\n';
+    return kUsageOrInput;
+}
+
+std::vector<std::string> names_of(const std::vector<CLI::App*>& commands) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    return names;
+}
+
+int run_program(int argc, char** argv) {
+    CLI::App program("What a stack of thin films does to light: spectra and colours.", "irido");
+    program.require_subcommand(1);
+    program.set_version_flag("--version", version_text(), "version, compiler and SIMD level");
+    program.get_formatter()->column_width(26);
+    Run run;
+    add_spectrum_command(program, run);
+    add_color_command(program, run);
+    add_materials_command(program, run);
+    add_validate_command(program, run);
+    set_examples(program,
+                 {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
+                  "irido color \"air | TiO2@35 | Ti\" -a 0:80:10", "irido COMMAND --help"});
+    if (const std::string first = argc > 1 ? argv[1] : "-";
+        !first.starts_with('-') && !program.get_subcommand_no_throw(first))
+        return fail("there is no command '" + first + "'" +
+                    did_you_mean(first, names_of(program.get_subcommands({}))));
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& done) {  // --help, --version
+        return program.exit(done);
+    } catch (const CLI::ParseError& error) {
+        return fail(std::string(error.what()) + " (see irido --help)");
+    }
+    return run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    handle_signals();
+    try {
+        return run_program(argc, argv);
+    } catch (const BrokenPipe&) {
+        return 0;
+    } catch (const std::bad_alloc&) {
+        return fail("not enough memory for this request");
+    } catch (const std::exception& error) {  // UsageError, InputError, DomainError, OutputError
+        return fail(error.what());
+    }
+}

@@ -1,0 +1,37 @@
+#include <memory>
+
+#include "cli/command.hpp"
+#include "tables/atomic_file.hpp"
+
+namespace irido {
+
+namespace {
+
+int run_validate(const std::vector<std::string>& files) {
+    std::string out;
+    bool all_good = true;
+    for (const std::string& file : files) {
+        const std::vector<std::string> problems = validate_stack_file(file);
+        for (const std::string& line : problems) out += line + '\n';
+        if (problems.empty()) out += file + ": ok\n";
+        all_good = all_good && problems.empty();
+    }
+    write_stdout(out);
+    return all_good ? 0 : 1;
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand(
+        "validate", "Check stack files: every error of every file, or FILE: ok.");
+    const auto files = std::make_shared<std::vector<std::string>>();
+    command->add_option("FILE", *files, "stack files (.json), - for standard input")->required();
+    set_examples(*command,
+                 {"irido validate schemas/examples/*.json", "irido validate - < stack.json"});
+    command->footer(command->get_footer() +
+                    "\n\nExit status: 0 if all are right, 1 if not, 2 if a file cannot be read.");
+    command->callback([files, &run] { run = [files] { return run_validate(*files); }; });
+}
+
+}  // namespace irido

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/color/sensitivity.hpp"
+
+namespace irido {
+
+/// A part of the spectrum over which the integrands are smooth, and a guess at their richness.
+struct SpectralPanel {
+    WavelengthRange range;
+    /// Half the turn in radians of the fastest fringe over the panel: the integrands need about as
+    /// many Chebyshev polynomials.
+    double half_turn = 0;
+};
+
+/// Several spectra in [0, 1] that are wanted at the same wavelengths, such as R and T at every
+/// angle. Fills values[item * wavelengths + w] for each of the asked items, in order.
+using SpectraAt = std::function<void(std::span<const double> wavelength_nm,
+                                     std::span<const std::size_t> items, std::span<double> values)>;
+
+/// X, Y, Z of one spectrum.
+struct ColorIntegral {
+    Triple xyz{};
+    double error = 0;  ///< estimate of the largest error of X, Y, Z
+    std::size_t evaluations = 0;
+};
+
+struct IntegrationLimits {
+    double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
+    std::size_t evaluations = 1U << 20;  ///< per spectrum; past it the best value is returned
+};
+
+/// Integrals of `items` spectra times the sensitivity over adjoining panels that cover its support.
+/// Each panel starts at the degree that its half_turn asks for, doubles it and then bisects until
+/// the tail of the Chebyshev coefficients against the moments is below the panel's share of the
+/// tolerance. A spectrum equal to 1 at every point gives exactly the white. Spectra that run out of
+/// evaluations have error > tolerance.
+std::vector<ColorIntegral> integrate_color(const Sensitivity& sensitivity,
+                                           const std::vector<SpectralPanel>& panels,
+                                           std::size_t items, const SpectraAt& spectra,
+                                           const IntegrationLimits& limits);
+
+}  // namespace irido

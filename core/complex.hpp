@@ -1,0 +1,9 @@
+#pragma once
+
+#include <complex>
+
+namespace irido {
+
+using Complex = std::complex<double>;
+
+}  // namespace irido

@@ -1,0 +1,20 @@
+#include "core/error.hpp"
+
+#include <array>
+#include <charconv>
+
+namespace irido {
+
+std::string to_text(double value) {
+    std::array<char, 32> buffer{};
+    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return {buffer.data(), result.ptr};
+}
+
+void require_in_range(std::string_view name, double value, double lowest, double highest) {
+    if (value >= lowest && value <= highest) return;
+    throw DomainError(std::string(name) + " must be in [" + to_text(lowest) + ", " +
+                      to_text(highest) + "] (got " + to_text(value) + ")");
+}
+
+}  // namespace irido

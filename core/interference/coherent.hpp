@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+
+#include "core/complex.hpp"
+#include "core/stack/stack.hpp"
+
+namespace irido {
+
+enum class Polarization { s, p };
+
+/// Reflected, transmitted and absorbed fraction of the incident power; R + T + A = 1.
+struct Power {
+    double R = 0;
+    double T = 0;
+    double A = 0;
+};
+
+/// One medium at one wavelength and angle.
+struct Medium {
+    Complex eps;  ///< permittivity (n + ik)^2
+    Complex q2;   ///< (kz / k0)^2 = eps - S^2, formed without its cancellation near grazing
+};
+
+/// Permittivity and squared normal index of a medium of the given complex index.
+///     q2 = (n - n0)(n + n0) - k^2 + 2 i n k + (n0 cos theta)^2
+/// n0 > 0 is the real index of the incident medium, cos_theta in [0, 1] belongs to it.
+Medium medium(Complex index, double n0, double cos_theta);
+
+/// Closed range of the angle of incidence, degrees.
+inline constexpr double kLargestAngle_deg = 90;
+
+/// cos(angle of incidence), formed as sin(90 - angle) with the subtraction in degrees, where it is
+/// exact, so that grazing angles keep all their digits. angle_deg in [0, 90], else DomainError.
+double cos_of_incidence(double angle_deg);
+
+/// Power reflected by, transmitted through and absorbed in coherent layers between two half-spaces.
+/// From the substrate up, tangential fields (B, C) obey, with delta = k0 d sqrt(q2),
+///     s:  B' = c B - i sd C            C' = c C - i q2 sd B
+///     p:  B' = c B - i (q2/eps) sd C   C' = c C - i eps sd B,   c = cos(delta), sd = k0 d
+///     sinc(delta)
+/// which are entire functions of q2: the critical angle, evanescent layers and zero thickness are
+/// ordinary points. Exponentials are factored out into a logarithm, groups are raised to their
+/// power in closed form. A comes from the absorbed flux of every layer, not from 1 - R - T.
+///   above, below  the half-spaces; light comes from `above`
+///   elements      layers and groups from `above` to `below`
+///   media         one per material of the stack;  k0 = 2 pi / wavelength, 1/nm
+/// Returns {1, 0, 0} when `above` carries no power towards the layers (grazing at exactly 90
+/// degrees), {0, 1, 0} if then all media are the same.
+/// Source: P. Yeh, Optical Waves in Layered Media (1988), ch. 4 and 5; H. A. Macleod, Thin-Film
+/// Optical Filters (2010), ch. 2.
+Power coherent_power(const Medium& above, std::span<const Element> elements, const Medium& below,
+                     std::span<const Medium> media, double k0, Polarization polarization);
+
+}  // namespace irido

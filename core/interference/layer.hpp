@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/complex.hpp"
+#include "core/interference/coherent.hpp"
+
+namespace irido {
+
+/// exp(log_scale) [[a, b], [c, d]], acting on tangential fields (B, C).
+struct Matrix {
+    Complex a{1}, b{}, c{}, d{1};
+    double log_scale = 0;
+};
+
+/// Power absorbed above the fields v = (B, C) at a slab's lower face, in the units of the flux
+/// Re(conj(B) C): exp(2 (log_scale + the slab's own)) v^H Q v, Q = [[bb, bc], [conj(bc), cc]].
+struct AbsorbedPower {
+    double bb = 0, cc = 0;
+    Complex bc{};
+    double log_scale = 0;  ///< relative to the matrix, so that thick slabs lose no digits
+};
+
+/// A layer, or layers taken together.
+struct Slab {
+    Matrix matrix;           ///< fields at the lower face to fields at the upper face
+    AbsorbedPower absorbed;  ///< all zero if nothing absorbs
+    bool absorbs = false;
+};
+
+/// Characteristic matrix of one layer, thickness k0 d (radians in vacuum, >= 0).
+Matrix layer_matrix(const Medium& medium, double k0_d, Polarization polarization);
+
+/// The layer with the power it absorbs, as an exact integral over its depth; gain is negative.
+Slab layer_slab(const Medium& medium, double k0_d, Polarization polarization);
+
+/// `upper` on top of `lower`.
+Matrix operator*(const Matrix& upper, const Matrix& lower);
+Slab operator*(const Slab& upper, const Slab& lower);
+
+/// Moves the size of a very large or small matrix into its log_scale; returns what it moved.
+double normalize(Matrix& matrix);
+
+}  // namespace irido

@@ -1,0 +1,154 @@
+#include "core/material/library.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace irido {
+
+namespace {
+
+/// A row of a table of n or of k.
+struct Point {
+    double nm;
+    double value;
+};
+
+/// A row of a table of both.
+struct Row {
+    double nm;
+    double n;
+    double k;
+};
+
+constexpr std::size_t kMostCoefficients = 13;
+
+/// A material as static data. n comes from `nk`, else from `n`, else from the formula, else it is
+/// 1; k comes from `nk`, else from `k`, else it is 0.
+struct Entry {
+    std::string_view name;
+    std::array<std::string_view, 2> aliases = {};
+    int year = 0;
+    std::string_view source;
+    int formula = 0;  ///< number of a dispersion formula, 0 for none
+    std::array<double, kMostCoefficients> coefficients = {};  ///< trailing zeros do not count
+    WavelengthRange range = {};                               ///< of the formula
+    std::span<const Row> nk = {};
+    std::span<const Point> n = {};
+    std::span<const Point> k = {};
+    Outside outside = Outside::refuse;
+};
+
+#include "core/material/data/Ag.inc"
+#include "core/material/data/Al.inc"
+#include "core/material/data/Au.inc"
+#include "core/material/data/Cr.inc"
+#include "core/material/data/Cu.inc"
+#include "core/material/data/Fe.inc"
+#include "core/material/data/Fe2O3.inc"
+#include "core/material/data/GaAs.inc"
+#include "core/material/data/Ge.inc"
+#include "core/material/data/Hg.inc"
+#include "core/material/data/ITO.inc"
+#include "core/material/data/Nb2O5.inc"
+#include "core/material/data/Ni.inc"
+#include "core/material/data/PDMS.inc"
+#include "core/material/data/PET.inc"
+#include "core/material/data/PMMA.inc"
+#include "core/material/data/Pd.inc"
+#include "core/material/data/Pt.inc"
+#include "core/material/data/Si-Aspnes.inc"
+#include "core/material/data/Si.inc"
+#include "core/material/data/SiO-k.inc"
+#include "core/material/data/SiO-n.inc"
+#include "core/material/data/SiO2-film.inc"
+#include "core/material/data/Ta2O5.inc"
+#include "core/material/data/Ti.inc"
+#include "core/material/data/TiN.inc"
+#include "core/material/data/TiO2-anatase.inc"
+#include "core/material/data/TiO2.inc"
+#include "core/material/data/W.inc"
+#include "core/material/data/ZnS-k.inc"
+#include "core/material/data/ZnSe-k.inc"
+#include "core/material/data/ZrO2.inc"
+#include "core/material/data/brass.inc"
+#include "core/material/data/polycarbonate.inc"
+#include "core/material/data/polystyrene.inc"
+#include "core/material/data/silk-k.inc"
+
+constexpr std::string_view kSchott =
+    "SCHOTT optical glass catalogue (2017-01-20). Glass, 20 C, relative to air. Its very small k "
+    "is left out.";
+constexpr std::string_view kAspnesStudna =
+    "D. E. Aspnes and A. A. Studna, Phys. Rev. B 27, 985 (1983). Crystal, ellipsometry, room "
+    "temperature.";
+constexpr std::string_view kJohnsonChristy1972 =
+    "P. B. Johnson and R. W. Christy, Phys. Rev. B 6, 4370 (1972). Evaporated films, room "
+    "temperature.";
+constexpr std::string_view kJohnsonChristy1974 =
+    "P. B. Johnson and R. W. Christy, Phys. Rev. B 9, 5056 (1974). Evaporated films, room "
+    "temperature.";
+constexpr std::string_view kZhang =
+    "X. Zhang et al., Appl. Opt. 59, 2337 (2020). Commercial sheet, room temperature. Its very "
+    "small k is left out.";
+
+constexpr Entry kEntries[] = {
+#include "core/material/data/materials.inc"
+};
+
+constexpr auto kNames = [] {
+    std::array<std::string_view, std::size(kEntries)> names;
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = kEntries[i].name;
+    return names;
+}();
+
+template <class Element>
+Table column(std::span<const Element> rows, double Element::*value) {
+    Table table;
+    table.wavelength_nm.reserve(rows.size());
+    table.value.reserve(rows.size());
+    for (const Element& row : rows) {
+        table.wavelength_nm.push_back(row.nm);
+        table.value.push_back(row.*value);
+    }
+    return table;
+}
+
+Formula formula_of(const Entry& entry) {
+    const auto last = std::find_if(entry.coefficients.rbegin(), entry.coefficients.rend(),
+                                   [](double value) { return value != 0; });
+    return {entry.formula, {entry.coefficients.begin(), last.base()}, entry.range};
+}
+
+RefractiveIndex index_of(const Entry& entry) {
+    RefractiveIndex index;
+    if (!entry.nk.empty()) return {column(entry.nk, &Row::n), column(entry.nk, &Row::k)};
+    if (!entry.n.empty())
+        index.n = column(entry.n, &Point::value);
+    else if (entry.formula != 0)
+        index.n = formula_of(entry);
+    if (!entry.k.empty()) index.k = column(entry.k, &Point::value);
+    return index;
+}
+
+}  // namespace
+
+std::span<const std::string_view> library_names() {
+    return kNames;
+}
+
+std::optional<LibraryMaterial> find_material(std::string_view name) {
+    const auto answers = [name](const Entry& entry) {
+        return entry.name == name || std::ranges::count(entry.aliases, name) > 0;
+    };
+    const auto* const entry = std::ranges::find_if(kEntries, answers);
+    if (entry == std::end(kEntries) || name.empty()) return std::nullopt;
+    LibraryMaterial found{Material{std::string(entry->name), index_of(*entry), entry->outside},
+                          std::string(entry->source),
+                          entry->year,
+                          {}};
+    for (const std::string_view alias : entry->aliases)
+        if (!alias.empty()) found.aliases.emplace_back(alias);
+    return found;
+}
+
+}  // namespace irido

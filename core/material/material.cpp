@@ -1,0 +1,267 @@
+#include "core/material/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace irido {
+
+namespace {
+
+/// h c / e in eV nm: h, c and e are exact in the SI of 2019.
+constexpr double kPhotonEnergyEvNm = 6.62607015e-34 * 299792458.0 / 1.602176634e-19 * 1e9;
+
+constexpr double kLargestIndex = 1e4;
+constexpr double kSmallestModulus = 1e-6;
+
+std::string name_of(const Material& material) {
+    return material.name.empty() ? "material" : material.name;
+}
+
+/// One evaluation: who is asked for which wavelength, so that an error can say so.
+struct Query {
+    const Material& material;
+    double wavelength_nm;
+
+    double require(std::string_view what, double value, double lowest, double highest) const {
+        if (value >= lowest && value <= highest) return value;
+        throw DomainError(name_of(material) + ": " + std::string(what) + " must be in [" +
+                          to_text(lowest) + ", " + to_text(highest) + "] (got " + to_text(value) +
+                          " at " + to_text(wavelength_nm) + " nm)");
+    }
+
+    double root(double square) const {
+        return std::sqrt(require("n^2", square, 0, kLargestIndex * kLargestIndex));
+    }
+};
+
+/// The coefficients c1, c2, ... as the definitions number them; those not given are 0.
+class Coefficients {
+public:
+    explicit Coefficients(const Formula& formula) : values_(formula.coefficients) {}
+
+    std::size_t count() const { return values_.size(); }
+    double operator()(std::size_t number) const {
+        return number <= values_.size() ? values_[number - 1] : 0.0;
+    }
+
+private:
+    const std::vector<double>& values_;
+};
+
+/// sum of term(j) over j = first, first + step, ... whose leading coefficient c_j is not 0.
+template <class Term>
+double sum_of_terms(const Coefficients& c, std::size_t first, std::size_t step, Term term) {
+    double sum = 0;
+    for (std::size_t j = first; j <= c.count(); j += step)
+        if (c(j) != 0) sum += term(j);
+    return sum;
+}
+
+/// c_j L^c_(j+1) over j = first, first + 2, ...
+double power_terms(const Coefficients& c, std::size_t first, double um) {
+    return sum_of_terms(c, first, 2, [&](std::size_t j) { return c(j) * std::pow(um, c(j + 1)); });
+}
+
+/// 1 + c1 + c2 L^2 / (L^2 - c3^p) + c4 L^2 / (L^2 - c5^p) + ..., p = 2 or 1.
+double sellmeier(const Coefficients& c, double um, bool squared_poles) {
+    const double l2 = um * um;
+    return 1 + c(1) + sum_of_terms(c, 2, 2, [&](std::size_t j) {
+               const double pole = c(j + 1);
+               return c(j) * l2 / (l2 - (squared_poles ? pole : pole * pole));
+           });
+}
+
+/// c1 + c2 L^c3 / (L^2 - c4^c5) + c6 L^c7 / (L^2 - c8^c9) + c10 L^c11 + c12 L^c13 + ...
+double rational_square(const Coefficients& c, double um) {
+    double sum = c(1) + power_terms(c, 10, um);
+    for (const std::size_t j : {std::size_t{2}, std::size_t{6}})
+        if (c(j) != 0)
+            sum += c(j) * std::pow(um, c(j + 1)) / (um * um - std::pow(c(j + 2), c(j + 3)));
+    return sum;
+}
+
+/// 1 + c1 + c2 / (c3 - L^-2) + c4 / (c5 - L^-2) + ...
+double gas(const Coefficients& c, double um) {
+    return 1 + c(1) +
+           sum_of_terms(c, 2, 2, [&](std::size_t j) { return c(j) / (c(j + 1) - 1 / (um * um)); });
+}
+
+/// c1 + c2 u + c3 u^2 + c4 L^2 + c5 L^4 + c6 L^6 with u = 1 / (L^2 - 0.028)
+double herzberger(const Coefficients& c, double um) {
+    const double l2 = um * um;
+    const double u = 1 / (l2 - 0.028);
+    return c(1) + c(2) * u + c(3) * u * u + ((c(6) * l2 + c(5)) * l2 + c(4)) * l2;
+}
+
+/// (n^2 - 1) / (n^2 + 2) = r = c1 + c2 L^2 / (L^2 - c3) + c4 L^2
+double retro_square(const Coefficients& c, double um) {
+    const double l2 = um * um;
+    const double r = c(1) + (c(2) != 0 ? c(2) * l2 / (l2 - c(3)) : 0.0) + c(4) * l2;
+    return (1 + 2 * r) / (1 - r);
+}
+
+/// c1 + c2 / (L^2 - c3) + c4 (L - c5) / ((L - c5)^2 + c6)
+double exotic_square(const Coefficients& c, double um) {
+    const double shifted = um - c(5);
+    return c(1) + (c(2) != 0 ? c(2) / (um * um - c(3)) : 0.0) +
+           (c(4) != 0 ? c(4) * shifted / (shifted * shifted + c(6)) : 0.0);
+}
+
+double value_at(const Constant& constant, const Query&) {
+    return constant.value;
+}
+
+double value_at(const Formula& formula, const Query& query) {
+    const Coefficients c(formula);
+    const double um = query.wavelength_nm / 1000;
+    switch (formula.number) {
+        case 1:
+            return query.root(sellmeier(c, um, false));
+        case 2:
+            return query.root(sellmeier(c, um, true));
+        case 3:
+            return query.root(c(1) + power_terms(c, 2, um));
+        case 4:
+            return query.root(rational_square(c, um));
+        case 5:
+            return c(1) + power_terms(c, 2, um);
+        case 6:
+            return gas(c, um);
+        case 7:
+            return herzberger(c, um);
+        case 8:
+            return query.root(retro_square(c, um));
+        case 9:
+            return query.root(exotic_square(c, um));
+        default:
+            break;
+    }
+    throw DomainError(name_of(query.material) + ": formula number must be in [1, 9] (got " +
+                      std::to_string(formula.number) + ")");
+}
+
+double value_at(const Table& table, const Query& query) {
+    const auto& x = table.wavelength_nm;
+    const auto& y = table.value;
+    const double at = std::clamp(query.wavelength_nm, x.front(), x.back());
+    const auto above = std::upper_bound(x.begin(), x.end(), at);
+    if (above == x.end()) return y.back();
+    const auto i = static_cast<std::size_t>(above - x.begin());
+    return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
+}
+
+WavelengthRange common(WavelengthRange a, WavelengthRange b) {
+    return {std::max(a.first_nm, b.first_nm), std::min(a.last_nm, b.last_nm)};
+}
+
+WavelengthRange known_range(const Constant&) {
+    return kAllWavelengths;
+}
+
+WavelengthRange known_range(const Formula& formula) {
+    return formula.range;
+}
+
+WavelengthRange known_range(const Table& table) {
+    if (table.wavelength_nm.empty() || table.wavelength_nm.size() != table.value.size())
+        throw DomainError("a table needs at least one row, and as many values as wavelengths");
+    return {table.wavelength_nm.front(), table.wavelength_nm.back()};
+}
+
+WavelengthRange known_range(const Dispersion& dispersion) {
+    return std::visit([](const auto& form) { return known_range(form); }, dispersion);
+}
+
+WavelengthRange known_range(const RefractiveIndex& index) {
+    return known_range(index.n);
+}
+
+bool contains(WavelengthRange range, double wavelength_nm) {
+    return wavelength_nm >= range.first_nm && wavelength_nm <= range.last_nm;
+}
+
+Complex value_at(const RefractiveIndex& index, const Query& query) {
+    const auto evaluate = [&](const auto& dispersion) { return value_at(dispersion, query); };
+    const bool has_k = contains(known_range(index.k), query.wavelength_nm);
+    return {std::visit(evaluate, index.n), has_k ? std::visit(evaluate, index.k) : 0.0};
+}
+
+Complex value_at(const LorentzDrude& model, const Query& query) {
+    const double energy = kPhotonEnergyEvNm / query.wavelength_nm;
+    Complex permittivity = model.eps_infinity;
+    for (const auto& [strength, damping, resonance] : model.oscillators)
+        if (strength != 0)
+            permittivity += strength * model.plasma_ev * model.plasma_ev /
+                            Complex(resonance * resonance - energy * energy, -energy * damping);
+    return std::sqrt(permittivity);
+}
+
+WavelengthRange known_range(const LorentzDrude& model) {
+    return model.range;
+}
+
+std::string in_words(WavelengthRange range) {
+    return to_text(range.first_nm) + " to " + to_text(range.last_nm) + " nm";
+}
+
+/// The wavelength at which the material is evaluated when `wavelength_nm` is asked for.
+double known_wavelength(const Material& material, double wavelength_nm) {
+    require_in_range("wavelength_nm", wavelength_nm, kAllWavelengths.first_nm,
+                     kAllWavelengths.last_nm);
+    const WavelengthRange range = range_of(material);
+    if (contains(range, wavelength_nm)) return wavelength_nm;
+    if (material.outside == Outside::clamp)
+        return std::clamp(wavelength_nm, range.first_nm, range.last_nm);
+    throw DomainError(name_of(material) + " is known from " + in_words(range) + " (asked for " +
+                      to_text(wavelength_nm) + ")");
+}
+
+}  // namespace
+
+WavelengthRange range_of(const Material& material) {
+    return common(kAllWavelengths,
+                  std::visit([](const auto& model) { return known_range(model); }, material.model));
+}
+
+Complex index_at(const Material& material, double wavelength_nm) {
+    const Query query{material, known_wavelength(material, wavelength_nm)};
+    const Complex index =
+        std::visit([&](const auto& model) { return value_at(model, query); }, material.model);
+    query.require("n", index.real(), 0, kLargestIndex);
+    query.require("k", index.imag(), -kLargestIndex, kLargestIndex);
+    query.require("|n + ik|", std::abs(index), kSmallestModulus,
+                  std::numbers::sqrt2 * kLargestIndex);
+    return index;
+}
+
+bool is_constant(const Material& material) {
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    return index != nullptr && std::holds_alternative<Constant>(index->n) &&
+           std::holds_alternative<Constant>(index->k);
+}
+
+std::vector<double> kinks(const Material& material, WavelengthRange between) {
+    const WavelengthRange known = range_of(material);
+    std::vector<double> found;
+    const auto take = [&](double nm) {
+        if (nm > between.first_nm && nm < between.last_nm && nm >= known.first_nm &&
+            nm <= known.last_nm)
+            found.push_back(nm);
+    };
+    if (const auto* index = std::get_if<RefractiveIndex>(&material.model))
+        for (const Dispersion* dispersion : {&index->n, &index->k})
+            if (const auto* table = std::get_if<Table>(dispersion))
+                std::for_each(table->wavelength_nm.begin(), table->wavelength_nm.end(), take);
+    if (material.outside == Outside::clamp) {
+        take(known.first_nm);
+        take(known.last_nm);
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+}
+
+}  // namespace irido

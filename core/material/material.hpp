@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/complex.hpp"
+
+namespace irido {
+
+/// Closed range of vacuum wavelengths, nm.
+struct WavelengthRange {
+    double first_nm = 0;
+    double last_nm = 0;
+    bool operator==(const WavelengthRange&) const = default;
+};
+
+/// What a material does outside the range in which it is known.
+enum class Outside { refuse, clamp };
+
+/// A number that does not depend on the wavelength.
+struct Constant {
+    double value = 0;
+    bool operator==(const Constant&) const = default;
+};
+
+/// One of the nine dispersion formulas of the refractiveindex.info database (n only).
+/// number        1..9;   coefficients  c1, c2, ... for wavelengths in um, missing ones are 0
+/// Source: M. N. Polyanskiy, Sci. Data 11, 94 (2024), and the database's definition sheet.
+/// Formula 2 is Sellmeier with squared poles, formula 5 is Cauchy's series.
+struct Formula {
+    int number = 5;
+    std::vector<double> coefficients;
+    WavelengthRange range;
+    bool operator==(const Formula&) const = default;
+};
+
+/// Piecewise linear in the vacuum wavelength. `wavelength_nm` strictly increasing, at least one
+/// row; a single row is known at that wavelength only.
+struct Table {
+    std::vector<double> wavelength_nm;
+    std::vector<double> value;
+    bool operator==(const Table&) const = default;
+};
+
+/// n or k as a function of the wavelength.
+using Dispersion = std::variant<Constant, Formula, Table>;
+
+/// n + i k given as two real functions; k is 0 where it is not given.
+struct RefractiveIndex {
+    Dispersion n = Constant{1};
+    Dispersion k = Constant{0};
+    bool operator==(const RefractiveIndex&) const = default;
+};
+
+/// eps(E) = eps_infinity + sum_j f_j wp^2 / (w_j^2 - E^2 - i E G_j), E = h c / lambda; the first
+/// Drude term has w_j = 0. Source: A. D. Rakic et al., Appl. Opt. 37, 5271 (1998), eqs. 1-3.
+struct LorentzDrude {
+    struct Oscillator {
+        double strength = 0;      ///< f_j
+        double damping_ev = 0;    ///< G_j
+        double resonance_ev = 0;  ///< w_j
+        bool operator==(const Oscillator&) const = default;
+    };
+    double eps_infinity = 1;
+    double plasma_ev = 0;  ///< wp
+    std::vector<Oscillator> oscillators;
+    WavelengthRange range;
+    bool operator==(const LorentzDrude&) const = default;
+};
+
+/// Complex index of a medium, n + i k with k > 0 absorbing (fields go as exp(-i w t)).
+struct Material {
+    std::string name;
+    std::variant<RefractiveIndex, LorentzDrude> model;
+    Outside outside = Outside::refuse;
+    bool operator==(const Material&) const = default;
+};
+
+/// All vacuum wavelengths that irido accepts, nm.
+inline constexpr WavelengthRange kAllWavelengths{1, 1e7};
+
+/// Where n is known; kAllWavelengths for constants.
+WavelengthRange range_of(const Material& material);
+
+/// n + i k at one vacuum wavelength in kAllWavelengths. Outside range_of(material) the end value
+/// holds if the material says clamp. Throws DomainError that names the material, its range and the
+/// wavelength, or the value if the result is no index that irido computes with:
+/// n in [0, 1e4], k in [-1e4, 1e4], |n + ik| >= 1e-6.
+Complex index_at(const Material& material, double wavelength_nm);
+
+/// True if the index is the same at every wavelength.
+bool is_constant(const Material& material);
+
+/// Wavelengths strictly inside (first_nm, last_nm) where n or k has a kink, sorted, unique.
+std::vector<double> kinks(const Material& material, WavelengthRange between);
+
+}  // namespace irido

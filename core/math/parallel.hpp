@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace irido {
+
+/// Calls work(i) once for every i in [0, count) on up to `threads` threads (0: one per core) and
+/// returns when all are done. Which thread runs which i is open, so work(i) must write to places of
+/// its own only; the first exception thrown is rethrown here.
+void parallel_for(std::size_t count, unsigned threads,
+                  const std::function<void(std::size_t)>& work);
+
+}  // namespace irido

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace irido {
+
+/// Chebyshev coefficients of the polynomial through values on the Chebyshev points of the second
+/// kind, x_j = cos(pi j / degree), j = 0 .. degree: f(x) = sum_k c_k T_k(x). The matrix is
+/// symmetric, so the same transform turns the moments of a weight against T_k into the weights of
+/// the interpolatory rule on these points. One type-I discrete cosine transform. Source: J. P.
+/// Boyd, Chebyshev and Fourier Spectral Methods (2001), section 5.5.
+class ChebyshevTransform {
+public:
+    explicit ChebyshevTransform(std::size_t degree);  ///< degree >= 1
+    ~ChebyshevTransform();
+    ChebyshevTransform(const ChebyshevTransform&) = delete;
+    ChebyshevTransform& operator=(const ChebyshevTransform&) = delete;
+
+    /// `in` and `out` have degree + 1 entries and are not the same memory. Safe from many threads.
+    void operator()(std::span<const double> in, std::span<double> out) const;
+
+private:
+    struct Plan;
+    std::size_t degree_;
+    std::unique_ptr<Plan> plan_;
+};
+
+/// The transform of one degree, made once. Safe from many threads.
+const ChebyshevTransform& chebyshev_transform(std::size_t degree);
+
+}  // namespace irido

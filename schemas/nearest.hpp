@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace irido {
+
+/// The candidate that `word` is most likely a misspelling of, or "" if none is near: one edit, or
+/// at most one in three letters, upper and lower case being the same letter.
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// ` (did you mean "X"?)` with the nearest candidate, or "".
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace irido

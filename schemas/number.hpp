@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace irido {
+
+/// `text` without spaces, tabs and carriage returns at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// The finite number that the whole of `text` spells, whatever the locale: "1.5", ".5", "+2",
+/// "1E-03". Nothing for an empty text, for a rest ("1.80-17"), for inf and nan, and beyond a
+/// double's range.
+std::optional<double> parse_number(std::string_view text);
+
+/// `text` in single quotes for a message: at most 40 bytes of it, without control characters.
+std::string quoted(std::string_view text);
+
+}  // namespace irido

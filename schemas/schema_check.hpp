@@ -1,0 +1,26 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace irido {
+
+/// One broken rule of a document.
+struct Problem {
+    std::string pointer;  ///< JSON pointer of the value, "" for the document itself
+    std::string message;  ///< the rule in words, with the value: "must be in [0, 1e9] (got -5)"
+    bool operator==(const Problem&) const = default;
+};
+
+/// All broken rules, each once, at the deepest place; arrays in their order, keys by the alphabet.
+/// The words are those of the keyword `errorMessage` beside the rule in the schema (draft-07).
+std::vector<Problem> check(const nlohmann::json& schema, const nlohmann::json& document);
+
+/// A value for use in a message: JSON in at most about 40 characters, on one line.
+std::string short_text(const nlohmann::json& value);
+
+/// `key` as a step of a JSON pointer, with its slash in front.
+std::string pointer_step(const std::string& key);
+
+}  // namespace irido

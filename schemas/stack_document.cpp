@@ -1,0 +1,396 @@
+#include "schemas/stack_document.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/material/library.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/json_document.hpp"
+#include "schemas/material_csv.hpp"
+#include "schemas/nearest.hpp"
+#include "schemas/refractiveindex_info.hpp"
+#include "schemas/schema_check.hpp"
+#include "schemas/stack_expression.hpp"
+#include "schemas/text_file.hpp"
+
+namespace irido {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostLayers = 1'000'000;
+constexpr double kSmallestIndex = 1e-6;
+
+// --- materials as numbers -------------------------------------------------------------------
+
+double number_or(const json& object, const char* key, double otherwise) {
+    const auto found = object.find(key);
+    return found == object.end() ? otherwise : found->get<double>();
+}
+
+/// n = A + B/L^2 + C/L^4 + ... is formula 5, whose coefficients are A and (B, -2), (C, -4), ...
+Formula read_cauchy(const json& series) {
+    Formula formula{5, {series[0].get<double>()}, kAllWavelengths};
+    for (std::size_t i = 1; i < series.size(); ++i) {
+        formula.coefficients.push_back(series[i].get<double>());
+        formula.coefficients.push_back(-2 * static_cast<double>(i));
+    }
+    return formula;
+}
+
+/// n^2 = 1 + sum B L^2/(L^2 - C) is formula 2 with a first coefficient of 0.
+Formula read_sellmeier(const json& terms) {
+    Formula formula{2, {0}, kAllWavelengths};
+    for (const json& term : terms) {
+        formula.coefficients.push_back(term[0].get<double>());
+        formula.coefficients.push_back(term[1].get<double>());
+    }
+    return formula;
+}
+
+LorentzDrude read_lorentz_drude(const json& object) {
+    LorentzDrude model;
+    model.eps_infinity = number_or(object, "eps_infinity", 1);
+    model.plasma_ev = object["plasma_ev"].get<double>();
+    model.range = kAllWavelengths;
+    for (const json& term : object["oscillators"]) {
+        model.oscillators.push_back(
+            {term[0].get<double>(), term[1].get<double>(), term[2].get<double>()});
+    }
+    return model;
+}
+
+/// Rows [nm, n] or [nm, n, k]; k is 0 where it is left out.
+RefractiveIndex read_table(const json& rows) {
+    Table n;
+    Table k;
+    for (const json& row : rows) {
+        n.wavelength_nm.push_back(row[0].get<double>());
+        n.value.push_back(row[1].get<double>());
+        k.value.push_back(row.size() > 2 ? row[2].get<double>() : 0);
+    }
+    const bool is_real =
+        std::all_of(k.value.begin(), k.value.end(), [](double v) { return v == 0; });
+    if (is_real) return {std::move(n), Constant{0}};
+    k.wavelength_nm = n.wavelength_nm;
+    return {std::move(n), std::move(k)};
+}
+
+std::string index_text(double n, double k) {
+    if (k == 0) return to_text(n);
+    return to_text(n) + (k > 0 ? "+" : "") + to_text(k) + "i";
+}
+
+/// Names and aliases of the built-in materials.
+std::vector<std::string> built_in_names() {
+    std::vector<std::string> names;
+    for (const std::string_view name : library_names()) {
+        names.emplace_back(name);
+        const auto aliases = find_material(name)->aliases;
+        names.insert(names.end(), aliases.begin(), aliases.end());
+    }
+    return names;
+}
+
+// --- equal materials ------------------------------------------------------------------------
+
+void mix(std::size_t& hash, double value) {
+    hash ^= std::hash<double>{}(value) + 0x9e3779b97f4a7c15U + (hash << 6U) + (hash >> 2U);
+}
+
+struct HashOf {
+    std::size_t hash = 0;
+
+    void operator()(const Constant& constant) { mix(hash, constant.value); }
+    void operator()(const Formula& formula) {
+        for (const double c : formula.coefficients) mix(hash, c);
+    }
+    void operator()(const Table& table) {
+        for (const double v : table.value) mix(hash, v);
+    }
+    void operator()(const RefractiveIndex& index) {
+        std::visit(*this, index.n);
+        std::visit(*this, index.k);
+    }
+    void operator()(const LorentzDrude& model) {
+        mix(hash, model.plasma_ev);
+        for (const auto& oscillator : model.oscillators) mix(hash, oscillator.strength);
+    }
+};
+
+std::size_t hash_of(const Material& material) {
+    HashOf hash;
+    std::visit(std::ref(hash), material.model);
+    return hash.hash;
+}
+
+bool same_physics(const Material& a, const Material& b) {
+    return a.model == b.model && a.outside == b.outside;
+}
+
+// --- the reader -----------------------------------------------------------------------------
+
+/// Builds a stack from a document. Reports everything that is wrong instead of stopping there, and
+/// steps over the parts that break the schema.
+class Reader {
+public:
+    Reader(const json& document, std::string file, std::string folder)
+        : document_(document), file_(std::move(file)), folder_(std::move(folder)) {
+        static const json schema = json::parse(stack_schema_text());
+        for (const Problem& problem : check(schema, document)) {
+            broken_.insert(problem.pointer);
+            problems.emplace_back(file_, problem.pointer, problem.message);
+        }
+    }
+
+    std::vector<InputError> problems;
+
+    StackDocument read() {
+        if (!document_.is_object()) return {};
+        Stack& stack = result_.stack;
+        if (document_.contains("incident")) {
+            stack.incident = material(document_["incident"], "/incident");
+            require_real(stack.incident);
+        }
+        if (document_.contains("layers")) stack.elements = elements(document_["layers"], "/layers");
+        if (document_.contains("substrate")) {
+            stack.substrate = material(document_["substrate"], "/substrate");
+        }
+        if (layers_ > kMostLayers) {
+            report("/layers", "must hold at most 1e6 layers (got " + std::to_string(layers_) + ")");
+        }
+        if (!is_broken("/name")) result_.name = document_.value("name", "");
+        return std::move(result_);
+    }
+
+private:
+    void report(const std::string& pointer, const std::string& message) {
+        problems.emplace_back(file_, pointer, message);
+    }
+
+    /// True if the value at the pointer, or anything inside it, breaks the schema.
+    bool is_broken(const std::string& pointer) const {
+        if (broken_.empty()) return false;
+        if (broken_.contains(pointer)) return true;
+        const auto inside = broken_.lower_bound(pointer + "/");
+        return inside != broken_.end() && inside->starts_with(pointer + "/");
+    }
+
+    std::vector<Element> elements(const json& array, const std::string& pointer) {
+        std::vector<Element> result;
+        if (!array.is_array()) return result;
+        result.reserve(array.size());
+        for (std::size_t i = 0; i < array.size(); ++i) {
+            const std::string place = pointer + "/" + std::to_string(i);
+            if (!array[i].is_object()) continue;
+            if (array[i].contains("layers")) {
+                result.push_back({group(array[i], place)});
+            } else {
+                result.push_back({layer(array[i], place)});
+            }
+        }
+        return result;
+    }
+
+    Group group(const json& object, const std::string& pointer) {
+        Group result;
+        if (!is_broken(pointer)) {
+            result.repeat = static_cast<std::uint64_t>(object["repeat"].get<double>());
+        }
+        result.elements = elements(object["layers"], pointer + "/layers");
+        return result;
+    }
+
+    Layer layer(const json& object, const std::string& pointer) {
+        ++layers_;
+        Layer result;
+        if (object.contains("material")) {
+            result.material = material(object["material"], pointer + "/material");
+        }
+        if (is_broken(pointer)) return result;
+        result.thickness_nm = object["thickness_nm"].get<double>();
+        result.thickness_sigma_nm = number_or(object, "thickness_sigma_nm", 0);
+        result.coherent = object.value("coherent", true);
+        return result;
+    }
+
+    /// The place of a material in the stack's list, where it is put if it is new.
+    std::size_t material(const json& value, const std::string& pointer) {
+        if (is_broken(pointer)) return 0;
+        const auto [known, is_new] = by_text_.try_emplace(value, 0);
+        if (is_new) known->second = add(build(value, pointer), pointer);
+        return known->second;
+    }
+
+    std::size_t add(Material built, const std::string& pointer) {
+        std::vector<Material>& all = result_.stack.materials;
+        const std::size_t hash = hash_of(built);
+        const auto [first, last] = by_hash_.equal_range(hash);
+        const auto same = std::find_if(
+            first, last, [&](const auto& entry) { return same_physics(all[entry.second], built); });
+        if (same != last) return same->second;
+        by_hash_.emplace(hash, all.size());
+        all.push_back(std::move(built));
+        result_.material_pointers.push_back(pointer);
+        return all.size() - 1;
+    }
+
+    Material build(const json& value, const std::string& pointer) {
+        if (value.is_number()) return constant(value.get<double>(), 0, pointer);
+        if (value.is_string()) return built_in(value.get<std::string>(), pointer);
+        Material result = from_object(value, pointer);
+        if (value.contains("name")) result.name = value["name"].get<std::string>();
+        if (value.contains("extrapolate")) result.outside = Outside::clamp;
+        return result;
+    }
+
+    Material from_object(const json& object, const std::string& pointer) {
+        if (object.contains("n")) {
+            return constant(object["n"].get<double>(), number_or(object, "k", 0), pointer);
+        }
+        if (object.contains("file")) {
+            return from_file(object["file"].get<std::string>(), pointer + "/file");
+        }
+        if (object.contains("table")) {
+            require_increasing(object["table"], pointer + "/table");
+            return {pointer, read_table(object["table"])};
+        }
+        if (object.contains("cauchy")) {
+            return {pointer, RefractiveIndex{read_cauchy(object["cauchy"])}};
+        }
+        if (object.contains("sellmeier")) {
+            return {pointer, RefractiveIndex{read_sellmeier(object["sellmeier"])}};
+        }
+        return {pointer, read_lorentz_drude(object["lorentz_drude"])};
+    }
+
+    Material constant(double n, double k, const std::string& pointer) {
+        if (std::hypot(n, k) < kSmallestIndex) {
+            report(pointer, "must be at least 1e-6 in size (got " + index_text(n, k) + ")");
+        }
+        Material result{index_text(n, k), {}};
+        auto& index = std::get<RefractiveIndex>(result.model);
+        index.n = Constant{n};
+        index.k = Constant{k};
+        return result;
+    }
+
+    Material built_in(const std::string& name, const std::string& pointer) {
+        if (const auto found = find_material(name)) return found->material;
+        report(pointer,
+               "there is no material \"" + name + "\"" + did_you_mean(name, built_in_names()));
+        return {name, RefractiveIndex{}};
+    }
+
+    Material from_file(const std::string& path, const std::string& pointer) {
+        const std::filesystem::path place = std::filesystem::path(folder_) / path;
+        const std::string kind = place.extension().string();
+        const bool is_csv = kind == ".csv";
+        if (!is_csv && kind != ".yml" && kind != ".yaml") {
+            report(pointer, "must end in .csv, .yml or .yaml (got \"" + path + "\")");
+            return {path, RefractiveIndex{}};
+        }
+        try {
+            const std::string text = read_text(place.string());
+            MaterialFile read = is_csv ? read_material_csv(text, place.string())
+                                       : read_refractiveindex_info(text, place.string());
+            for (const std::string& note : read.notes) {
+                result_.notes.push_back(place.string() + ": " + note);
+            }
+            return std::move(read.material);
+        } catch (const InputError& error) {
+            problems.push_back(error);
+            return {path, RefractiveIndex{}};
+        }
+    }
+
+    void require_increasing(const json& rows, const std::string& pointer) {
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            const double before = rows[i - 1][0].get<double>();
+            const double here = rows[i][0].get<double>();
+            if (here > before) continue;
+            report(pointer + "/" + std::to_string(i) + "/0", "must be above the row before it, " +
+                                                                 to_text(before) + " (got " +
+                                                                 to_text(here) + ")");
+        }
+    }
+
+    /// The incident medium has k = 0, as far as that is one number; n > 0 follows from its size.
+    void require_real(std::size_t incident) {
+        if (is_broken("/incident")) return;
+        const auto* index = std::get_if<RefractiveIndex>(&result_.stack.materials[incident].model);
+        if (index == nullptr) return;
+        const auto* k = std::get_if<Constant>(&index->k);
+        if (k == nullptr || k->value == 0) return;
+        report("/incident",
+               "must neither absorb nor amplify: its k must be 0 (got " + to_text(k->value) + ")");
+    }
+
+    const json& document_;
+    std::string file_;
+    std::string folder_;
+    std::set<std::string> broken_;
+    StackDocument result_;
+    std::size_t layers_ = 0;
+    std::unordered_map<json, std::size_t> by_text_;
+    std::unordered_multimap<std::size_t, std::size_t> by_hash_;
+};
+
+}  // namespace
+
+const char* stack_schema_text() {
+    return
+#include "stack_schema.inc"
+        ;
+}
+
+StackSource load_stack(const StackRequest& request) {
+    StackSource source;
+    if (request.stack.find('|') != std::string::npos) {
+        source.file = "\"" + request.stack + "\"";
+        source.document = parse_stack_expression(request.stack);
+    } else {
+        source.file = shown_path(request.stack);
+        source.folder = std::filesystem::path(request.stack).parent_path().string();
+        source.document = parse_json(read_text(request.stack), source.file);
+    }
+    for (const std::string& assignment : request.set) set_value(source.document, assignment);
+    return source;
+}
+
+StackDocument read_stack(const json& document, const std::string& file, const std::string& folder) {
+    Reader reader(document, file, folder);
+    if (!reader.problems.empty()) throw reader.problems.front();
+    StackDocument result = reader.read();
+    if (!reader.problems.empty()) throw reader.problems.front();
+    return result;
+}
+
+StackDocument read_stack(const StackRequest& request) {
+    const StackSource source = load_stack(request);
+    return read_stack(source.document, source.file, source.folder);
+}
+
+std::vector<std::string> validate_stack_file(const std::string& path) {
+    std::vector<std::string> lines;
+    try {
+        const StackSource source = load_stack({path, {}});
+        Reader reader(source.document, source.file, source.folder);
+        reader.read();
+        for (const InputError& problem : reader.problems) lines.emplace_back(problem.what());
+    } catch (const InputError& error) {
+        lines.emplace_back(error.what());
+    }
+    return lines;
+}
+
+}  // namespace irido

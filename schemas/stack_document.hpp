@@ -1,0 +1,50 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/stack/stack.hpp"
+
+namespace irido {
+
+/// What the user typed to name a stack.
+struct StackRequest {
+    std::string stack;             ///< a file, "-" for standard input, or an expression (has a '|')
+    std::vector<std::string> set;  ///< PATH=VALUE, applied in this order
+};
+
+/// A stack document as it was read, not yet checked.
+struct StackSource {
+    nlohmann::json document;
+    std::string file;    ///< its name in messages
+    std::string folder;  ///< paths of material files start here
+};
+
+/// A stack document as plain values. Equal materials are one, whatever they are called.
+struct StackDocument {
+    Stack stack;
+    std::string name;                            ///< "" if the document has none
+    std::vector<std::string> notes;              ///< what the readers of material files say
+    std::vector<std::string> material_pointers;  ///< of the first use of stack.materials[i]
+};
+
+/// Reads the text that a request names and sets its values. Throws InputError.
+StackSource load_stack(const StackRequest& request);
+
+/// Checks a document against stack.schema.json and what a schema cannot say, and builds its stack.
+/// Throws InputError for the first thing that is wrong.
+StackDocument read_stack(const nlohmann::json& document, const std::string& file,
+                         const std::string& folder);
+
+/// Both of the above.
+StackDocument read_stack(const StackRequest& request);
+
+/// Everything that is wrong with a stack file ("-" for standard input), one line each,
+/// "FILE: POINTER: message"; nothing if it can be used.
+std::vector<std::string> validate_stack_file(const std::string& path);
+
+/// The text of stack.schema.json.
+const char* stack_schema_text();
+
+}  // namespace irido

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "tables/records.hpp"
+
+namespace irido {
+
+/// Comma-separated values after RFC 4180, but with LF line ends: a header line, then one line a
+/// record; texts with commas, quotes or line ends are quoted; numbers in their shortest form.
+std::string write_csv(const Records& records);
+
+}  // namespace irido

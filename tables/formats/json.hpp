@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "tables/records.hpp"
+
+namespace irido {
+
+/// A JSON array with one object a record, one record a line; numbers in their shortest form.
+std::string write_json(const Records& records);
+
+}  // namespace irido

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "tables/records.hpp"
+
+namespace irido {
+
+/// NumPy's array format 1.0: a one-dimensional structured array, one field a column, little-endian;
+/// numbers are <f8, texts <U of the longest one, flags |b1.
+/// Source: NumPy documentation, numpy.lib.format.
+std::string write_npy(const Records& records);
+
+}  // namespace irido

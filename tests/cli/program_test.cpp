@@ -1,0 +1,76 @@
+#include <catch2/catch.hpp>
+
+#include "tests/program.hpp"
+
+using namespace irido::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+TEST_CASE("the program says what it is", "[cli]") {
+    const Outcome version = run_irido({"--version"});
+    CHECK(version.status == 0);
+    CHECK_THAT(version.out, StartsWith("irido ") && Contains("SIMD"));
+    CHECK(run_irido({"--help"}).status == 0);
+    CHECK(run_irido({}).status == 2);
+}
+
+TEST_CASE("every help page has a purpose and two examples", "[cli]") {
+    const std::vector<std::vector<std::string>> commands{
+        {"spectrum"},         {"color"}, {"validate"}, {"materials"}, {"materials", "list"},
+        {"materials", "show"}};
+    for (auto command : commands) {
+        command.emplace_back("--help");
+        const Outcome help = run_irido(command);
+        INFO(help.out);
+        CHECK(help.status == 0);
+        const std::size_t examples = help.out.find("Examples:");
+        REQUIRE(examples != std::string::npos);
+        const std::string rest = help.out.substr(examples);
+        CHECK(std::count(rest.begin(), rest.end(), '\n') >= 3);
+        CHECK_THAT(rest, Contains("  irido " + command[0]));
+    }
+}
+
+TEST_CASE("materials are listed and shown", "[cli][materials]") {
+    const Outcome list = run_irido({"materials", "list"});
+    CHECK_THAT(list.out, StartsWith("name,aliases,first_nm,last_nm,covers_380_780,source\n"));
+    CHECK(parse_csv(list.out).size() > 40);
+    const Outcome gold = run_irido({"materials", "show", "Au", "-w", "400:800:100"});
+    CHECK_THAT(gold.out, StartsWith("wavelength_nm,n,k\n400,1.46"));
+    CHECK_THAT(gold.err, Contains("Johnson") && Contains("187.9 to 1937 nm"));
+    const Outcome unknown = run_irido({"materials", "show", "au"});
+    CHECK(unknown.status == 2);
+    CHECK_THAT(unknown.err, Contains("did you mean"));
+    CHECK(run_irido({"materials", "show", "TiO2-rutile", "-w", "400"}).status == 2);
+    const auto rutile = parse_csv(run_irido({"materials", "show", "TiO2-rutile"}).out);
+    CHECK(rutile[1][0] == "430");
+    CHECK(rutile.back()[0] == "780");
+}
+
+TEST_CASE("validate says ok, or everything that is wrong", "[cli][validate]") {
+    const TemporaryFolder folder;
+    write_text(folder / "good.json", R"({"incident": 1, "layers": [], "substrate": 1.5})");
+    write_text(
+        folder / "bad.json",
+        R"({"incident": 1, "layers": [{"material": "Xx", "thickness_nm": -5}], "substrat": 2})");
+    const Outcome outcome = run_irido({"validate", "good.json", "bad.json"}, "", folder.path());
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Contains("good.json: ok\n"));
+    CHECK_THAT(outcome.out,
+               Contains("bad.json: /layers/0/thickness_nm: must be in [0, 1e9] (got -5)"));
+    CHECK_THAT(outcome.out, Contains("substrat"));
+    CHECK(run_irido({"validate", "good.json"}, "", folder.path()).status == 0);
+    const Outcome missing = run_irido({"validate", "none.json"}, "", folder.path());
+    CHECK(missing.status == 2);
+}
+
+TEST_CASE("all examples are valid and have a colour", "[cli][examples]") {
+    const Outcome all = run_shell("\"$IRIDO\" validate schemas/examples/*.json", IRIDO_SOURCE_DIR);
+    INFO(all.out);
+    CHECK(all.status == 0);
+    const Outcome colors = run_shell(
+        "for f in schemas/examples/*.json; do \"$IRIDO\" color \"$f\" -a 0,60 > /dev/null || "
+        "echo \"$f\"; done",
+        IRIDO_SOURCE_DIR);
+    CHECK(colors.out.empty());
+}

@@ -1,0 +1,255 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/program.hpp"
+
+using namespace irido::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+/// Rows must be equal in their text columns; numbers within 1e-14 of the larger of 1 and
+/// themselves, and within 1e-12 of themselves, which is rounding and its growth over the stacks
+/// below.
+void check_same_table(const std::string& actual, const std::string& expected) {
+    const auto got = parse_csv(actual), want = parse_csv(expected);
+    REQUIRE(got.size() == want.size());
+    CHECK(got[0] == want[0]);
+    for (std::size_t row = 1; row < want.size(); ++row) {
+        REQUIRE(got[row].size() == want[row].size());
+        for (std::size_t c = 0; c < want[row].size(); ++c) {
+            INFO("row " << row << ", column " << want[0][c] << ": " << got[row][c]);
+            if (want[row][c].find_first_not_of("spu") == std::string::npos) {
+                CHECK(got[row][c] == want[row][c]);
+                continue;
+            }
+            const double a = std::stod(got[row][c]), b = std::stod(want[row][c]);
+            CHECK(std::abs(a - b) <= 1e-14);
+            CHECK(std::abs(a - b) <= 1e-12 * std::abs(b));
+        }
+    }
+}
+
+}  // namespace
+
+// Reference rows: 60-digit evaluation of the characteristic matrices in multiprecision arithmetic,
+// rounded to double.
+TEST_CASE("spectra agree with a 60-digit evaluation", "[cli][spectrum]") {
+    check_same_table(
+        run_irido({"spectrum", "1 | 1.38@99.6 | 1.52", "-w", "450,550", "-a", "0,45", "-p", "s,p"})
+            .out,
+        "wavelength_nm,angle_deg,polarization,R,T,A\n"
+        "450,0,s,0.016189989513440375,0.9838100104865596,0\n"
+        "550,0,s,0.012600801125299144,0.9873991988747008,0\n"
+        "450,0,p,0.016189989513440375,0.9838100104865596,0\n"
+        "550,0,p,0.012600801125299144,0.9873991988747008,0\n"
+        "450,45,s,0.03735149603888593,0.9626485039611141,0\n"
+        "550,45,s,0.0400615988418047,0.9599384011581953,0\n"
+        "450,45,p,0.000995610542102046,0.9990043894578979,0\n"
+        "550,45,p,0.001357597829761058,0.9986424021702389,0\n");
+    check_same_table(
+        run_irido({"spectrum", "1 | 1.46@120 | 4.08+0.04i", "-w", "550", "-a", "0,60", "-p", "u"})
+            .out,
+        "wavelength_nm,angle_deg,polarization,R,T,A\n"
+        "550,0,u,0.16171958237393327,0.8382804176260668,0\n"
+        "550,60,u,0.11229789059384718,0.8877021094061528,0\n");
+    check_same_table(run_irido({"spectrum", "1 | (2.3@60 | 1.46@94)^12 | 1.52", "-w", "480,550",
+                                "-a", "0,30", "-p", "s,p"})
+                         .out,
+                     "wavelength_nm,angle_deg,polarization,R,T,A\n"
+                     "480,0,s,0.9560945862590081,0.04390541374099184,0\n"
+                     "550,0,s,0.9999517685595919,4.823144040809519e-05,0\n"
+                     "480,0,p,0.9560945862590081,0.04390541374099184,0\n"
+                     "550,0,p,0.9999517685595919,4.823144040809519e-05,0\n"
+                     "480,30,s,0.9998330396859327,0.00016696031406729814,0\n"
+                     "550,30,s,0.9999746057203627,2.5394279637303244e-05,0\n"
+                     "480,30,p,0.9981737041712482,0.0018262958287518028,0\n"
+                     "550,30,p,0.9998019662031752,0.00019803379682482758,0\n");
+    check_same_table(run_irido({"spectrum", "1 | 2+2i@10000 | 1.5", "-w", "550"}).out,
+                     "wavelength_nm,angle_deg,polarization,R,T,A\n"
+                     "550,0,u,0.38461538461538464,3.1897903076684135e-199,0.6153846153846154\n");
+}
+
+TEST_CASE("a spectrum's rows run by angle, polarization, wavelength", "[cli][spectrum]") {
+    const auto rows = parse_csv(
+        run_irido({"spectrum", "1 | 1.5@100 | 2", "-w", "500,400", "-a", "30,0", "-p", "p,s"}).out);
+    REQUIRE(rows.size() == 9);
+    CHECK(rows[1][0] + rows[1][1] + rows[1][2] == "50030p");
+    CHECK(rows[2][0] + rows[2][1] + rows[2][2] == "40030p");
+    CHECK(rows[3][0] + rows[3][1] + rows[3][2] == "50030s");
+    CHECK(rows[5][0] + rows[5][1] + rows[5][2] == "5000p");
+}
+
+TEST_CASE("the default is 380 to 780 nm at 1 nm, normal incidence, unpolarized",
+          "[cli][spectrum]") {
+    const auto rows = parse_csv(run_irido({"spectrum", "air | SiO2@100 | Si"}).out);
+    REQUIRE(rows.size() == 402);
+    CHECK(rows[1][0] == "380");
+    CHECK(rows[401][0] == "780");
+    CHECK(rows[1][1] == "0");
+    CHECK(rows[1][2] == "u");
+}
+
+TEST_CASE("a stack comes from a file, an expression or standard input alike", "[cli][spectrum]") {
+    const TemporaryFolder folder;
+    const std::string text =
+        R"({"incident": 1, "layers": [{"material": 1.38, "thickness_nm": 99.6}], "substrate": 1.52})";
+    write_text(folder / "stack.json", text);
+    const std::string expected = run_irido({"spectrum", "1 | 1.38@99.6 | 1.52"}).out;
+    CHECK(expected.size() > 1000);
+    CHECK(run_irido({"spectrum", folder / "stack.json"}).out == expected);
+    CHECK(run_irido({"spectrum", "-"}, text).out == expected);
+    CHECK(run_irido(
+              {"spectrum", "-", "--set", "layers.0.thickness_nm=99.6", "--set", "substrate=1.52"},
+              R"({"incident": 1, "layers": [{"material": 1.38, "thickness_nm": 5}],
+                        "substrate": 2})")
+              .out == expected);
+}
+
+TEST_CASE("the same bytes for every number of threads", "[cli][spectrum]") {
+    const std::vector<std::string> request{
+        "spectrum", "air | TiO2@50 | Ag@20 | BK7", "-a", "0:89:1", "-p", "s,p,u"};
+    const std::string one = [&] {
+        auto arguments = request;
+        arguments.insert(arguments.end(), {"-j", "1"});
+        return run_irido(arguments).out;
+    }();
+    auto arguments = request;
+    arguments.insert(arguments.end(), {"-j", "7"});
+    CHECK(run_irido(arguments).out == one);
+    CHECK(one.size() > 1000000);
+}
+
+TEST_CASE("JSON has the CSV's names", "[cli][spectrum]") {
+    CHECK(run_irido({"spectrum", "1 | 1 | 1", "-f", "json"}).status == 2);
+    CHECK(run_irido({"spectrum", "1 | 1", "-w", "500", "-f", "json"}).out ==
+          "[\n{\"wavelength_nm\":500,\"angle_deg\":0,\"polarization\":\"u\",\"R\":0,\"T\":1,"
+          "\"A\":0}\n]\n");
+}
+
+TEST_CASE("numpy reads the array", "[cli][spectrum]") {
+    const TemporaryFolder folder;
+    const std::string request = "\"$IRIDO\" spectrum 'air | Au@20 | BK7' -a 0,60 -p s,u ";
+    const Outcome done = run_shell(
+        request + "-o s.npy && " + request +
+            "-o s.csv && /usr/bin/python3 -c '\n"
+            "import numpy, csv\n"
+            "a = numpy.load(\"s.npy\")\n"
+            "rows = list(csv.DictReader(open(\"s.csv\")))\n"
+            "assert a.shape == (len(rows),) == (1604,), a.shape\n"
+            "assert list(a.dtype.names) == list(rows[0]), a.dtype\n"
+            "for name in a.dtype.names:\n"
+            "    column = [row[name] for row in rows]\n"
+            "    text = a[name].dtype.kind == \"U\"\n"
+            "    assert all(a[name] == (column if text else numpy.array(column, float))), name\n"
+            "'",
+        folder.path());
+    INFO(done.err);
+    CHECK(done.status == 0);
+}
+
+TEST_CASE("lists: values, steps that end on the grid or before it, counts", "[cli][list]") {
+    const auto wavelengths = [](const std::string& list) {
+        std::string text;
+        const auto rows = parse_csv(run_irido({"spectrum", "1 | 2", "-w", list}).out);
+        for (std::size_t i = 1; i < rows.size(); ++i) text += rows[i][0] + " ";
+        return text;
+    };
+    CHECK(wavelengths("500") == "500 ");
+    CHECK(wavelengths("500,400.5") == "500 400.5 ");
+    CHECK(wavelengths("400:410:5") == "400 405 410 ");
+    CHECK(wavelengths("400:409:5") == "400 405 ");
+    CHECK(wavelengths("400:400.5:0.1") == "400 400.1 400.2 400.3 400.4 400.5 ");
+    CHECK(wavelengths("410:400:-5") == "410 405 400 ");
+    CHECK(wavelengths("400:500/3") == "400 450 500 ");
+    CHECK(wavelengths("1e3:2e3:5e2,7") == "1000 1500 2000 7 ");
+    CHECK(wavelengths("500:500:1") == "500 ");
+}
+
+TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]") {
+    struct Case {
+        std::vector<std::string> arguments;
+        std::string error;
+    };
+    const std::string stack = "1 | 1.5@100 | 1";
+    const std::vector<Case> cases{
+        {{"spectrum", stack, "-w", "0"}, "--wavelengths: must be in [1, 1e+07] (got 0)"},
+        {{"spectrum", stack, "-w", "nan"}, "--wavelengths: must be a number (got 'nan')"},
+        {{"spectrum", stack, "-w", ""}, "--wavelengths: must be a number (got '')"},
+        {{"spectrum", stack, "-w", "400:500"}, "--wavelengths: must be start:stop:step or"},
+        {{"spectrum", stack, "-w", "400:500:0"}, "--wavelengths: must have a step that leads"},
+        {{"spectrum", stack, "-w", "400:500:-1"}, "--wavelengths: must have a step that leads"},
+        {{"spectrum", stack, "-w", "400:500/0"}, "--wavelengths: must have a whole number"},
+        {{"spectrum", stack, "-w", "1:1e7:1e-3"}, "--wavelengths: must have at most 10000000"},
+        {{"spectrum", stack, "-a", "90.0001"}, "--angles: must be in [0, 90] (got 90.0001)"},
+        {{"spectrum", stack, "-a", "-1"}, "--angles: must be in [0, 90] (got -1)"},
+        {{"spectrum", stack, "-p", "x"}, "--polarization: must be s, p, u"},
+        {{"spectrum", stack, "-p", "s,"}, "--polarization: must be s, p, u"},
+        {{"spectrum", stack, "-f", "xml"}, "--format: must be one of csv, json, npy (got 'xml')"},
+        {{"spectrum", stack, "-o", "x.xml"}, "--format: must be one of csv, json, npy (got 'xml')"},
+        {{"spectrum", stack, "-o", "x"}, "--output: must have an extension"},
+        {{"spectrum", stack, "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
+        {{"spectrum", stack, "-j", "1.5"}, "--threads: must be one whole number"},
+        {{"spectrum", stack, "--what"}, "--what"},
+        {{"spectrum"}, "STACK"},
+        {{"spectra", stack}, "there is no command 'spectra' (did you mean \"spectrum\"?)"},
+        {{"spectrum", "no-such-file.json"},
+         "no-such-file.json: cannot be read: No such file or directory"},
+        {{"spectrum", "1 | TiO2-rutile@10 | 1"},
+         "/layers/0/material: TiO2-rutile is known from 430 to 1530 nm (asked for 380)"},
+        {{"spectrum", "1 | gold@10 | Agg"}, "/substrate: "},
+        {{"spectrum", "1+0.1i | 1"}, "/incident: "},
+        {{"spectrum", "Au | 1"}, "/incident: the incident medium must be transparent"},
+        {{"spectrum", stack, "-o", "/no/such/folder/x.csv"},
+         "/no/such/folder/x.csv: cannot be written: No such file or directory"},
+    };
+    for (const auto& [arguments, error] : cases) {
+        const Outcome outcome = run_irido(arguments);
+        INFO(outcome.err);
+        CHECK(outcome.status == 2);
+        CHECK(outcome.out.empty());
+        CHECK_THAT(outcome.err, StartsWith("irido: error: ") && Contains(error));
+        CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    }
+}
+
+TEST_CASE("a failed request leaves an existing file as it was", "[cli][output]") {
+    const TemporaryFolder folder;
+    write_text(folder / "out.csv", "precious");
+    CHECK(run_irido({"spectrum", "1 | 1.5@-1 | 1", "-o", folder / "out.csv"}).status == 2);
+    CHECK(read_file(folder / "out.csv") == "precious");
+    // a file size limit makes the write itself fail half way
+    const Outcome limited = run_shell(
+        "trap '' XFSZ; ulimit -f 8; \"$IRIDO\" spectrum '1 | 1.5@100 | 1' -w 400:700:0.1 -o "
+        "out.csv",
+        folder.path());
+    CHECK(limited.status == 2);
+    CHECK_THAT(limited.err, Contains("out.csv: cannot be written: File too large"));
+    CHECK(read_file(folder / "out.csv") == "precious");
+    CHECK(run_shell("ls -A | wc -l", folder.path()).out == "1\n");
+    CHECK(run_irido({"spectrum", "1 | 1.5@1 | 1", "-o", folder / "out.csv"}).status == 0);
+    CHECK_THAT(read_file(folder / "out.csv"), StartsWith("wavelength_nm,"));
+    CHECK(run_shell("ls -A | wc -l", folder.path()).out == "1\n");
+}
+
+TEST_CASE("a closed pipe is quiet, a full device is not", "[cli][output]") {
+    const Outcome closed = run_shell(
+        "\"$IRIDO\" spectrum '1 | 1.5@100 | 1' -w 400:700:0.001 | head -n 1", IRIDO_SOURCE_DIR);
+    CHECK(closed.out == "wavelength_nm,angle_deg,polarization,R,T,A\n");
+    CHECK(closed.err.empty());
+    const Outcome full =
+        run_shell("\"$IRIDO\" spectrum '1 | 1.5@100 | 1' > /dev/full", IRIDO_SOURCE_DIR);
+    CHECK(full.status == 2);
+    CHECK_THAT(full.err, Contains("standard output: cannot be written: No space left"));
+}
+
+TEST_CASE("an interrupted program exits 130 and leaves nothing behind", "[cli][output]") {
+    const TemporaryFolder folder;
+    const Outcome stopped = run_shell(
+        "timeout --preserve-status -s INT 0.3 \"$IRIDO\" spectrum '1 | (1.5@100 | 1.2@70)^9 | 1' "
+        "-w 400:700:0.001 -a 0:80:2 -o out.csv",
+        folder.path());
+    CHECK(stopped.status == 130);
+    CHECK(run_shell("ls -A | wc -l", folder.path()).out == "0\n");
+}

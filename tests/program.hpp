@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace irido::test {
+
+/// What the real program did.
+struct Outcome {
+    int status = -1;
+    std::string out, err;
+};
+
+/// Runs the built irido with these arguments in `folder`, `input` on its standard input.
+Outcome run_irido(const std::vector<std::string>& arguments, const std::string& input = "",
+                  const std::string& folder = IRIDO_SOURCE_DIR);
+
+/// Runs a shell command in `folder`; $IRIDO is the built program.
+Outcome run_shell(const std::string& command, const std::string& folder);
+
+/// An empty folder that is removed with all it holds.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::string& path() const { return path_; }
+    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+private:
+    std::string path_;
+};
+
+std::string read_file(const std::string& path);
+void write_text(const std::string& path, const std::string& text);
+
+/// Rows of a CSV without quotes, the header first.
+std::vector<std::vector<std::string>> parse_csv(const std::string& text);
+
+}  // namespace irido::test
