@@ -125,18 +125,18 @@ std::string percent(double fraction) {
 }
 
 /// Says where a material holds its end values, or refuses what colour cannot be made of.
-void report_held_ranges(const StackDocument& document, const std::string& file,
-                        const Sensitivity& sensitivity, const ColorOptions& options) {
+void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity,
+                        const ColorOptions& options) {
     for (const HeldRange& held : held_ranges(document.stack, sensitivity)) {
         const std::string& pointer = document.material_pointers[held.material];
         if (!held.usable)
-            throw InputError(file, pointer,
+            throw InputError(document.file, pointer,
                              in_words(held, document) + ", a colour needs 400 to 700 nm");
         const std::string text = in_words(held, document) + ", its end values are held for " +
                                  percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
                                  percent(held.weight[2]) + " of the X, Y, Z weight";
-        if (options.strict) throw InputError(file, pointer, text);
-        note(file + ": " + pointer + ": " + text, options.quiet);
+        if (options.strict) throw InputError(document.file, pointer, text);
+        note(InputError(document.file, pointer, text).what(), options.quiet);
     }
 }
 
@@ -147,9 +147,18 @@ std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
     return {shown[0] / sum, shown[1] / sum};
 }
 
+RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptation adaptation) {
+    try {
+        return {space, white, adaptation};
+    } catch (const DomainError& error) {
+        throw UsageError("--illuminant: " + std::string(error.what()) +
+                         ", --adaptation none does without");
+    }
+}
+
 Records to_records(const ColorRequest& request, const std::vector<ColorIntegral>& colors,
                    const Triple& white, bool stats) {
-    const RgbTransform transform(request.space, white, request.adaptation);
+    const RgbTransform transform = rgb_transform(request.space, white, request.adaptation);
     std::array<Column::Numbers, 9> values;  // angle, X Y Z, x y, r g b
     Column::Texts side, hexes, method;
     Column::Flags gamut;
@@ -190,7 +199,7 @@ Records to_records(const ColorRequest& request, const std::vector<ColorIntegral>
 
 std::string picture(const ColorRequest& request, const std::vector<ColorIntegral>& colors,
                     const Triple& white, const std::string& title) {
-    const RgbTransform transform(rgb_space("srgb"), white, Adaptation::bradford);
+    const RgbTransform transform = rgb_transform(rgb_space("srgb"), white, Adaptation::bradford);
     Swatches swatches{title, "angle of incidence, degrees", request.angles_deg, {}};
     for (std::size_t s = 0; s < request.sides.size(); ++s) {
         Swatches::Strip strip{std::string(letter(request.sides[s])), {}};
@@ -226,18 +235,17 @@ int run_color(const ColorOptions& options) {
     const ColorRequest request = parse(options);
     const Sensitivity sensitivity(parse_observer(options.observer),
                                   parse_illuminant(options.illuminant));
-    const StackSource source = load_stack(options.stack);
-    const StackDocument document = read_stack(source.document, source.file, source.folder);
+    const StackDocument document = read_stack(options.stack);
     for (const std::string& text : document.notes) note(text, options.quiet);
-    report_held_ranges(document, source.file, sensitivity, options);
+    report_held_ranges(document, sensitivity, options);
     std::vector<ColorIntegral> colors;
     try {
         colors = stack_color(document.stack, sensitivity, request.angles_deg, request.sides,
                              request.limits, options.threads);
     } catch (const DomainError& error) {
-        throw InputError(source.file, "", error.what());
+        throw InputError(document.file, "", error.what());
     }
-    if (const int status = check_tolerance(request, colors, source.file)) return status;
+    if (const int status = check_tolerance(request, colors, document.file)) return status;
     const Triple& white = sensitivity.white();
     if (is_picture) {
         const std::string title = document.name.empty() ? options.stack.stack : document.name;

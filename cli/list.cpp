@@ -60,8 +60,11 @@ private:
             fail("must have a whole number of values from 1 to 10000000 after '/' (got '" +
                  std::string(text) + "')");
         if (count == 1 && start != stop) fail("must have at least 2 values from start to stop");
-        for (double i = 0; i < count; ++i)
-            push(i + 1 == count ? stop : start + (stop - start) * i / (count - 1));
+        const auto last = static_cast<std::size_t>(count) - 1;
+        for (std::size_t i = 0; i <= last; ++i)
+            push(i == last
+                     ? stop
+                     : start + (stop - start) * static_cast<double>(i) / static_cast<double>(last));
     }
 
     /// Digits after the decimal point, or -1 for a number with an exponent.
@@ -87,7 +90,8 @@ private:
         const double scale = exact ? std::pow(10.0, places) : 1;
         const double a = exact ? std::round(start * scale) : start;
         const double b = exact ? std::round(step * scale) : step;
-        for (double i = 0; i <= count; ++i) push((a + i * b) / scale);
+        for (std::size_t i = 0; i <= static_cast<std::size_t>(count); ++i)
+            push((a + static_cast<double>(i) * b) / scale);
     }
 
     std::string_view option_;

@@ -1,8 +1,9 @@
+#include <unistd.h>
+
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 #include <new>
-
-#include <unistd.h>
 
 #include "cli/command.hpp"
 #include "core/error.hpp"
@@ -40,8 +41,8 @@ int fail(const std::string& text) {
 }
 
 std::vector<std::string> names_of(const std::vector<CLI::App*>& commands) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    std::vector<std::string> names(commands.size());
+    std::ranges::transform(commands, names.begin(), [](CLI::App* c) { return c->get_name(); });
     return names;
 }
 
@@ -58,10 +59,10 @@ int run_program(int argc, char** argv) {
     set_examples(program,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
                   "irido color \"air | TiO2@35 | Ti\" -a 0:80:10", "irido COMMAND --help"});
-    if (const std::string first = argc > 1 ? argv[1] : "-";
-        !first.starts_with('-') && !program.get_subcommand_no_throw(first))
-        return fail("there is no command '" + first + "'" +
-                    did_you_mean(first, names_of(program.get_subcommands({}))));
+    const std::vector<std::string> commands = names_of(program.get_subcommands({}));
+    if (const std::string first = argc > 1 ? argv[1] : "--help";
+        !first.starts_with('-') && std::ranges::find(commands, first) == commands.end())
+        return fail("there is no command '" + first + "'" + did_you_mean(first, commands));
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version

@@ -36,7 +36,7 @@ std::string parse_polarizations(std::string_view text) {
 }
 
 /// The error of the first material that has no index at one of the wavelengths, with its place.
-[[noreturn]] void throw_material_error(const StackDocument& document, const std::string& file,
+[[noreturn]] void throw_material_error(const StackDocument& document,
                                        const std::vector<double>& wavelengths_nm,
                                        const DomainError& fallback) {
     for (std::size_t m = 0; m < document.stack.materials.size(); ++m) {
@@ -44,26 +44,26 @@ std::string parse_polarizations(std::string_view text) {
             for (const double wavelength : wavelengths_nm)
                 index_at(document.stack.materials[m], wavelength);
         } catch (const DomainError& error) {
-            throw InputError(file, document.material_pointers[m], error.what());
+            throw InputError(document.file, document.material_pointers[m], error.what());
         }
     }
-    throw InputError(file, document.material_pointers[document.stack.incident], fallback.what());
+    throw InputError(document.file, document.material_pointers[document.stack.incident],
+                     fallback.what());
 }
 
-IndexTable index_table(const StackDocument& document, const std::string& file,
-                       const std::vector<double>& wavelengths_nm) {
+IndexTable index_table(const StackDocument& document, const std::vector<double>& wavelengths_nm) {
     try {
         return {document.stack, wavelengths_nm};
     } catch (const DomainError& error) {
-        throw_material_error(document, file, wavelengths_nm, error);
+        throw_material_error(document, wavelengths_nm, error);
     }
 }
 
-StackPower stack_power(const StackDocument& document, const std::string& file) {
+StackPower stack_power(const StackDocument& document) {
     try {
         return StackPower(document.stack);
     } catch (const DomainError& error) {
-        throw InputError(file, "", error.what());
+        throw InputError(document.file, "", error.what());
     }
 }
 
@@ -115,16 +115,14 @@ int run_spectrum(const SpectrumOptions& options) {
         "--wavelengths", options.wavelengths, kAllWavelengths.first_nm, kAllWavelengths.last_nm);
     const std::vector<double> angles = parse_list("--angles", options.angles, 0, kLargestAngle_deg);
     const std::string letters = parse_polarizations(options.polarization);
-    const StackSource source = load_stack(options.stack);
-    const StackDocument document = read_stack(source.document, source.file, source.folder);
+    const StackDocument document = read_stack(options.stack);
     for (const std::string& text : document.notes) note(text, options.quiet);
 
     const bool mean = letters.find('u') != std::string::npos;
     const Needs needs{mean || letters.find('s') != std::string::npos,
                       mean || letters.find('p') != std::string::npos};
-    const std::vector<Polarized> powers =
-        compute(stack_power(document, source.file), index_table(document, source.file, wavelengths),
-                angles, needs, options.threads);
+    const std::vector<Polarized> powers = compute(
+        stack_power(document), index_table(document, wavelengths), angles, needs, options.threads);
     write_records(to_records(wavelengths, angles, letters, powers), options.output);
     return 0;
 }

@@ -1,23 +1,33 @@
+#include <algorithm>
+#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
+#include "schemas/input_error.hpp"
 #include "tables/atomic_file.hpp"
 
 namespace irido {
 
 namespace {
 
+constexpr int kInvalid = 1, kUnreadable = 2;
+
 int run_validate(const std::vector<std::string>& files) {
     std::string out;
-    bool all_good = true;
+    int status = 0;
     for (const std::string& file : files) {
-        const std::vector<std::string> problems = validate_stack_file(file);
-        for (const std::string& line : problems) out += line + '\n';
-        if (problems.empty()) out += file + ": ok\n";
-        all_good = all_good && problems.empty();
+        try {
+            const std::vector<std::string> problems = validate_stack_file(file);
+            for (const std::string& line : problems) out += line + '\n';
+            if (problems.empty()) out += file + ": ok\n";
+            if (!problems.empty()) status = std::max(status, kInvalid);
+        } catch (const InputError& error) {
+            std::cerr << "irido: error: " << error.what() << '\n';
+            status = kUnreadable;
+        }
     }
     write_stdout(out);
-    return all_good ? 0 : 1;
+    return status;
 }
 
 }  // namespace

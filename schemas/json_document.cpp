@@ -177,7 +177,7 @@ std::string line_and_column(std::string_view text, std::size_t byte) {
 /// The first step of a dotted path, taken off it.
 std::string take_step(std::string_view& path) {
     const std::size_t end = std::min(path.find('.'), path.size());
-    const std::string step(path.substr(0, end));
+    std::string step(path.substr(0, end));
     path.remove_prefix(std::min(end + 1, path.size()));
     return step;
 }

@@ -345,6 +345,10 @@ private:
     std::unordered_multimap<std::size_t, std::size_t> by_hash_;
 };
 
+std::string folder_of(const std::string& path) {
+    return std::filesystem::path(path).parent_path().string();
+}
+
 }  // namespace
 
 const char* stack_schema_text() {
@@ -360,7 +364,7 @@ StackSource load_stack(const StackRequest& request) {
         source.document = parse_stack_expression(request.stack);
     } else {
         source.file = shown_path(request.stack);
-        source.folder = std::filesystem::path(request.stack).parent_path().string();
+        source.folder = folder_of(request.stack);
         source.document = parse_json(read_text(request.stack), source.file);
     }
     for (const std::string& assignment : request.set) set_value(source.document, assignment);
@@ -369,9 +373,10 @@ StackSource load_stack(const StackRequest& request) {
 
 StackDocument read_stack(const json& document, const std::string& file, const std::string& folder) {
     Reader reader(document, file, folder);
-    if (!reader.problems.empty()) throw reader.problems.front();
+    if (!reader.problems.empty()) throw InputError(reader.problems.front());
     StackDocument result = reader.read();
-    if (!reader.problems.empty()) throw reader.problems.front();
+    if (!reader.problems.empty()) throw InputError(reader.problems.front());
+    result.file = file;
     return result;
 }
 
@@ -381,10 +386,11 @@ StackDocument read_stack(const StackRequest& request) {
 }
 
 std::vector<std::string> validate_stack_file(const std::string& path) {
+    const std::string text = read_text(path);
     std::vector<std::string> lines;
     try {
-        const StackSource source = load_stack({path, {}});
-        Reader reader(source.document, source.file, source.folder);
+        const nlohmann::json document = parse_json(text, shown_path(path));
+        Reader reader(document, shown_path(path), folder_of(path));
         reader.read();
         for (const InputError& problem : reader.problems) lines.emplace_back(problem.what());
     } catch (const InputError& error) {

@@ -24,6 +24,7 @@ struct StackSource {
 /// A stack document as plain values. Equal materials are one, whatever they are called.
 struct StackDocument {
     Stack stack;
+    std::string file;                            ///< its name in messages
     std::string name;                            ///< "" if the document has none
     std::vector<std::string> notes;              ///< what the readers of material files say
     std::vector<std::string> material_pointers;  ///< of the first use of stack.materials[i]
@@ -41,7 +42,7 @@ StackDocument read_stack(const nlohmann::json& document, const std::string& file
 StackDocument read_stack(const StackRequest& request);
 
 /// Everything that is wrong with a stack file ("-" for standard input), one line each,
-/// "FILE: POINTER: message"; nothing if it can be used.
+/// "FILE: POINTER: message"; nothing if it can be used. Throws InputError if it cannot be read.
 std::vector<std::string> validate_stack_file(const std::string& path);
 
 /// The text of stack.schema.json.

@@ -64,7 +64,7 @@ Eigen::Matrix3d primaries(const RgbSpace& space) {
 
 /// White to cone responses, with the checks that bradford() states.
 Eigen::Vector3d cone_response(const Eigen::Matrix3d& cones_from_xyz, const Triple& white) {
-    const Eigen::Vector3d cones = cones_from_xyz * vector(white);
+    Eigen::Vector3d cones = cones_from_xyz * vector(white);
     for (const double component : white) require_in_range("white XYZ", component, 1e-6, 1e6);
     for (const double cone : cones) require_in_range("cone response of the white", cone, 1e-6, 1e6);
     return cones;

@@ -182,10 +182,9 @@ AbsorbedPower operator+(const AbsorbedPower& p, const AbsorbedPower& q) {
 AbsorbedPower normalized(AbsorbedPower q) {
     const double size = std::max({std::abs(q.bb), std::abs(q.cc), std::abs(q.bc)});
     if ((size > 1e-60 && size < 1e60) || size == 0) return q;
-    const int exponent = std::ilogb(size) / 2 * 2;
-    const double factor = std::ldexp(1.0, -exponent);
-    return {q.bb * factor, q.cc * factor, q.bc * factor,
-            q.log_scale + exponent / 2 * std::log(2.0)};
+    const int half = std::ilogb(size) / 2;
+    const double factor = std::ldexp(1.0, -2 * half);
+    return {q.bb * factor, q.cc * factor, q.bc * factor, q.log_scale + half * std::log(2.0)};
 }
 
 }  // namespace

@@ -15,17 +15,26 @@ struct HalfAngle {
 /// Where exp(2 |Im K|) passes the digits of a double, only one Bloch wave is left.
 constexpr double kLargestLogTrace = 40;
 
-/// sin(z) exp(-Im z) for Im z >= 0.
-Complex scaled_sine(Complex z) {
-    const double a = z.real(), b = z.imag();
-    const double half_less = -std::expm1(-2 * b) / 2, half_more = 1 - half_less;
-    return {std::sin(a) * half_more, std::cos(a) * half_less};
+/// cos(z) and sin(z), both times exp(-Im z), for Im z >= 0.
+struct ScaledTurn {
+    Complex cos, sin;
+};
+
+ScaledTurn scaled_turn(Complex z) {
+    const double cos_a = std::cos(z.real()), sin_a = std::sin(z.real());
+    const double half_less = -std::expm1(-2 * z.imag()) / 2, half_more = 1 - half_less;
+    return {{cos_a * half_more, -sin_a * half_less}, {sin_a * half_more, cos_a * half_less}};
 }
 
-/// U_{n-1} = sin(n K)/sin(K) divided by exp((n - 1) Im K), Im K >= 0, K near 0 included; n >= 0.
-Complex scaled_chebyshev_u(double n, Complex bloch_phase) {
-    if (std::norm(n * bloch_phase) < 1e-18) return n;
-    return scaled_sine(n * bloch_phase) / scaled_sine(bloch_phase);
+/// sin K, divided by exp(Im K) as it is given, such that (M - x I)/sin K has determinant 1 to the
+/// last digit where that is possible: then so has the power, and energy balances. From
+/// -det(M - x I) = traceless^2 + off_diagonal, both without exp(2 m.log_scale); ahead is
+/// m.log_scale - Im K. Where those two cancel, the given sine is the better one.
+Complex consistent_sine(Complex sine, Complex traceless, Complex off_diagonal, double ahead) {
+    const Complex square = -(traceless * traceless + off_diagonal);
+    if (std::abs(square) < 0.01 * (std::norm(traceless) + std::abs(off_diagonal))) return sine;
+    const Complex root = std::sqrt(square) * std::exp(ahead);
+    return std::real(root * std::conj(sine)) < 0 ? -root : root;
 }
 
 /// Bloch phase of a two-layer period from Yeh's dispersion relation in factored form,
@@ -148,20 +157,22 @@ Matrix power(const Matrix& m, Complex half_angle_sin2, Complex half_angle_cos2,
         return {turn * m.a, turn * m.b, turn * m.c, turn * m.d,
                 m.log_scale + (n - 1) * (log_trace + std::log(2.0))};
     }
-    // x -> -x turns K into pi - K and U_{N-1} into (-1)^(N-1) U_{N-1}: take the smaller half angle
+    // M -> -M turns K into pi - K: take the smaller half angle
     const bool flip = std::norm(half_angle_cos2) < std::norm(half_angle_sin2);
     Complex bloch = 2.0 * std::asin(std::sqrt(flip ? half_angle_cos2 : half_angle_sin2));
     if (bloch.imag() < 0) bloch = -bloch;
-    const double growth = bloch.imag();
-    const double sign = flip && repeat % 2 == 0 ? -1 : 1;
-    // U_{N-1} M has exp((N - 1) growth + m.log_scale), U_{N-2} I has exp((N - 2) growth): only
-    // their difference is formed, both are large
-    const double ahead = growth + m.log_scale;
-    const Complex f = sign * scaled_chebyshev_u(n, bloch) * std::exp(std::min(0.0, ahead));
-    const Complex g =
-        (flip ? -sign : sign) * scaled_chebyshev_u(n - 1, bloch) * std::exp(std::min(0.0, -ahead));
-    Matrix result{f * m.a - g, f * m.b, f * m.c, f * m.d - g,
-                  (n - 2) * growth + std::max(0.0, ahead)};
+    const Complex traceless = (m.a - m.d) / 2.0;
+    const Complex sine =
+        consistent_sine(scaled_turn(bloch).sin, traceless, m.b * m.c, m.log_scale - bloch.imag());
+    const ScaledTurn all = scaled_turn(n * bloch);
+    // all.cos I has exp(N Im K), ratio (M - x I) has exp((N - 1) Im K + m.log_scale)
+    const double ahead = m.log_scale - bloch.imag();
+    const Complex ratio = std::norm(n * bloch) < 1e-18 ? n : all.sin / sine;
+    const Complex f = (flip ? -1.0 : 1.0) * ratio * std::exp(std::min(0.0, ahead));
+    const Complex g = all.cos * std::exp(std::min(0.0, -ahead));
+    const double sign = flip && repeat % 2 == 1 ? -1 : 1;
+    Matrix result{sign * (g + f * traceless), sign * f * m.b, sign * f * m.c,
+                  sign * (g - f * traceless), n * bloch.imag() + std::max(0.0, ahead)};
     normalize(result);
     return result;
 }

@@ -1,0 +1,252 @@
+#include "core/color/stack_color.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "core/color/illuminant.hpp"
+#include "core/error.hpp"
+#include "tests/oracle/color_oracle.hpp"
+#include "tests/oracle/random_stacks.hpp"
+
+using namespace irido;
+using oracle::Kind;
+using oracle::StackBuilder;
+
+namespace {
+
+const Sensitivity& d65() {
+    static const Sensitivity sensitivity(observer(2), illuminant("D65"));
+    return sensitivity;
+}
+
+ColorIntegral color(const Stack& stack, double angle_deg, Side side, double tolerance,
+                    const Sensitivity& sensitivity = d65()) {
+    return stack_color(stack, sensitivity, std::span(&angle_deg, 1), std::span(&side, 1),
+                       {.tolerance = tolerance}, 1)
+        .front();
+}
+
+double largest_error(const Triple& a, const Triple& b) {
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
+    return largest;
+}
+
+Stack one_film(Complex film, double thickness_nm, Complex substrate) {
+    StackBuilder b;
+    b.add(b.layer(film, thickness_nm));
+    return b.over(substrate);
+}
+
+Stack mirror(std::uint64_t repeat) {
+    StackBuilder b;
+    b.add(StackBuilder::group(repeat, {b.layer(2.3, 60), b.layer(1.46, 94)}));
+    return b.over(1.52);
+}
+
+/// Two mirrors of quarter waves around a half wave: one line at 550 nm inside their gap.
+Stack cavity(std::uint64_t repeat) {
+    StackBuilder b;
+    const Element high = b.layer(2.35, 550 / 4.0 / 2.35), low = b.layer(1.38, 550 / 4.0 / 1.38);
+    b.add(StackBuilder::group(repeat, {high, low}));
+    b.add(b.layer(2.35, 550 / 2.0 / 2.35));
+    b.add(StackBuilder::group(repeat, {low, high}));
+    return b.over(1);
+}
+
+Table rows(std::vector<double> wavelength_nm, std::vector<double> value) {
+    return {std::move(wavelength_nm), std::move(value)};
+}
+
+}  // namespace
+
+TEST_CASE("published colours") {
+    // Exact integrals of the piecewise linear tables, good to 1e-12: D65, 2 degrees
+    struct Golden {
+        Stack stack;
+        double angle_deg;
+        Triple xyz;
+    };
+    const std::vector<Golden> goldens{
+        {one_film(1.33, 380, 1), 0, {0.04473156990402, 0.0282067426637, 0.03821696445015}},
+        {one_film(1.33, 380, 1), 60, {0.1285727530246, 0.1632541097414, 0.1541063439653}},
+        {one_film(2.2, 150, {0.2, 3.4}), 0, {0.8504900485245, 0.8614220253323, 0.940852004983}},
+        {one_film(2.2, 150, {0.2, 3.4}), 60, {0.8611870791143, 0.9121162447083, 0.8873943744331}},
+        {mirror(5), 0, {0.7837031116025, 0.9436657324433, 0.4483644867849}},
+        {mirror(5), 60, {0.5350463610846, 0.6829350318341, 0.9489234874667}},
+    };
+    for (const Golden& golden : goldens) {
+        CAPTURE(oracle::text_of(golden.stack), golden.angle_deg);
+        const auto error = [&](double tolerance) {
+            return largest_error(
+                color(golden.stack, golden.angle_deg, Side::reflected, tolerance).xyz, golden.xyz);
+        };
+        CHECK(error(1e-12) < 1e-12);
+        CHECK(error(1e-6) < 1e-6);
+        // the second opinion of the tests below is held to the same numbers
+        CHECK(largest_error(oracle::stack_xyz(golden.stack, observer(2), illuminant("D65"),
+                                              golden.angle_deg, false, 1e-13),
+                            golden.xyz) < 1e-12);
+    }
+}
+
+TEST_CASE("at 90 degrees a stack is exactly white") {
+    for (const Stack& stack : {one_film(1.33, 380, 1), one_film(2.2, 150, {0.2, 3.4}), mirror(5)}) {
+        CHECK(color(stack, 90, Side::reflected, 1e-6).xyz == d65().white());
+        CHECK(color(stack, 90, Side::transmitted, 1e-6).xyz == Triple{0, 0, 0});
+    }
+}
+
+TEST_CASE("what is not reflected by a lossless stack is transmitted") {
+    for (const double angle : {0.0, 70.0}) {
+        const Triple R = color(mirror(5), angle, Side::reflected, 1e-9).xyz;
+        const Triple T = color(mirror(5), angle, Side::transmitted, 1e-9).xyz;
+        for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(R[c] + T[c] - d65().white()[c]) < 2e-9);
+    }
+}
+
+TEST_CASE("the error stays below the tolerance") {
+    const double tolerance = GENERATE(1e-3, 1e-6, 1e-9);
+    const auto kind = static_cast<Kind>(GENERATE(range(0, static_cast<int>(oracle::kKinds))));
+    CAPTURE(tolerance, oracle::name_of(kind));
+    oracle::Random random(100 + static_cast<std::uint64_t>(kind));
+    double worst = 0, worst_estimate = 0;
+    std::string worst_stack;
+    for (int i = 0; i < 50; ++i) {
+        const Stack stack = oracle::random_stack(kind, random);
+        const double angle = oracle::random_angle(random);
+        const bool transmitted = random.below(3) == 0;
+        const Observer& eye = observer(random.below(2) == 0 ? 2 : 10);
+        const Table light = illuminant(illuminant_names()[random.below(illuminant_names().size())]);
+        const Sensitivity sensitivity(eye, light);
+        const Side side = transmitted ? Side::transmitted : Side::reflected;
+        const ColorIntegral result = color(stack, angle, side, tolerance, sensitivity);
+        const Triple exact =
+            oracle::stack_xyz(stack, eye, light, angle, transmitted, tolerance / 1000);
+        const double error = largest_error(result.xyz, exact);
+        worst_estimate = std::max(worst_estimate, result.error);
+        if (error < worst) continue;
+        worst = error;
+        worst_stack = std::to_string(angle) + (transmitted ? " T " : " R ") +
+                      std::string(eye.name) + " " + oracle::text_of(stack);
+    }
+    CAPTURE(worst_stack);
+    CHECK(worst <= tolerance);
+    CHECK(worst_estimate <= tolerance);  // none of these stacks is out of reach
+}
+
+TEST_CASE("a cavity's narrow line is not missed") {
+    // at 550 nm T is 1 over a width of about a nm / 3^N, in the middle of a smooth gap
+    for (const std::uint64_t repeat : {4U, 6U, 8U, 10U}) {
+        std::vector<double> around{550};
+        for (double off = 1e-6; off < 3; off *= 2) {
+            around.push_back(550 - off);
+            around.push_back(550 + off);
+        }
+        for (const Side side : {Side::reflected, Side::transmitted}) {
+            const Triple exact = oracle::stack_xyz(cavity(repeat), observer(2), illuminant("D65"),
+                                                   0, side == Side::transmitted, 1e-9, around);
+            for (const double tolerance : {1e-3, 1e-5, 1e-6}) {
+                const ColorIntegral result = color(cavity(repeat), 0, side, tolerance);
+                CAPTURE(repeat, tolerance, result.error, result.evaluations);
+                CHECK(largest_error(result.xyz, exact) <= tolerance);
+            }
+        }
+    }
+}
+
+TEST_CASE("the result does not depend on the number of threads") {
+    oracle::Random random(7);
+    for (const Kind kind : {Kind::bragg, Kind::thick_film, Kind::kinked_table}) {
+        const Stack stack = oracle::random_stack(kind, random);
+        const std::vector<double> angles{0, 10, 20.5, 33, 47, 60, 75, 85, 89, 90};
+        const std::vector<Side> sides{Side::reflected, Side::transmitted};
+        const auto with = [&](unsigned threads) {
+            return stack_color(stack, d65(), angles, sides, {}, threads);
+        };
+        const auto one = with(1);
+        REQUIRE(one.size() == angles.size() * sides.size());
+        for (const unsigned threads : {0U, 2U, 5U}) {
+            const auto many = with(threads);
+            for (std::size_t i = 0; i < one.size(); ++i) {
+                CHECK(many[i].xyz == one[i].xyz);
+                CHECK(many[i].error == one[i].error);
+                CHECK(many[i].evaluations == one[i].evaluations);
+            }
+        }
+        // [angle][side], and close to what each angle gives alone
+        for (std::size_t a = 0; a < angles.size(); ++a)
+            for (std::size_t s = 0; s < 2; ++s)
+                CHECK(largest_error(one[2 * a + s].xyz,
+                                    color(stack, angles[a], sides[s], 1e-6).xyz) < 2e-6);
+    }
+}
+
+TEST_CASE("fringes past all resolution are an honest failure") {
+    const ColorIntegral result = color(one_film(1.5, 1e9, 2.5), 0, Side::reflected, 1e-6);
+    CHECK(result.error > 1e-6);
+    CHECK(result.evaluations < (1U << 20) + 2048U * 129U + 129U * 64U);
+}
+
+TEST_CASE("an opaque thick layer is as cheap as its surface") {
+    const ColorIntegral result = color(one_film({1.5, 0.5}, 1e9, 2.5), 30, Side::reflected, 1e-6);
+    CHECK(result.evaluations < 300);
+    const Triple bare = color(StackBuilder().over({1.5, 0.5}), 30, Side::reflected, 1e-6).xyz;
+    CHECK(largest_error(result.xyz, bare) < 2e-6);
+}
+
+TEST_CASE("materials hold their end values and say so") {
+    Material film;
+    film.name = "film";
+    film.model = RefractiveIndex{rows({400, 550, 700}, {1.6, 1.5, 1.7}), Constant{0}};
+    StackBuilder b;
+    b.add(b.layer_of(b.material(film), 300));
+    const Stack stack = b.over(2);
+    const auto held = held_ranges(stack, d65());
+    REQUIRE(held.size() == 1);
+    CHECK(stack.materials[held[0].material].name == "film");
+    CHECK(held[0].range == WavelengthRange{400, 700});
+    CHECK(held[0].usable);
+    const Triple outside =
+        oracle::integrate([](double nm) { return nm < 400 || nm > 700 ? 1.0 : 0.0; }, observer(2),
+                          illuminant("D65"), {}, 1e-14);
+    for (std::size_t c = 0; c < 3; ++c)
+        CHECK(std::abs(held[0].weight[c] - outside[c] / d65().white()[c]) < 1e-14);
+    const Triple exact = oracle::stack_xyz(stack, observer(2), illuminant("D65"), 20, false, 1e-12);
+    CHECK(largest_error(color(stack, 20, Side::reflected, 1e-9).xyz, exact) < 1e-9);
+
+    Stack clamped = stack;
+    for (Material& material : clamped.materials) material.outside = Outside::clamp;
+    CHECK(held_ranges(clamped, d65()).empty());
+    CHECK(color(clamped, 20, Side::reflected, 1e-9).xyz ==
+          color(stack, 20, Side::reflected, 1e-9).xyz);
+}
+
+TEST_CASE("a material unknown between 400 and 700 nm has no colour") {
+    for (const auto& [first, last] : {std::pair(400.5, 900.0), std::pair(300.0, 699.0)}) {
+        Material film;
+        film.name = "film";
+        film.model = RefractiveIndex{rows({first, last}, {1.6, 1.5}), Constant{0}};
+        StackBuilder b, c;
+        b.add(b.layer_of(b.material(film), 300));
+        const Stack unknown = b.over(2);
+        const auto held = held_ranges(unknown, d65());
+        REQUIRE(held.size() == 1);
+        CHECK_FALSE(held[0].usable);
+        CHECK_THROWS_AS(color(unknown, 0, Side::reflected, 1e-6), DomainError);
+        film.outside = Outside::clamp;
+        c.add(c.layer_of(c.material(film), 300));
+        CHECK(held_ranges(c.over(2), d65()).empty());
+    }
+    Material whole;
+    whole.model = RefractiveIndex{rows({360, 830}, {1.6, 1.5}), Constant{0}};
+    StackBuilder b;
+    b.add(b.layer_of(b.material(whole), 300));
+    CHECK(held_ranges(b.over(2), d65()).empty());
+}
+
+TEST_CASE("an angle or incident medium out of range is refused") {
+    CHECK_THROWS_AS(color(mirror(5), 90.5, Side::reflected, 1e-6), DomainError);
+    CHECK_THROWS_AS(color(StackBuilder({1.5, 0.1}).over(1), 0, Side::reflected, 1e-6), DomainError);
+}

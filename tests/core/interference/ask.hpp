@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "core/interference/spectrum.hpp"
+#include "core/interference/stack_power.hpp"
+
+namespace irido {
+
+/// Both polarizations at one wavelength and angle, by the public way through core.
+inline Polarized ask(const Stack& stack, double wavelength_nm, double angle_deg) {
+    const IndexTable table(stack, {wavelength_nm});
+    std::vector<Polarized> out(1);
+    power_spectrum(StackPower(stack), table, cos_of_incidence(angle_deg), {}, out);
+    return out.front();
+}
+
+}  // namespace irido

@@ -1,0 +1,185 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "tests/core/interference/ask.hpp"
+#include "tests/oracle/random_stacks.hpp"
+#include "tests/oracle/stack_oracle.hpp"
+
+using namespace irido;
+using Catch::WithinAbs;
+using oracle::StackBuilder;
+
+namespace {
+
+Element incoherent(Element element) {
+    std::get<Layer>(element.value).coherent = false;
+    return element;
+}
+
+Element spread(Element element, double sigma_nm) {
+    std::get<Layer>(element.value).thickness_sigma_nm = sigma_nm;
+    return element;
+}
+
+void check_same(const Power& a, const Power& b, double tolerance) {
+    CHECK_THAT(a.R, WithinAbs(b.R, tolerance));
+    CHECK_THAT(a.T, WithinAbs(b.T, tolerance));
+    CHECK_THAT(a.A, WithinAbs(b.A, tolerance));
+}
+
+}  // namespace
+
+TEST_CASE("a glass plate adds powers") {
+    for (const double k : {0.0, 1e-7, 1e-5}) {
+        StackBuilder b;
+        b.add(incoherent(b.layer({1.5, k}, 1e6)));
+        const Power power = ask(b.over(1), 550, 0).s;
+        const double k2 = k * k;
+        const double R1 = (0.25 + k2) / (6.25 + k2);
+        const double T12 = std::norm(4.0 * Complex(1.5, k) / std::pow(Complex(2.5, k), 2));
+        const double a = std::exp(-4 * std::numbers::pi * k * 1e6 / 550);
+        CAPTURE(k);
+        CHECK_THAT(power.R, WithinAbs(R1 + T12 * a * a * R1 / (1 - R1 * R1 * a * a), 1e-14));
+        CHECK_THAT(power.T, WithinAbs(T12 * a / (1 - R1 * R1 * a * a), 1e-14));
+        CHECK_THAT(power.R + power.T + power.A, WithinAbs(1, 1e-14));
+    }
+    StackBuilder b;
+    b.add(incoherent(b.layer(1.5, 1e6)));
+    CHECK_THAT(ask(b.over(1), 550, 0).s.R, WithinAbs(0.08 / 1.04, 1e-15));  // 2 R1 / (1 + R1)
+}
+
+TEST_CASE("an incoherent layer is the mean over its phase") {
+    oracle::Random random(41);
+    for (int i = 0; i < 30; ++i) {
+        StackBuilder b;
+        const double n1 = random.uniform(1.2, 2.2), k1 = i % 2 ? random.uniform(0, 0.2) : 0;
+        b.add(b.layer({n1, k1}, random.uniform(10, 200)));
+        const double n2 = random.uniform(1.3, 1.8), k2 = i % 3 ? 0 : 1e-4;
+        b.add(incoherent(b.layer({n2, k2}, random.uniform(100, 1000))));
+        b.add(StackBuilder::group(3, {b.layer(2.1, 50), b.layer(1.4, 70)}));
+        const Stack stack = b.over(1.52);
+        const double wavelength = random.uniform(400, 700), angle = random.uniform(0, 70);
+        CAPTURE(oracle::text_of(stack), wavelength, angle);
+        const Polarized both = ask(stack, wavelength, angle);
+        // R R' of the blocks stays below 0.9, and 0.9^250 below 1e-11 of its own small factor
+        constexpr int points = 250;
+        constexpr double tolerance = 1e-12;
+        check_same(both.s, oracle::incoherent(stack, {wavelength, angle, Polarization::s}, points),
+                   tolerance);
+        check_same(both.p, oracle::incoherent(stack, {wavelength, angle, Polarization::p}, points),
+                   tolerance);
+    }
+}
+
+TEST_CASE("a pile of plates adds up as Stokes found") {
+    // T = (1 - R1) / (1 + (2 N - 1) R1) of N lossless plates, G. G. Stokes, Proc. R. Soc. 11 (1862)
+    for (const std::uint64_t plates : {1U, 2U, 3U, 50U}) {
+        StackBuilder b;
+        for (std::uint64_t i = 0; i < plates; ++i) {
+            if (i > 0) b.add(incoherent(b.layer(1, 1e6)));
+            b.add(incoherent(b.layer(1.5, 1e6)));
+        }
+        const Power power = ask(b.over(1), 550, 0).s;
+        const double T = 0.96 / (1 + (2 * static_cast<double>(plates) - 1) * 0.04);
+        CHECK_THAT(power.T, WithinAbs(T, 1e-14));
+        CHECK_THAT(power.R, WithinAbs(1 - T, 1e-14));
+    }
+}
+
+TEST_CASE("a strongly absorbing incoherent layer conserves power") {
+    for (const double k : {1e-7, 1e-3, 0.1, 1.0}) {
+        StackBuilder b;
+        b.add(b.layer(2.2, 80));
+        b.add(incoherent(b.layer({1.5, k}, 200)));
+        b.add(b.layer(1.8, 70));
+        const Stack stack = b.over(1.52);
+        const Polarized both = ask(stack, 550, 45);
+        CAPTURE(k);
+        check_same(both.s, oracle::incoherent(stack, {550, 45, Polarization::s}, 64), 1e-14);
+        check_same(both.p, oracle::incoherent(stack, {550, 45, Polarization::p}, 64), 1e-14);
+    }
+}
+
+TEST_CASE("incoherent layers in groups are written out") {
+    StackBuilder b, c;
+    const auto plate = [](StackBuilder& s) { return incoherent(s.layer(1.5, 1e6)); };
+    b.add(StackBuilder::group(3, {plate(b), b.layer(1, 1000)}));
+    for (int i = 0; i < 3; ++i) {
+        c.add(plate(c));
+        c.add(c.layer(1, 1000));
+    }
+    check_same(ask(b.over(1), 550, 20).p, ask(c.over(1), 550, 20).p, 0);
+    StackBuilder most, more;
+    most.add(StackBuilder::group(5000, {plate(most), most.layer(1, 10)}));
+    CHECK_NOTHROW(StackPower(most.over(1)));
+    more.add(StackBuilder::group(5001, {plate(more), more.layer(1, 10)}));
+    CHECK_THROWS_AS(StackPower(more.over(1)), DomainError);
+    StackBuilder nested;
+    const Element many = StackBuilder::group(1000000000, {plate(nested)});
+    nested.add(StackBuilder::group(1000000000, {many}));
+    CHECK_THROWS_AS(StackPower(nested.over(1)), DomainError);
+}
+
+TEST_CASE("a spread of thickness averages powers") {
+    for (const double sigma : {0.01, 1.0, 20.0, 200.0}) {  // the last is cut at zero
+        StackBuilder b;
+        b.add(spread(b.layer({1.7, 0.01}, 300), sigma));
+        b.add(b.layer(2.2, 60));
+        const Stack stack = b.over({0.3, 3});
+        CAPTURE(sigma);
+        // the average's stated error
+        check_same(ask(stack, 550, 40).s, oracle::spread(stack, {550, 40, Polarization::s}, 60),
+                   1e-10);
+        check_same(ask(stack, 550, 40).p, oracle::spread(stack, {550, 40, Polarization::p}, 60),
+                   1e-10);
+    }
+}
+
+TEST_CASE("spread layers are independent, repeated ones move together") {
+    StackBuilder b;
+    b.add(spread(b.layer(1.5, 300), 15));
+    b.add(StackBuilder::group(4, {b.layer(1.4, 90), spread(b.layer(2.3, 60), 4)}));
+    b.add(incoherent(b.layer(1.5, 1e6)));
+    const Stack stack = b.over(1);
+    check_same(ask(stack, 550, 30).s, oracle::spread(stack, {550, 30, Polarization::s}, 12, 24),
+               1e-10);
+}
+
+TEST_CASE("a small spread bends, a large one forgets the phase") {
+    const auto film = [](double thickness, double sigma) {
+        StackBuilder b;
+        b.add(spread(b.layer(1.5, thickness), sigma));
+        return ask(b.over(3), 550, 30).s.R;
+    };
+    // sigma^2 R''/2, by differences; the next term is (2 k0 n sigma)^4 / 8 = 2e-7
+    const double h = 1, sigma = 1;
+    const double bend = (film(400 + h, 0) - 2 * film(400, 0) + film(400 - h, 0)) / (h * h);
+    CHECK_THAT(film(400, sigma) - film(400, 0), WithinAbs(sigma * sigma / 2 * bend, 1e-6));
+    CHECK(std::abs(bend) > 1e-5);
+    StackBuilder b;
+    b.add(incoherent(b.layer(1.5, 1000)));
+    const double mean = ask(b.over(3), 550, 30).s.R;
+    for (const double wide : {400.0, 1e4, 1e6})
+        CHECK_THAT(film(10 * wide, wide), WithinAbs(mean, 1e-10));
+}
+
+TEST_CASE("a sharp resonance in a spread layer is not missed") {
+    // the defect layer of a cavity: T is a row of peaks 1e-5 of a fringe wide
+    StackBuilder b;
+    b.add(StackBuilder::group(12, {b.layer(2.3, 60), b.layer(1.46, 94)}));
+    b.add(spread(b.layer(2.3, 120), 30));
+    b.add(StackBuilder::group(12, {b.layer(1.46, 94), b.layer(2.3, 60)}));
+    const Stack stack = b.over(1);
+    check_same(ask(stack, 550, 0).s, oracle::spread(stack, {550, 0, Polarization::s}, 20000),
+               1e-10);
+}
+
+TEST_CASE("four spread layers are refused") {
+    StackBuilder b;
+    for (const double n : {1.4, 1.5, 1.6}) b.add(spread(b.layer(n, 100), 1));
+    CHECK_NOTHROW(StackPower(b.over(1)));
+    b.add(StackBuilder::group(2, {spread(b.layer(1.7, 100), 1)}));
+    CHECK_THROWS_AS(StackPower(b.over(1)), DomainError);
+}
