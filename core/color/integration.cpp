@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -41,6 +42,50 @@ double largest_high_moment(const std::vector<double>& moment) {
     return largest;
 }
 
+/// A denominator's zero within this many point spacings of a point is not resolved: poles further
+/// off make coefficients that fall steadily, and the tail sees them.
+constexpr double kFarFromZero = 1 / 1.5;
+
+/// x_j = cos(pi j / degree), j = 0 .. degree.
+double chebyshev_point(std::size_t j, std::size_t degree) {
+    return std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree));
+}
+
+/// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
+/// step from there, -D/D', is shorter than the way to the next point. D is interpolated after an
+/// exponential trend, which has no zeros, is taken out of it.
+void mark_hidden_zeros(std::span<const SpectrumSample> samples, std::size_t which,
+                       std::vector<bool>& marked) {
+    const std::size_t degree = samples.size() - 1;
+    const double first = samples.front().denominator[which].log_scale;
+    const double last = samples.back().denominator[which].log_scale;
+    std::array<std::vector<double>, 2> parts;  // real and imaginary
+    for (std::size_t j = 0; j <= degree; ++j) {
+        const ScaledComplex& d = samples[j].denominator[which];
+        const double trend = (first + last) / 2 + (first - last) / 2 * chebyshev_point(j, degree);
+        const Complex plain = d.value * std::exp(std::clamp(d.log_scale - trend, -300.0, 300.0));
+        parts[0].push_back(plain.real());
+        parts[1].push_back(plain.imag());
+    }
+    const ChebyshevTransform& transform = chebyshev_transform(degree);
+    std::array<std::vector<double>, 2> slopes;
+    for (std::size_t part = 0; part < 2; ++part) {
+        std::vector<double> coefficients(degree + 1);
+        transform(parts[part], coefficients);
+        slopes[part].resize(degree + 1);
+        transform.values(chebyshev_derivative(coefficients), slopes[part]);
+    }
+    for (std::size_t j = 0; j <= degree; ++j) {
+        const double before = j > 0 ? chebyshev_point(j - 1, degree) : 1;
+        const double after = j < degree ? chebyshev_point(j + 1, degree) : -1;
+        const double at = chebyshev_point(j, degree);
+        const double spacing = std::max(before - at, at - after);
+        const double size = std::hypot(parts[0][j], parts[1][j]);
+        const double slope = std::hypot(slopes[0][j], slopes[1][j]);
+        if (size < kFarFromZero * spacing * slope) marked[j] = true;
+    }
+}
+
 class Integration {
 public:
     Integration(const Sensitivity& sensitivity, std::size_t items, const SpectraAt& spectra,
@@ -49,6 +94,7 @@ public:
           spectra_(spectra),
           limits_(limits),
           results_(items),
+          errors_(items),
           reference_(items) {}
 
     std::vector<ColorIntegral> over(const std::vector<SpectralPanel>& panels) {
@@ -57,14 +103,18 @@ public:
         const Triple& white = sensitivity_.white();
         spectra_(std::span(&panels.front().range.first_nm, 1), all, reference_);
         for (std::size_t i = 0; i < results_.size(); ++i)
-            for (std::size_t c = 0; c < 3; ++c) results_[i].xyz[c] = reference_[i] * white[c];
+            for (std::size_t c = 0; c < 3; ++c) results_[i].xyz[c] = reference_[i].value * white[c];
         const double share = 1 / static_cast<double>(panels.size());
         for (const SpectralPanel& panel : panels)
             integrate(panel.range, first_degree(panel.half_turn), share, all);
+        for (std::size_t i = 0; i < results_.size(); ++i)
+            results_[i].error = *std::ranges::max_element(errors_[i]);
         return std::move(results_);
     }
 
 private:
+    using Samples = std::vector<SpectrumSample>;  ///< [item][point]
+
     /// Half of the tolerance is shared out by the light in a panel, half by its rank.
     Triple budget(const PanelRule& rule, double share) const {
         Triple result{};
@@ -76,12 +126,12 @@ private:
 
     void integrate(WavelengthRange range, std::size_t degree, double share,
                    std::vector<std::size_t> items) {
-        std::vector<double> values;  // [item][point], of the degree before
+        Samples samples;  // of the degree before
         for (;; degree *= 2) {
             const PanelRule rule = panel_rule(sensitivity_, range, degree);
-            values = sample(rule, std::move(values), items);
+            samples = sample(rule, std::move(samples), items);
             settle(rule, budget(rule, share), degree == kHighestDegree && is_narrow(range), items,
-                   values);
+                   samples);
             if (items.empty()) return;
             if (degree == kHighestDegree) break;
         }
@@ -96,8 +146,7 @@ private:
 
     /// Spectra at the rule's points; where `coarse` has every second of them, only the others are
     /// computed.
-    std::vector<double> sample(const PanelRule& rule, std::vector<double> coarse,
-                               const std::vector<std::size_t>& items) {
+    Samples sample(const PanelRule& rule, Samples coarse, const std::vector<std::size_t>& items) {
         const std::size_t points = rule.wavelength_nm.size();
         const bool refine = !coarse.empty();
         std::vector<double> wavelengths = rule.wavelength_nm;
@@ -106,65 +155,81 @@ private:
             for (std::size_t j = 1; j < points; j += 2)
                 wavelengths.push_back(rule.wavelength_nm[j]);
         }
-        std::vector<double> fresh(items.size() * wavelengths.size());
+        Samples fresh(items.size() * wavelengths.size());
         spectra_(wavelengths, items, fresh);
         for (const std::size_t item : items) results_[item].evaluations += wavelengths.size();
         if (!refine) return fresh;
-        std::vector<double> values(items.size() * points);
+        Samples samples(items.size() * points);
         const std::size_t kept = points / 2 + 1;
         for (std::size_t i = 0; i < items.size(); ++i) {
             for (std::size_t j = 0; j < kept; ++j)
-                values[i * points + 2 * j] = coarse[i * kept + j];
+                samples[i * points + 2 * j] = coarse[i * kept + j];
             for (std::size_t j = 0; j + 1 < kept; ++j)
-                values[i * points + 2 * j + 1] = fresh[i * (kept - 1) + j];
+                samples[i * points + 2 * j + 1] = fresh[i * (kept - 1) + j];
         }
-        return values;
+        return samples;
     }
 
     /// Adds the panel's integral for every item that meets its budget (or for all that must end
     /// here) and keeps the others.
     void settle(const PanelRule& rule, const Triple& budget, bool last,
-                std::vector<std::size_t>& items, std::vector<double>& values) {
+                std::vector<std::size_t>& items, Samples& samples) {
         const std::size_t points = rule.wavelength_nm.size();
-        Triple high{};
-        for (std::size_t c = 0; c < 3; ++c) high[c] = 2 * largest_high_moment(rule.moment[c]);
-        std::vector<double> coefficients(points);
         std::size_t left = 0;
         for (std::size_t i = 0; i < items.size(); ++i) {
-            const std::span<double> f(values.data() + i * points, points);
-            chebyshev_transform(points - 1)(f, coefficients);
-            const double tail = tail_of(coefficients);
+            const std::span<const SpectrumSample> f(samples.data() + i * points, points);
+            const Triple error = estimate(rule, f);
             bool met = true;
-            for (std::size_t c = 0; c < 3; ++c) met = met && high[c] * tail <= budget[c];
-            ColorIntegral& result = results_[items[i]];
-            if (met || last || result.evaluations >= limits_.evaluations) {
-                add(rule, f, reference_[items[i]], *std::ranges::max_element(high) * tail, result);
+            for (std::size_t c = 0; c < 3; ++c) met = met && error[c] <= budget[c];
+            const std::size_t item = items[i];
+            if (met || last || results_[item].evaluations >= limits_.evaluations) {
+                add(rule, f, error, item);
             } else {
-                std::copy(f.begin(), f.end(), values.data() + left * points);
-                items[left++] = items[i];
+                std::copy(f.begin(), f.end(), samples.begin() + static_cast<long>(left * points));
+                items[left++] = item;
             }
         }
         items.resize(left);
-        values.resize(left * points);
+        samples.resize(left * points);
+    }
+
+    /// Error of the panel's X, Y, Z.
+    static Triple estimate(const PanelRule& rule, std::span<const SpectrumSample> f) {
+        const std::size_t points = f.size();
+        std::vector<double> values(points), coefficients(points);
+        for (std::size_t j = 0; j < points; ++j) values[j] = f[j].value;
+        chebyshev_transform(points - 1)(values, coefficients);
+        const double tail = tail_of(coefficients);
+        std::vector<bool> marked(points, false);
+        for (std::size_t which = 0; which < 2; ++which) mark_hidden_zeros(f, which, marked);
+        Triple error{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            error[c] = 2 * largest_high_moment(rule.moment[c]) * tail;
+            for (std::size_t j = 0; j < points; ++j)
+                if (marked[j]) error[c] += std::abs(rule.weight[c][j]);
+        }
+        return error;
     }
 
     /// The reference value's own integral is the exact white, so only differences are summed.
-    static void add(const PanelRule& rule, std::span<const double> f, double reference,
-                    double error, ColorIntegral& result) {
+    void add(const PanelRule& rule, std::span<const SpectrumSample> f, const Triple& error,
+             std::size_t item) {
+        const double reference = reference_[item].value;
         for (std::size_t c = 0; c < 3; ++c) {
             double sum = 0;
             for (std::size_t j = 0; j < f.size(); ++j)
-                sum += rule.weight[c][j] * (f[j] - reference);
-            result.xyz[c] += sum;
+                sum += rule.weight[c][j] * (f[j].value - reference);
+            results_[item].xyz[c] += sum;
+            errors_[item][c] += error[c];
         }
-        result.error += error;
     }
 
     const Sensitivity& sensitivity_;
     const SpectraAt& spectra_;
     IntegrationLimits limits_;
     std::vector<ColorIntegral> results_;
-    std::vector<double> reference_;  ///< each item's value at the short end
+    std::vector<Triple> errors_;             ///< of each channel
+    std::vector<SpectrumSample> reference_;  ///< each item at the short end
 };
 
 }  // namespace

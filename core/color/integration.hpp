@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "core/color/sensitivity.hpp"
+#include "core/complex.hpp"
 
 namespace irido {
 
@@ -17,10 +19,25 @@ struct SpectralPanel {
     double half_turn = 0;
 };
 
-/// Several spectra in [0, 1] that are wanted at the same wavelengths, such as R and T at every
-/// angle. Fills values[item * wavelengths + w] for each of the asked items, in order.
-using SpectraAt = std::function<void(std::span<const double> wavelength_nm,
-                                     std::span<const std::size_t> items, std::span<double> values)>;
+/// A complex number exp(log_scale) value.
+struct ScaledComplex {
+    Complex value{1};
+    double log_scale = 0;
+};
+
+/// A spectrum at one wavelength.
+struct SpectrumSample {
+    double value = 0;  ///< in [0, 1]
+    /// Of functions without poles whose zeros are the poles of the spectrum (one a polarization):
+    /// they betray a resonance that falls between two samples. Constant where nothing is known.
+    std::array<ScaledComplex, 2> denominator{};
+};
+
+/// Several spectra that are wanted at the same wavelengths, such as R and T at every angle.
+/// Fills samples[item * wavelengths + w] for each of the asked items, in order.
+using SpectraAt =
+    std::function<void(std::span<const double> wavelength_nm, std::span<const std::size_t> items,
+                       std::span<SpectrumSample> samples)>;
 
 /// X, Y, Z of one spectrum.
 struct ColorIntegral {
@@ -36,9 +53,10 @@ struct IntegrationLimits {
 
 /// Integrals of `items` spectra times the sensitivity over adjoining panels that cover its support.
 /// Each panel starts at the degree that its half_turn asks for, doubles it and then bisects until
-/// the tail of the Chebyshev coefficients against the moments is below the panel's share of the
-/// tolerance. A spectrum equal to 1 at every point gives exactly the white. Spectra that run out of
-/// evaluations have error > tolerance.
+/// the estimate is below the panel's share of the tolerance: the tail of the Chebyshev coefficients
+/// against the moments, and the whole weight of every point near which a denominator has a zero
+/// closer than the next point. A spectrum equal to 1 at every point gives exactly the white.
+/// Spectra that run out of evaluations have error > tolerance.
 std::vector<ColorIntegral> integrate_color(const Sensitivity& sensitivity,
                                            const std::vector<SpectralPanel>& panels,
                                            std::size_t items, const SpectraAt& spectra,

@@ -32,12 +32,14 @@ struct Path {
 void add_path(std::span<const Element> elements, std::span<const Medium> media, double k0,
               Path& path) {
     for (const Element& element : elements) {
-        if (path.exponent > kOpaqueExponent) return;
+        if (path.exponent >= kOpaqueExponent) return;
         if (const Layer* layer = std::get_if<Layer>(&element.value)) {
             const Complex normal = std::sqrt(media[layer->material].q2);
-            const double thickness = layer->coherent ? layer->thickness_nm : 0;
-            path.length_nm += 2 * thickness * std::abs(normal.real());
-            path.exponent += 2 * k0 * layer->thickness_nm * std::abs(normal.imag());
+            const double loss = 2 * k0 * std::abs(normal.imag());  // a nm
+            double depth = layer->thickness_nm;
+            if (loss * depth > kOpaqueExponent) depth = kOpaqueExponent / loss;
+            if (layer->coherent) path.length_nm += 2 * depth * std::abs(normal.real());
+            path.exponent += loss * depth;
         } else {
             const Group& group = std::get<Group>(element.value);
             Path period;
@@ -114,6 +116,12 @@ std::vector<SpectralPanel> first_panels(const Stack& stack, WavelengthRange supp
     return panels;
 }
 
+SpectrumSample sample_of(const Polarized& at, Side side) {
+    const Power mean = at.unpolarized();
+    const auto scaled = [](const Response& r) { return ScaledComplex{r.denominator, r.log_scale}; };
+    return {side == Side::reflected ? mean.R : mean.T, {scaled(at.s), scaled(at.p)}};
+}
+
 }  // namespace
 
 std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensitivity) {
@@ -153,7 +161,8 @@ std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& se
     const std::size_t per_angle = sides.size();
 
     const SpectraAt spectra = [&](std::span<const double> wavelength_nm,
-                                  std::span<const std::size_t> items, std::span<double> values) {
+                                  std::span<const std::size_t> items,
+                                  std::span<SpectrumSample> samples) {
         const std::size_t points = wavelength_nm.size();
         const IndexTable table(held, {wavelength_nm.begin(), wavelength_nm.end()});
         std::vector<std::size_t> starts;  // where in `items` each angle begins
@@ -167,10 +176,8 @@ std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& se
             power_spectrum(power, table, cos_of_incidence(angles_deg[angle]), {}, at);
             for (std::size_t i = starts[k]; i < end; ++i) {
                 const Side side = sides[items[i] % per_angle];
-                for (std::size_t w = 0; w < points; ++w) {
-                    const Power mean = at[w].unpolarized();
-                    values[i * points + w] = side == Side::reflected ? mean.R : mean.T;
-                }
+                for (std::size_t w = 0; w < points; ++w)
+                    samples[i * points + w] = sample_of(at[w], side);
             }
         });
     };

@@ -54,6 +54,25 @@ bool absorbs(std::span<const Element> elements, std::span<const Medium> media) {
     return false;
 }
 
+/// Phase of the waves that absorbing layers let die away, sum of Re(delta) b^2/(1 + b^2), b = |Im
+/// delta|: what it turns in the denominator has no zeros and reaches nobody.
+double dying_phase(std::span<const Element> elements, std::span<const Medium> media, double k0) {
+    double sum = 0;
+    for (const Element& element : elements) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            const Medium& m = media[layer->material];
+            if (m.eps.imag() == 0) continue;
+            const Complex delta = k0 * layer->thickness_nm * std::sqrt(m.q2);
+            const double b2 = delta.imag() * delta.imag();
+            sum += std::copysign(delta.real(), delta.imag() * delta.real()) * b2 / (1 + b2);
+        } else {
+            const Group& group = std::get<Group>(element.value);
+            sum += static_cast<double>(group.repeat) * dying_phase(group.elements, media, k0);
+        }
+    }
+    return sum;
+}
+
 /// An absorption above this loses nothing as 1 - R - T.
 constexpr double kSubtractable = 0.01;
 
@@ -75,13 +94,14 @@ double cos_of_incidence(double angle_deg) {
     return std::sin((90 - angle_deg) * (std::numbers::pi / 180));
 }
 
-Power coherent_power(const Medium& above, std::span<const Element> elements, const Medium& below,
-                     std::span<const Medium> media, double k0, Polarization polarization) {
+Response coherent_response(const Medium& above, std::span<const Element> elements,
+                           const Medium& below, std::span<const Medium> media, double k0,
+                           Polarization polarization) {
     const Wave in = outgoing_wave(above, polarization);
     const Wave out = outgoing_wave(below, polarization);
     if (in.flux == 0) {
         const bool nothing = same_medium(above, below) && all_same(above, elements, media);
-        return nothing ? Power{0, 1, 0} : Power{1, 0, 0};
+        return {nothing ? Power{0, 1, 0} : Power{1, 0, 0}};
     }
     Slab slab;
     if (absorbs(elements, media)) {
@@ -89,19 +109,24 @@ Power coherent_power(const Medium& above, std::span<const Element> elements, con
     } else {
         slab.matrix = matrix_of(elements, media, k0, polarization);
     }
-    // fields at the top, then the incident wave with its Y0 = c/b multiplied through by b
+    // fields at the top; r = (Y0 b - c)/(Y0 b + c) with Y0 = in.c/in.b multiplied through
     const Matrix& m = slab.matrix;
-    const Complex b = m.a * out.b + m.b * out.c, c = m.c * out.b + m.d * out.c;
+    const Complex b = m.identity() * out.b + (m.a * out.b + m.b * out.c);
+    const Complex c = m.identity() * out.c + (m.c * out.b + m.d * out.c);
     const Complex sum = in.c * b + in.b * c, difference = in.c * b - in.b * c;
-    const double incident = std::norm(sum) * in.flux;  // |sum|^2 / (4 |in.b in.c|^2) of its flux
-    const double unit = 4 * std::norm(in.b) * std::norm(in.c) / incident;
-    Power power;
+    const double unit = 4 * std::norm(in.b) * std::norm(in.c) / (std::norm(sum) * in.flux);
+    Response response{{}, sum, m.log_scale};
+    Power& power = response.power;
     power.R = std::norm(difference) / std::norm(sum);
     power.T = unit * out.flux * std::exp(-2 * m.log_scale);
-    if (!slab.absorbs) return power;
-    power.A = unit * absorbed_flux(slab.absorbed, out) * std::exp(2 * slab.absorbed.log_scale);
+    if (slab.absorbs) response.denominator *= std::polar(1.0, dying_phase(elements, media, k0));
+    if (slab.absorbs)
+        power.A = unit * absorbed_flux(slab.absorbed, out) * std::exp(2 * slab.absorbed.log_scale);
+    // an absorbing medium above mixes the incident and the reflected wave's power
+    if (const Complex y0 = in.c / in.b; y0.imag() != 0)
+        power.A -= 2 * (y0.imag() / y0.real()) * (difference / sum).imag();
     if (std::abs(power.A) > kSubtractable) power.A = 1 - power.R - power.T;
-    return power;
+    return response;
 }
 
 }  // namespace irido

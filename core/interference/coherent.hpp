@@ -34,22 +34,33 @@ inline constexpr double kLargestAngle_deg = 90;
 /// exact, so that grazing angles keep all their digits. angle_deg in [0, 90], else DomainError.
 double cos_of_incidence(double angle_deg);
 
+/// Powers, and the function whose zeros are their poles: exp(log_scale) denominator = Y0 B + C,
+/// which has no poles in the wavenumber, up to a phase without zeros of waves that die in
+/// absorbers.
+struct Response {
+    Power power;
+    Complex denominator{1};
+    double log_scale = 0;
+};
+
 /// Power reflected by, transmitted through and absorbed in coherent layers between two half-spaces.
 /// From the substrate up, tangential fields (B, C) obey, with delta = k0 d sqrt(q2),
 ///     s:  B' = c B - i sd C            C' = c C - i q2 sd B
-///     p:  B' = c B - i (q2/eps) sd C   C' = c C - i eps sd B,   c = cos(delta), sd = k0 d
-///     sinc(delta)
+///     p:  B' = c B - i (q2/eps) sd C   C' = c C - i eps sd B
+///     c = cos(delta), sd = k0 d sinc(delta)
 /// which are entire functions of q2: the critical angle, evanescent layers and zero thickness are
 /// ordinary points. Exponentials are factored out into a logarithm, groups are raised to their
-/// power in closed form. A comes from the absorbed flux of every layer, not from 1 - R - T.
+/// power in closed form. A comes from the absorbed flux of every layer where 1 - R - T would lose
+/// digits.
 ///   above, below  the half-spaces; light comes from `above`
 ///   elements      layers and groups from `above` to `below`
 ///   media         one per material of the stack;  k0 = 2 pi / wavelength, 1/nm
-/// Returns {1, 0, 0} when `above` carries no power towards the layers (grazing at exactly 90
-/// degrees), {0, 1, 0} if then all media are the same.
+/// Power is {1, 0, 0} when `above` carries no power towards the layers (exactly 90 degrees),
+/// {0, 1, 0} if then all media are the same.
 /// Source: P. Yeh, Optical Waves in Layered Media (1988), ch. 4 and 5; H. A. Macleod, Thin-Film
 /// Optical Filters (2010), ch. 2.
-Power coherent_power(const Medium& above, std::span<const Element> elements, const Medium& below,
-                     std::span<const Medium> media, double k0, Polarization polarization);
+Response coherent_response(const Medium& above, std::span<const Element> elements,
+                           const Medium& below, std::span<const Medium> media, double k0,
+                           Polarization polarization);
 
 }  // namespace irido

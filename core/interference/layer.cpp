@@ -12,10 +12,10 @@ constexpr Complex kI{0, 1};
 /// Past this |Im delta| the factor exp(|Im delta|) goes into the logarithm.
 constexpr double kLargestPlainExponent = 1;
 
-/// delta = a + i b with b >= 0; c = cos and s = sin, both times exp(-log_scale).
+/// delta = a + i b with b >= 0; less = cos - 1 and s = sin, both times exp(-log_scale).
 struct Phase {
     double a, b;
-    Complex c, s;
+    Complex less, s;
     double log_scale;
 };
 
@@ -29,14 +29,14 @@ Phase layer_phase(Complex q2, double k0_d) {
     Complex delta = k0_d * square_root(q2);
     if (delta.imag() < 0) delta = -delta;  // c and sd are even in delta
     const double a = delta.real(), b = delta.imag();
-    const double cos_a = std::cos(a), sin_a = std::sin(a);
     if (b <= kLargestPlainExponent) {
-        const double cosh_b = std::cosh(b), sinh_b = std::sinh(b);
-        return {a, b, {cos_a * cosh_b, -sin_a * sinh_b}, {sin_a * cosh_b, cos_a * sinh_b}, 0};
+        const Complex half = std::sin(delta / 2.0);
+        return {a, b, -2.0 * half * half, std::sin(delta), 0};
     }
+    const double cos_a = std::cos(a), sin_a = std::sin(a);
     const double half_less = -std::expm1(-2 * b) / 2, half_more = 1 - half_less;
-    return {
-        a, b, {cos_a * half_more, -sin_a * half_less}, {sin_a * half_more, cos_a * half_less}, b};
+    const Complex c{cos_a * half_more, -sin_a * half_less};
+    return {a, b, c - std::exp(-b), {sin_a * half_more, cos_a * half_less}, b};
 }
 
 /// k0 d sinc(delta), times exp(-log_scale).
@@ -127,7 +127,7 @@ AbsorbedPower layer_absorption(const Medium& m, const Phase& phase, double k0_d,
 Matrix phase_matrix(const Medium& m, const Phase& phase, double k0_d, Polarization polarization) {
     const auto [w, v] = coupling(m, polarization);
     const Complex sd = scaled_sd(phase, k0_d);
-    return {phase.c, -kI * w * sd, -kI * v * sd, phase.c, phase.log_scale};
+    return {phase.less, -kI * w * sd, -kI * v * sd, phase.less, phase.log_scale};
 }
 
 }  // namespace
@@ -143,11 +143,15 @@ Slab layer_slab(const Medium& m, double k0_d, Polarization polarization) {
     return slab;
 }
 
+double Matrix::identity() const {
+    return std::exp(-log_scale);
+}
+
 double normalize(Matrix& m) {
     const double size = std::max({std::abs(m.a.real()), std::abs(m.a.imag()), std::abs(m.b.real()),
                                   std::abs(m.b.imag()), std::abs(m.c.real()), std::abs(m.c.imag()),
                                   std::abs(m.d.real()), std::abs(m.d.imag())});
-    if ((size > 1e-60 && size < 1e60) || size == 0) return 0;
+    if (!(size > 1e60)) return 0;
     const int exponent = std::ilogb(size);
     const double factor = std::ldexp(1.0, -exponent);
     for (Complex* entry : {&m.a, &m.b, &m.c, &m.d}) *entry *= factor;
@@ -158,18 +162,23 @@ double normalize(Matrix& m) {
 
 namespace {
 
+/// (I + e^p U)(I + e^q L) = I + e^(p+q) (U e^-q + L e^-p + U L)
 Matrix product(const Matrix& u, const Matrix& l) {
-    return {u.a * l.a + u.b * l.c, u.a * l.b + u.b * l.d, u.c * l.a + u.d * l.c,
-            u.c * l.b + u.d * l.d, u.log_scale + l.log_scale};
+    const double with_u = l.identity(), with_l = u.identity();
+    return {with_u * u.a + with_l * l.a + (u.a * l.a + u.b * l.c),
+            with_u * u.b + with_l * l.b + (u.a * l.b + u.b * l.d),
+            with_u * u.c + with_l * l.c + (u.c * l.a + u.d * l.c),
+            with_u * u.d + with_l * l.d + (u.c * l.b + u.d * l.d), u.log_scale + l.log_scale};
 }
 
-/// Q as seen from below the slab of matrix m: M^H Q M.
+/// Q as seen from below the slab of matrix M: M^H Q M.
 AbsorbedPower seen_through(const Matrix& m, const AbsorbedPower& q) {
-    const Complex b1 = q.bb * m.a + q.bc * m.c, c1 = std::conj(q.bc) * m.a + q.cc * m.c;
-    const Complex b2 = q.bb * m.b + q.bc * m.d, c2 = std::conj(q.bc) * m.b + q.cc * m.d;
-    return {(std::conj(m.a) * b1 + std::conj(m.c) * c1).real(),
-            (std::conj(m.b) * b2 + std::conj(m.d) * c2).real(),
-            std::conj(m.a) * b2 + std::conj(m.c) * c2, q.log_scale};
+    const Complex a = m.a + m.identity(), d = m.d + m.identity();
+    const Complex b1 = q.bb * a + q.bc * m.c, c1 = std::conj(q.bc) * a + q.cc * m.c;
+    const Complex b2 = q.bb * m.b + q.bc * d, c2 = std::conj(q.bc) * m.b + q.cc * d;
+    return {(std::conj(a) * b1 + std::conj(m.c) * c1).real(),
+            (std::conj(m.b) * b2 + std::conj(d) * c2).real(),
+            std::conj(a) * b2 + std::conj(m.c) * c2, q.log_scale};
 }
 
 AbsorbedPower operator+(const AbsorbedPower& p, const AbsorbedPower& q) {

@@ -5,10 +5,14 @@
 
 namespace irido {
 
-/// exp(log_scale) [[a, b], [c, d]], acting on tangential fields (B, C).
+/// I + exp(log_scale) [[a, b], [c, d]], acting on tangential fields (B, C), log_scale >= 0. What
+/// thin layers add to the identity keeps its digits, and thick ones do not overflow.
 struct Matrix {
-    Complex a{1}, b{}, c{}, d{1};
+    Complex a{}, b{}, c{}, d{};
     double log_scale = 0;
+
+    /// The identity's part once exp(log_scale) is taken out.
+    double identity() const;
 };
 
 /// Power absorbed above the fields v = (B, C) at a slab's lower face, in the units of the flux
@@ -36,7 +40,7 @@ Slab layer_slab(const Medium& medium, double k0_d, Polarization polarization);
 Matrix operator*(const Matrix& upper, const Matrix& lower);
 Slab operator*(const Slab& upper, const Slab& lower);
 
-/// Moves the size of a very large or small matrix into its log_scale; returns what it moved.
+/// Moves the size of a very large matrix into its log_scale; returns what it moved.
 double normalize(Matrix& matrix);
 
 }  // namespace irido

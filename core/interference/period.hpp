@@ -15,14 +15,17 @@ Matrix matrix_of(std::span<const Element> elements, std::span<const Medium> medi
 Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
              Polarization polarization);
 
+/// Bloch phase K of a period, cos(K) = tr(M)/2, by the squares of its half angle: each loses its
+/// digits where it is formed from the other.
+struct BlochPhase {
+    Complex sin2;  ///< sin(K/2)^2 = (2 - tr M)/4
+    Complex cos2;  ///< cos(K/2)^2 = (2 + tr M)/4
+};
+
 /// matrix^repeat, exact in the number of periods:
-///     M^N = cos(N K) I + sin(N K)/sin(K) (M - x I),   x = cos(K) = tr(M)/2
-/// with the growing exponential factored out; N in [1, 1e9] costs the same as 1. M - x I is formed
-/// without a trace, so that the power keeps a determinant of 1 whatever the rounding of N K.
-///   half_angle_sin2  (1 - x)/2 = sin(K/2)^2;   half_angle_cos2  (1 + x)/2 = cos(K/2)^2
-/// both are given because each loses its digits where it is formed from the other.
-/// Source: P. Yeh, Optical Waves in Layered Media (1988), section 4.5 and 6.2.
-Matrix power(const Matrix& matrix, Complex half_angle_sin2, Complex half_angle_cos2,
-             std::uint64_t repeat);
+///     M^N = cos(N K) I + sin(N K)/sin(K) (M - cos(K) I)
+/// with the growing exponential factored out; N in [1, 1e9] costs the same as 1.
+/// Source: P. Yeh, Optical Waves in Layered Media (1988), sections 4.5 and 6.2.
+Matrix power(const Matrix& matrix, const BlochPhase& bloch, std::uint64_t repeat);
 
 }  // namespace irido

@@ -27,11 +27,14 @@ private:
     std::vector<Complex> index_;
 };
 
-/// Powers of the two polarizations; one that was not asked for stays zero.
+/// Responses in the two polarizations; one that was not asked for stays empty.
 struct Polarized {
-    Power s, p;
+    Response s, p;
     /// The mean of the two powers.
-    Power unpolarized() const { return {(s.R + p.R) / 2, (s.T + p.T) / 2, (s.A + p.A) / 2}; }
+    Power unpolarized() const {
+        const Power &a = s.power, &b = p.power;
+        return {(a.R + b.R) / 2, (a.T + b.T) / 2, (a.A + b.A) / 2};
+    }
 };
 
 /// Which polarizations a request needs.

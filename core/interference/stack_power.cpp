@@ -66,6 +66,15 @@ double distance(const Power& a, const Power& b) {
     return std::max({std::abs(a.R - b.R), std::abs(a.T - b.T), std::abs(a.A - b.A)});
 }
 
+/// Averages over a spread thickness agree to this when the panels double.
+constexpr double kSpreadError = 1e-10;
+
+/// A narrow line between two thicknesses turns the denominator by half a turn.
+constexpr double kResolvedTurn = 1.5;
+
+/// Of 16 thicknesses each; past it the last average is taken.
+constexpr int kMostSpreadPanels = 4096;
+
 /// exp(-2 k0 d Im kz) of an incoherent layer, and what it takes away.
 struct Attenuation {
     double kept, lost;
@@ -118,66 +127,81 @@ StackPower::Chain StackPower::chain_of(const std::vector<Element>& elements) {
     return chain;
 }
 
-Power StackPower::of_chain(const Chain& chain, std::span<const Medium> media, double k0,
-                           Polarization polarization) const {
+Response StackPower::of_chain(const Chain& chain, std::span<const Medium> media, double k0,
+                              Polarization polarization) const {
     const auto above = [&](std::size_t block) -> const Medium& {
         return block == 0 ? media.back() : media[chain.gaps[block - 1].material];
     };
-    Power power = coherent_power(above(chain.gaps.size()), chain.blocks.back().down,
-                                 media[substrate_], media, k0, polarization);
+    Response total = coherent_response(above(chain.gaps.size()), chain.blocks.back().down,
+                                       media[substrate_], media, k0, polarization);
     for (std::size_t i = chain.gaps.size(); i-- > 0;) {
         const Layer& gap = chain.gaps[i];
         const Medium& inside = media[gap.material];
         const Block& block = chain.blocks[i];
-        const Power down = coherent_power(above(i), block.down, inside, media, k0, polarization);
-        const Power up = coherent_power(inside, block.up, above(i), media, k0, polarization);
-        power = over_gap(down, up, attenuation(inside, k0 * gap.thickness_nm), power);
+        const Response down =
+            coherent_response(above(i), block.down, inside, media, k0, polarization);
+        const Power up =
+            coherent_response(inside, block.up, above(i), media, k0, polarization).power;
+        total.power =
+            over_gap(down.power, up, attenuation(inside, k0 * gap.thickness_nm), total.power);
+        total.denominator *= down.denominator / std::abs(down.denominator);
+        total.log_scale += down.log_scale + std::log(std::abs(down.denominator));
     }
-    return power;
+    return total;
 }
 
-Power StackPower::averaged(std::vector<Element>& elements, std::size_t spread,
-                           std::span<const Medium> media, double k0,
-                           Polarization polarization) const {
+Response StackPower::averaged(std::vector<Element>& elements, std::size_t spread,
+                              std::span<const Medium> media, double k0,
+                              Polarization polarization) const {
     if (spread == spread_layers_) return of_chain(chain_of(elements), media, k0, polarization);
     std::vector<Layer*> layers;
     spread_layers(elements, layers);
     Layer& layer = *layers[spread];
     const double mean = layer.thickness_nm, sigma = layer.thickness_sigma_nm;
     const double first = std::max(-8.0, -mean / sigma), last = 8;
-    const double fringes = k0 * sigma * std::abs(std::sqrt(media[layer.material].eps).real());
+    double largest_turn = 0;  // of the denominator between neighbouring thicknesses
     const auto average = [&](int panels) {
         Power sum;
         double weight = 0;
+        Complex before = 0;
+        largest_turn = 0;
         for (int panel = 0; panel < panels; ++panel) {
             const double width = (last - first) / panels, start = first + panel * width;
             for (const GaussNode& node : gauss_legendre<16>()) {
                 const double z = start + width * (node.x + 1) / 2;
                 const double w = node.weight * std::exp(-z * z / 2);
                 layer.thickness_nm = mean + z * sigma;
-                sum = sum + w * averaged(elements, spread + 1, media, k0, polarization);
+                const Response here = averaged(elements, spread + 1, media, k0, polarization);
+                sum = sum + w * here.power;
                 weight += w;
+                if (before != 0.0)
+                    largest_turn = std::max(
+                        largest_turn, std::abs(std::arg(here.denominator * std::conj(before))));
+                before = here.denominator;
             }
         }
+        layer.thickness_nm = mean;
         return (1 / weight) * sum;
     };
-    int panels = 2 + static_cast<int>(std::min(fringes * 2, 4096.0));
+    const double fringes = k0 * sigma * std::abs(std::sqrt(media[layer.material].eps).real());
+    int panels = 2 + static_cast<int>(std::min(2 * fringes, kMostSpreadPanels / 8.0));
     Power coarse = average(panels);
-    for (;; coarse = average(panels)) {
+    for (;;) {
         panels *= 2;
         const Power fine = average(panels);
-        if (distance(coarse, fine) < 1e-10 || panels > 10000) {
-            layer.thickness_nm = mean;
-            return fine;
-        }
+        const bool met = distance(coarse, fine) < kSpreadError && largest_turn < kResolvedTurn;
+        if (met || panels > kMostSpreadPanels) return {fine};
+        coarse = fine;
     }
 }
 
-Power StackPower::operator()(std::span<const Medium> media, double k0,
-                             Polarization polarization) const {
-    if (spread_layers_ == 0) return of_chain(chain_, media, k0, polarization);
+Response StackPower::operator()(std::span<const Medium> media, double k0,
+                                Polarization polarization) const {
+    Response response = of_chain(chain_, media, k0, polarization);
+    if (spread_layers_ == 0) return response;
     std::vector<Element> elements = elements_;
-    return averaged(elements, 0, media, k0, polarization);
+    response.power = averaged(elements, 0, media, k0, polarization).power;
+    return response;
 }
 
 }  // namespace irido

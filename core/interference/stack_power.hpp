@@ -15,7 +15,8 @@ namespace irido {
 /// Source: S. J. Byrnes, arXiv:1603.02720 (2016), section 4.
 ///
 /// A layer with thickness_sigma_nm has its power averaged over a Gaussian of thicknesses, cut at
-/// zero, to 1e-10; in a repeated group all repetitions share the deviation, different layers are
+/// zero, to 1e-10, or as far as 4096 panels go where a resonance is narrower than 1e-5 of the
+/// spread; in a repeated group all repetitions share the deviation, different layers are
 /// independent.
 class StackPower {
 public:
@@ -28,7 +29,8 @@ public:
 
     /// R, T, A at one wavelength and angle. `media` has one entry per material of the stack and, as
     /// its last, the incident medium without absorption; k0 = 2 pi / wavelength in 1/nm.
-    Power operator()(std::span<const Medium> media, double k0, Polarization polarization) const;
+    /// The denominator is the product of those of all coherent blocks at the mean thicknesses.
+    Response operator()(std::span<const Medium> media, double k0, Polarization polarization) const;
 
 private:
     /// Coherent layers in both directions of travel.
@@ -42,10 +44,10 @@ private:
     };
 
     static Chain chain_of(const std::vector<Element>& elements);
-    Power of_chain(const Chain& chain, std::span<const Medium> media, double k0,
-                   Polarization polarization) const;
-    Power averaged(std::vector<Element>& elements, std::size_t spread,
-                   std::span<const Medium> media, double k0, Polarization polarization) const;
+    Response of_chain(const Chain& chain, std::span<const Medium> media, double k0,
+                      Polarization polarization) const;
+    Response averaged(std::vector<Element>& elements, std::size_t spread,
+                      std::span<const Medium> media, double k0, Polarization polarization) const;
 
     std::size_t substrate_;
     std::vector<Element> elements_;

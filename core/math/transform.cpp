@@ -33,6 +33,21 @@ void ChebyshevTransform::operator()(std::span<const double> in, std::span<double
     out.back() /= 2;
 }
 
+void ChebyshevTransform::values(std::span<const double> coefficients, std::span<double> out) const {
+    std::vector<double> halved(coefficients.begin(), coefficients.end());
+    for (std::size_t k = 1; k < degree_; ++k) halved[k] /= 2;
+    fftw_execute_r2r(plan_->handle, halved.data(), out.data());
+}
+
+std::vector<double> chebyshev_derivative(std::span<const double> coefficients) {
+    std::vector<double> result(coefficients.size(), 0.0);
+    for (std::size_t k = coefficients.size() - 1; k > 0; --k)
+        result[k - 1] = (k + 1 < coefficients.size() ? result[k + 1] : 0.0) +
+                        2 * static_cast<double>(k) * coefficients[k];
+    result[0] /= 2;
+    return result;
+}
+
 const ChebyshevTransform& chebyshev_transform(std::size_t degree) {
     static std::mutex lock;
     static std::map<std::size_t, ChebyshevTransform> transforms;

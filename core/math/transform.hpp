@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace irido {
 
@@ -18,14 +19,21 @@ public:
     ChebyshevTransform(const ChebyshevTransform&) = delete;
     ChebyshevTransform& operator=(const ChebyshevTransform&) = delete;
 
-    /// `in` and `out` have degree + 1 entries and are not the same memory. Safe from many threads.
+    /// Coefficients of values. `in` and `out` have degree + 1 entries and are not the same memory.
+    /// Safe from many threads.
     void operator()(std::span<const double> in, std::span<double> out) const;
+
+    /// The way back: values of coefficients.
+    void values(std::span<const double> coefficients, std::span<double> out) const;
 
 private:
     struct Plan;
     std::size_t degree_;
     std::unique_ptr<Plan> plan_;
 };
+
+/// Chebyshev coefficients of the derivative of a series. Source: Boyd, eq. A.15.
+std::vector<double> chebyshev_derivative(std::span<const double> coefficients);
 
 /// The transform of one degree, made once. Safe from many threads.
 const ChebyshevTransform& chebyshev_transform(std::size_t degree);

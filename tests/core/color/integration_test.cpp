@@ -25,10 +25,11 @@ template <class F>
 std::vector<ColorIntegral> integrate(std::size_t items, const IntegrationLimits& limits, F f,
                                      const std::vector<SpectralPanel>& panels = {{kVisible, 4}}) {
     const SpectraAt spectra = [&](std::span<const double> wavelength_nm,
-                                  std::span<const std::size_t> asked, std::span<double> values) {
+                                  std::span<const std::size_t> asked,
+                                  std::span<SpectrumSample> samples) {
         for (std::size_t i = 0; i < asked.size(); ++i)
             for (std::size_t w = 0; w < wavelength_nm.size(); ++w)
-                values[i * wavelength_nm.size() + w] = f(asked[i], wavelength_nm[w]);
+                samples[i * wavelength_nm.size() + w].value = f(asked[i], wavelength_nm[w]);
     };
     return integrate_color(d65(), panels, items, spectra, limits);
 }

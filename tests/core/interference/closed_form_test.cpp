@@ -47,7 +47,7 @@ TEST_CASE("a single interface reflects as Fresnel says") {
     for (const Complex n : {Complex(1.5), Complex(2.4, 0.01), Complex(0.2, 3.4), Complex(1.2)}) {
         for (const double angle : {0.0, 10.0, 45.0, 70.0, 89.0}) {
             CAPTURE(n, angle);
-            const Polarized power = ask(bare(1.3, n), 550, angle);
+            const Powers power = ask(bare(1.3, n), 550, angle);
             const double rs = std::norm(fresnel(1.3, n, 1.3, angle, Polarization::s));
             const double rp = std::norm(fresnel(1.3, n, 1.3, angle, Polarization::p));
             CHECK_THAT(power.s.R, WithinAbs(rs, kRounding));
@@ -72,7 +72,7 @@ TEST_CASE("normal incidence on an absorber") {
     for (const Complex n : {Complex(1.5), Complex(0.05, 60), Complex(3, 1e-3)}) {
         const double k2 = n.imag() * n.imag();
         const double R = (std::pow(n.real() - 1, 2) + k2) / (std::pow(n.real() + 1, 2) + k2);
-        const Polarized power = ask(bare(1, n), 633, 0);
+        const Powers power = ask(bare(1, n), 633, 0);
         CHECK_THAT(power.s.R, WithinAbs(R, kRounding));
         CHECK(power.s.R == power.p.R);
         CHECK_THAT(power.s.T,
@@ -102,7 +102,7 @@ TEST_CASE("one film is Airy's sum") {
         const double d = random.uniform(0, 2000), angle = random.uniform(0, 89);
         const double wavelength = random.uniform(300, 900);
         CAPTURE(n0, n1, n2, d, angle, wavelength);
-        const Polarized power = ask(one_film(n0, n1, d, n2), wavelength, angle);
+        const Powers power = ask(one_film(n0, n1, d, n2), wavelength, angle);
         for (const auto& [polarization, R] :
              {std::pair(Polarization::s, power.s.R), std::pair(Polarization::p, power.p.R)}) {
             const Complex x =
@@ -140,10 +140,10 @@ TEST_CASE("published reflectances") {
     CHECK_THAT(ask(mirror, 550, 0).s.T, WithinRel(4.823144040809519e-05, 1e-12));
     CHECK_THAT(ask(mirror, 480, 30).p.T, WithinRel(0.0018262958287518028, 1e-12));
     CHECK_THAT(ask(mirror, 550, 30).s.T, WithinRel(2.5394279637303244e-05, 1e-12));
-    const Polarized coated = ask(one_film(1, 1.38, 99.6, 1.52), 450, 45);
+    const Powers coated = ask(one_film(1, 1.38, 99.6, 1.52), 450, 45);
     CHECK_THAT(coated.s.R, WithinAbs(0.03735149603888593, kRounding));
     CHECK_THAT(coated.p.R, WithinAbs(0.000995610542102046, kRounding));
-    CHECK_THAT(ask(one_film(1, 1.46, 120, {4.08, 0.04}), 550, 60).unpolarized().R,
+    CHECK_THAT(ask(one_film(1, 1.46, 120, {4.08, 0.04}), 550, 60).u.R,
                WithinAbs(0.11229789059384718, kRounding));
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("a Bragg mirror is Yeh's closed form") {
         for (const double wavelength : {380.0, 430.5, 476.0, 520.0, 550.0, 610.0, 655.0, 800.0}) {
             for (const double angle : {0.0, 33.0, 80.0}) {
                 CAPTURE(periods, wavelength, angle);
-                const Polarized power = ask(mirror, wavelength, angle);
+                const Powers power = ask(mirror, wavelength, angle);
                 // the Bloch phase is good to a few 1e-16 a period, and counted N times; beside a
                 // band edge it is a root of what is rounded
                 const double tolerance = 1e-13 * (1 + periods);

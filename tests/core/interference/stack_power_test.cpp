@@ -62,7 +62,7 @@ TEST_CASE("an incoherent layer is the mean over its phase") {
         const Stack stack = b.over(1.52);
         const double wavelength = random.uniform(400, 700), angle = random.uniform(0, 70);
         CAPTURE(oracle::text_of(stack), wavelength, angle);
-        const Polarized both = ask(stack, wavelength, angle);
+        const Powers both = ask(stack, wavelength, angle);
         // R R' of the blocks stays below 0.9, and 0.9^250 below 1e-11 of its own small factor
         constexpr int points = 250;
         constexpr double tolerance = 1e-12;
@@ -95,7 +95,7 @@ TEST_CASE("a strongly absorbing incoherent layer conserves power") {
         b.add(incoherent(b.layer({1.5, k}, 200)));
         b.add(b.layer(1.8, 70));
         const Stack stack = b.over(1.52);
-        const Polarized both = ask(stack, 550, 45);
+        const Powers both = ask(stack, 550, 45);
         CAPTURE(k);
         check_same(both.s, oracle::incoherent(stack, {550, 45, Polarization::s}, 64), 1e-14);
         check_same(both.p, oracle::incoherent(stack, {550, 45, Polarization::p}, 64), 1e-14);
@@ -166,14 +166,26 @@ TEST_CASE("a small spread bends, a large one forgets the phase") {
 }
 
 TEST_CASE("a sharp resonance in a spread layer is not missed") {
-    // the defect layer of a cavity: T is a row of peaks 1e-5 of a fringe wide
-    StackBuilder b;
-    b.add(StackBuilder::group(12, {b.layer(2.3, 60), b.layer(1.46, 94)}));
-    b.add(spread(b.layer(2.3, 120), 30));
-    b.add(StackBuilder::group(12, {b.layer(1.46, 94), b.layer(2.3, 60)}));
-    const Stack stack = b.over(1);
-    check_same(ask(stack, 550, 0).s, oracle::spread(stack, {550, 0, Polarization::s}, 20000),
-               1e-10);
+    // A half-wave layer between two mirrors of p quarter-wave pairs. Seen from the layer a mirror
+    // has the admittance (1.46/2.3)^(2p), so r1 is real and T = (1 - r1^2)^2 / |1 - r1^2 exp(i
+    // Phi)|^2, a geometric Fourier series in the round trip's phase Phi = 2 pi on average. A
+    // Gaussian spread s of Phi damps its m-th term by exp(-m^2 s^2/2).
+    const double high = 550 / 2.3 / 4, low = 550 / 1.46 / 4, sigma = 10;
+    for (const int pairs : {3, 6, 8}) {
+        const auto repeat = static_cast<std::uint64_t>(pairs);
+        StackBuilder b;
+        b.add(StackBuilder::group(repeat, {b.layer(2.3, high), b.layer(1.46, low)}));
+        b.add(spread(b.layer(2.3, 2 * high), sigma));
+        b.add(StackBuilder::group(repeat, {b.layer(1.46, low), b.layer(2.3, high)}));
+        const double admittance = std::pow(1.46 / 2.3, 2 * pairs);
+        const double r2 = std::pow((2.3 - admittance) / (2.3 + admittance), 2);
+        const double s = 2 * (2 * std::numbers::pi / 550) * 2.3 * sigma;
+        double series = 1;
+        for (int m = 1; m < 30; ++m) series += 2 * std::pow(r2, m) * std::exp(-m * m * s * s / 2);
+        CAPTURE(pairs);
+        // the average's stated error
+        CHECK_THAT(ask(b.over(1), 550, 0).s.T, WithinAbs((1 - r2) / (1 + r2) * series, 1e-10));
+    }
 }
 
 TEST_CASE("four spread layers are refused") {
