@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "core/color/difference.hpp"
 #include "core/color/illuminant.hpp"
 #include "core/color/observer.hpp"
 #include "core/color/space.hpp"
@@ -29,6 +30,7 @@ struct ColorOptions {
     std::string adaptation = "bradford";
     std::string method = "auto";
     std::string tolerance = "1e-6";
+    bool compare = false;
     bool stats = false;
     bool strict = false;
     OutputOptions output;
@@ -156,8 +158,15 @@ RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptatio
     }
 }
 
-Records to_records(const ColorRequest& request, const std::vector<ColorIntegral>& colors,
-                   const Triple& white, bool stats) {
+/// The colours of a stack under one illuminant.
+struct LitColors {
+    std::string illuminant;
+    Triple white{};
+    std::vector<ColorIntegral> colors;  ///< [angle][side]
+};
+
+Records to_records(const ColorRequest& request, const LitColors& lit, bool stats) {
+    const auto& [illuminant, white, colors] = lit;
     const RgbTransform transform = rgb_transform(request.space, white, request.adaptation);
     std::array<Column::Numbers, 9> values;  // angle, X Y Z, x y, r g b
     Column::Texts side, hexes, method;
@@ -197,15 +206,40 @@ Records to_records(const ColorRequest& request, const std::vector<ColorIntegral>
     return records;
 }
 
-std::string picture(const ColorRequest& request, const std::vector<ColorIntegral>& colors,
-                    const Triple& white, const std::string& title) {
-    const RgbTransform transform = rgb_transform(rgb_space("srgb"), white, Adaptation::bradford);
+/// CIEDE2000 of every colour to the same one under the first illuminant, each under its own white.
+Column::Numbers differences(const LitColors& lit, const LitColors& first) {
+    Column::Numbers result;
+    for (std::size_t i = 0; i < lit.colors.size(); ++i)
+        result.push_back(
+            ciede2000(lab(lit.colors[i].xyz, lit.white), lab(first.colors[i].xyz, first.white)));
+    return result;
+}
+
+/// The records of all illuminants one after another, with their names and differences.
+Records compared(const ColorRequest& request, const std::vector<LitColors>& lits, bool stats) {
+    Records all;
+    for (const LitColors& lit : lits) {
+        Records records = to_records(request, lit, stats);
+        records.columns.push_back({"illuminant", Column::Texts(lit.colors.size(), lit.illuminant)});
+        records.columns.push_back({"delta_e_2000", differences(lit, lits.front())});
+        all.append(std::move(records));
+    }
+    return all;
+}
+
+std::string picture(const ColorRequest& request, const std::vector<LitColors>& lits,
+                    const std::string& title) {
     Swatches swatches{title, "angle of incidence, degrees", request.angles_deg, {}};
-    for (std::size_t s = 0; s < request.sides.size(); ++s) {
-        Swatches::Strip strip{std::string(letter(request.sides[s])), {}};
-        for (std::size_t i = s; i < colors.size(); i += request.sides.size())
-            strip.colors.push_back(hex(rgb_space("srgb"), transform(colors[i].xyz)));
-        swatches.strips.push_back(std::move(strip));
+    for (const LitColors& lit : lits) {
+        const RgbTransform transform =
+            rgb_transform(rgb_space("srgb"), lit.white, Adaptation::bradford);
+        for (std::size_t s = 0; s < request.sides.size(); ++s) {
+            const std::string side(letter(request.sides[s]));
+            Swatches::Strip strip{lits.size() == 1 ? side : lit.illuminant + " " + side, {}};
+            for (std::size_t i = s; i < lit.colors.size(); i += request.sides.size())
+                strip.colors.push_back(hex(rgb_space("srgb"), transform(lit.colors[i].xyz)));
+            swatches.strips.push_back(std::move(strip));
+        }
     }
     return write_swatches(swatches);
 }
@@ -229,29 +263,50 @@ int check_tolerance(const ColorRequest& request, const std::vector<ColorIntegral
     return kToleranceNotMet;
 }
 
+/// The illuminant asked for and, to compare, all others by name.
+std::vector<std::string> illuminants(const ColorOptions& options) {
+    std::vector<std::string> names{options.illuminant};
+    if (!options.compare) return names;
+    for (const std::string_view name : illuminant_names())
+        if (name != options.illuminant) names.emplace_back(name);
+    return names;
+}
+
+LitColors colors_under(const Sensitivity& sensitivity, const StackDocument& document,
+                       const ColorRequest& request, unsigned threads) {
+    try {
+        return {"", sensitivity.white(),
+                stack_color(document.stack, sensitivity, request.angles_deg, request.sides,
+                            request.limits, threads)};
+    } catch (const DomainError& error) {
+        throw InputError(document.file, "", error.what());
+    }
+}
+
 int run_color(const ColorOptions& options) {
     const bool is_picture = resolved_format(options.output) == "svg";
     if (!is_picture) resolved_record_format(options.output);
     const ColorRequest request = parse(options);
-    const Sensitivity sensitivity(parse_observer(options.observer),
-                                  parse_illuminant(options.illuminant));
+    const Observer& eye = parse_observer(options.observer);
+    const Sensitivity first(eye, parse_illuminant(options.illuminant));
     const StackDocument document = read_stack(options.stack);
     for (const std::string& text : document.notes) note(text, options.quiet);
-    report_held_ranges(document, sensitivity, options);
-    std::vector<ColorIntegral> colors;
-    try {
-        colors = stack_color(document.stack, sensitivity, request.angles_deg, request.sides,
-                             request.limits, options.threads);
-    } catch (const DomainError& error) {
-        throw InputError(document.file, "", error.what());
+    report_held_ranges(document, first, options);
+    std::vector<LitColors> lits;
+    for (const std::string& name : illuminants(options)) {
+        lits.push_back(colors_under(lits.empty() ? first : Sensitivity(eye, illuminant(name)),
+                                    document, request, options.threads));
+        lits.back().illuminant = name;
+        if (const int status = check_tolerance(request, lits.back().colors, document.file))
+            return status;
     }
-    if (const int status = check_tolerance(request, colors, document.file)) return status;
-    const Triple& white = sensitivity.white();
     if (is_picture) {
         const std::string title = document.name.empty() ? options.stack.stack : document.name;
-        write_bytes(picture(request, colors, white, title), options.output, false);
+        write_bytes(picture(request, lits, title), options.output, false);
     } else {
-        write_records(to_records(request, colors, white, options.stats), options.output);
+        write_records(options.compare ? compared(request, lits, options.stats)
+                                      : to_records(request, lits.front(), options.stats),
+                      options.output);
     }
     return 0;
 }
@@ -267,6 +322,9 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
         .add_option("--illuminant", options.illuminant,
                     "D65, D50, A, E, FL2, FL11 or a CSV file of nm,power [D65]")
         ->type_name("NAME");
+    command.add_flag("--compare-illuminants", options.compare,
+                     "the same under every other named illuminant too; adds\n"
+                     "illuminant,delta_e_2000 (CIEDE2000 to the first one)");
     command.add_option("--observer", options.observer, "2 (CIE 1931) or 10 (CIE 1964) degrees [2]")
         ->type_name("DEGREES");
     command

@@ -81,9 +81,7 @@ std::vector<Polarized> compute(const StackPower& stack, const IndexTable& table,
 }
 
 Power in_polarization(const Polarized& power, char letter) {
-    return letter == 's'   ? power.s.power
-           : letter == 'p' ? power.p.power
-                           : power.unpolarized();
+    return letter == 's' ? power.s.power : letter == 'p' ? power.p.power : power.unpolarized();
 }
 
 Records to_records(const std::vector<double>& wavelengths_nm, const std::vector<double>& angles_deg,

@@ -14,6 +14,21 @@ std::size_t Records::rows() const {
     return std::visit([](const auto& values) { return values.size(); }, columns.front().values);
 }
 
+void Records::append(Records more) {
+    if (columns.empty()) {
+        *this = std::move(more);
+        return;
+    }
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        std::visit(
+            [&](auto& values) {
+                const auto& added =
+                    std::get<std::remove_cvref_t<decltype(values)>>(more.columns[c].values);
+                values.insert(values.end(), added.begin(), added.end());
+            },
+            columns[c].values);
+}
+
 const RecordFormat* find_record_format(std::string_view name) {
     static constexpr std::array formats{
         RecordFormat{"csv", "one line a record, names in the first", write_csv},

@@ -21,12 +21,8 @@ struct Records {
     std::vector<Column> columns;
 
     std::size_t rows() const;
-    /// A new empty column; the reference holds until the next one is added.
-    template <class Values>
-    Values& add(std::string name) {
-        columns.push_back({std::move(name), Values{}});
-        return std::get<Values>(columns.back().values);
-    }
+    /// Adds the rows of records with the same columns.
+    void append(Records more);
 };
 
 /// A way to write records as bytes.

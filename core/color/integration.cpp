@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -24,45 +23,48 @@ std::size_t first_degree(double half_turn) {
     return degree;
 }
 
-/// Largest |c_k| in the last eighth of the coefficients, at least the last three: what is left out
-/// is taken to continue from there over as many terms again as half the degree.
-double tail_of(std::span<const double> coefficients) {
+/// Largest |c_k| in the last eighth of the coefficients, at least the last three.
+double last_coefficients(std::span<const double> coefficients) {
     const std::size_t degree = coefficients.size() - 1;
     const std::size_t count = std::max<std::size_t>(3, degree / 8);
     double largest = 0;
     for (std::size_t k = degree + 1 - count; k <= degree; ++k)
         largest = std::max(largest, std::abs(coefficients[k]));
-    return largest * static_cast<double>(degree) / 2;
+    return largest;
 }
 
-double largest_high_moment(const std::vector<double>& moment) {
-    double largest = 0;
-    for (std::size_t k = moment.size() / 2; k < moment.size(); ++k)
-        largest = std::max(largest, std::abs(moment[k]));
-    return largest;
+/// Error of an integral per unit of the last coefficients. The coefficient c_(n+j) that is left out
+/// misses its own moment and comes back on the points as T_(n-j). Poles that are not marked as
+/// hidden make it fall at least as exp(-2 j/n).
+double error_per_coefficient(const std::vector<double>& moment) {
+    const std::size_t degree = moment.size() - 1;
+    double high = 0;  // what the moments past the last one are taken to be
+    for (std::size_t k = degree / 2; k <= degree; ++k) high = std::max(high, std::abs(moment[k]));
+    const double fall = std::exp(-2 / static_cast<double>(degree));
+    double sum = 0, size = 1;
+    for (std::size_t j = 1; j <= degree; ++j) {
+        size *= fall;
+        sum += size * (std::abs(moment[degree - j]) + high);
+    }
+    return 2 * sum;  // c_(3n - j) and later ones come back there too
 }
 
 /// A denominator's zero within this many point spacings of a point is not resolved: poles further
 /// off make coefficients that fall steadily, and the tail sees them.
 constexpr double kFarFromZero = 1 / 1.5;
 
-/// x_j = cos(pi j / degree), j = 0 .. degree.
-double chebyshev_point(std::size_t j, std::size_t degree) {
-    return std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree));
-}
-
 /// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
 /// step from there, -D/D', is shorter than the way to the next point. D is interpolated after an
 /// exponential trend, which has no zeros, is taken out of it.
-void mark_hidden_zeros(std::span<const SpectrumSample> samples, std::size_t which,
-                       std::vector<bool>& marked) {
+void mark_hidden_zeros(std::span<const double> x, std::span<const SpectrumSample> samples,
+                       std::size_t which, std::vector<bool>& marked) {
     const std::size_t degree = samples.size() - 1;
     const double first = samples.front().denominator[which].log_scale;
     const double last = samples.back().denominator[which].log_scale;
     std::array<std::vector<double>, 2> parts;  // real and imaginary
     for (std::size_t j = 0; j <= degree; ++j) {
         const ScaledComplex& d = samples[j].denominator[which];
-        const double trend = (first + last) / 2 + (first - last) / 2 * chebyshev_point(j, degree);
+        const double trend = (first + last) / 2 + (first - last) / 2 * x[j];
         const Complex plain = d.value * std::exp(std::clamp(d.log_scale - trend, -300.0, 300.0));
         parts[0].push_back(plain.real());
         parts[1].push_back(plain.imag());
@@ -76,10 +78,8 @@ void mark_hidden_zeros(std::span<const SpectrumSample> samples, std::size_t whic
         transform.values(chebyshev_derivative(coefficients), slopes[part]);
     }
     for (std::size_t j = 0; j <= degree; ++j) {
-        const double before = j > 0 ? chebyshev_point(j - 1, degree) : 1;
-        const double after = j < degree ? chebyshev_point(j + 1, degree) : -1;
-        const double at = chebyshev_point(j, degree);
-        const double spacing = std::max(before - at, at - after);
+        const double before = j > 0 ? x[j - 1] - x[j] : 0, after = j < degree ? x[j] - x[j + 1] : 0;
+        const double spacing = std::max(before, after);
         const double size = std::hypot(parts[0][j], parts[1][j]);
         const double slope = std::hypot(slopes[0][j], slopes[1][j]);
         if (size < kFarFromZero * spacing * slope) marked[j] = true;
@@ -199,12 +199,12 @@ private:
         std::vector<double> values(points), coefficients(points);
         for (std::size_t j = 0; j < points; ++j) values[j] = f[j].value;
         chebyshev_transform(points - 1)(values, coefficients);
-        const double tail = tail_of(coefficients);
+        const double last = last_coefficients(coefficients);
         std::vector<bool> marked(points, false);
-        for (std::size_t which = 0; which < 2; ++which) mark_hidden_zeros(f, which, marked);
+        for (std::size_t which = 0; which < 2; ++which) mark_hidden_zeros(rule.x, f, which, marked);
         Triple error{};
         for (std::size_t c = 0; c < 3; ++c) {
-            error[c] = 2 * largest_high_moment(rule.moment[c]) * tail;
+            error[c] = error_per_coefficient(rule.moment[c]) * last;
             for (std::size_t j = 0; j < points; ++j)
                 if (marked[j]) error[c] += std::abs(rule.weight[c][j]);
         }

@@ -174,9 +174,11 @@ void integrate_moments(const Samples& samples, std::size_t degree, PanelRule& ru
 PanelRule panel_rule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree) {
     const PanelMap map(panel);
     PanelRule rule;
-    for (std::size_t j = 0; j <= degree; ++j)
-        rule.wavelength_nm.push_back(map.wavelength_nm(
-            std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree))));
+    for (std::size_t j = 0; j <= degree; ++j) {
+        rule.x.push_back(
+            std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree)));
+        rule.wavelength_nm.push_back(map.wavelength_nm(rule.x.back()));
+    }
     rule.wavelength_nm.front() = panel.first_nm;
     rule.wavelength_nm.back() = panel.last_nm;
     for (std::size_t c = 0; c < 3; ++c) {

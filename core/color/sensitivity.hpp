@@ -44,7 +44,8 @@ private:
 /// Source: J. P. Boyd, Chebyshev and Fourier Spectral Methods (2001), ch. 5; product integration
 /// after I. H. Sloan and W. E. Smith, Numer. Math. 30, 415 (1978).
 struct PanelRule {
-    std::vector<double> wavelength_nm;          ///< degree + 1, ascending
+    std::vector<double> x;                      ///< cos(pi j / degree), j = 0 .. degree
+    std::vector<double> wavelength_nm;          ///< of these points, ascending
     std::array<std::vector<double>, 3> weight;  ///< of the points
     std::array<std::vector<double>, 3> moment;  ///< of T_0 .. T_degree
 };

@@ -8,7 +8,7 @@ namespace irido {
 
 namespace {
 
-constexpr double kWidth = 720, kLeft = 40, kRight = 20, kTop = 40, kStrip = 64, kGap = 8;
+constexpr double kWidth = 720, kLeft = 70, kRight = 20, kTop = 40, kStrip = 64, kGap = 8;
 constexpr std::size_t kMostTicks = 10;
 
 std::string number(double value) {

@@ -152,3 +152,22 @@ TEST_CASE("a strip of colours", "[cli][color]") {
     CHECK_THAT(svg, StartsWith("<svg ") && Contains("fill=\"#7f3e57\""));
     CHECK_THAT(svg, Contains("angle of incidence"));
 }
+
+TEST_CASE("the same stack under every illuminant", "[cli][color]") {
+    const std::string stack = "air | TiO2@35 | Ti";
+    const auto rows = parse_csv(run_irido({"color", stack, "--compare-illuminants"}).out);
+    REQUIRE(rows.size() == 7);
+    CHECK(rows[0][12] + "," + rows[0][13] == "illuminant,delta_e_2000");
+    CHECK(rows[1][12] == "D65");
+    CHECK(rows[1][13] == "0");
+    CHECK(std::stod(rows[3][13]) > 1);  // A: a visible shift
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const auto alone = row_of({"color", stack, "--illuminant", rows[i][12]});
+        CHECK(std::vector<std::string>(rows[i].begin(), rows[i].begin() + 12) == alone);
+    }
+    const auto from_a =
+        parse_csv(run_irido({"color", stack, "--compare-illuminants", "--illuminant", "A"}).out);
+    CHECK(from_a[1][12] == "A");
+    CHECK(from_a[2][12] == "D65");
+    CHECK(std::abs(std::stod(from_a[2][13]) - std::stod(rows[3][13])) < 1e-12);
+}

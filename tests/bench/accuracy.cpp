@@ -1,0 +1,105 @@
+// How far spectra and colours are from independent methods on seeded random stacks: ./dev accuracy
+//   spectra  against transfer matrices in 100 digits
+//   colours  against adaptive Gauss-Legendre integration of every cell between two rows
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+
+#include "core/color/illuminant.hpp"
+#include "core/color/stack_color.hpp"
+#include "core/interference/spectrum.hpp"
+#include "tests/oracle/color_oracle.hpp"
+#include "tests/oracle/random_stacks.hpp"
+#include "tests/oracle/stack_oracle.hpp"
+
+namespace {
+
+using namespace irido;
+
+struct Worst {
+    double R = 0, T = 0, sum = 0;  ///< |dR|, |dT|/T, |R + T + A - 1|
+
+    void take(const Power& power, const Power& exact) {
+        R = std::max(R, std::abs(power.R - exact.R));
+        T = std::max(T, std::abs(power.T - exact.T) / exact.T);
+        sum = std::max(sum, std::abs(power.R + power.T + power.A - 1));
+    }
+};
+
+Worst compare_spectra(oracle::Kind kind, int count) {
+    Worst worst;
+    oracle::Random random(1 + static_cast<std::uint64_t>(kind));
+    for (int i = 0; i < count; ++i) {
+        const Stack stack = oracle::random_stack(kind, random);
+        const double angle = oracle::random_angle(random), nm = random.uniform(400, 700);
+        const IndexTable table(stack, {nm});
+        std::vector<Polarized> at(1);
+        power_spectrum(StackPower(stack), table, cos_of_incidence(angle), {}, at);
+        worst.take(at[0].s.power, oracle::coherent(stack, {nm, angle, Polarization::s}));
+        worst.take(at[0].p.power, oracle::coherent(stack, {nm, angle, Polarization::p}));
+    }
+    return worst;
+}
+
+struct ColorErrors {
+    std::vector<double> errors;
+    std::size_t violations = 0, evaluations = 0;
+};
+
+ColorErrors compare_colors(oracle::Kind kind, int count, double tolerance) {
+    ColorErrors result;
+    oracle::Random random(1000 + static_cast<std::uint64_t>(kind));
+    for (int i = 0; i < count; ++i) {
+        const Stack stack = oracle::random_stack(kind, random);
+        const double angle = oracle::random_angle(random);
+        const Side side = random.below(3) == 0 ? Side::transmitted : Side::reflected;
+        const Observer& eye = observer(random.below(2) == 0 ? 2 : 10);
+        const Table light = illuminant(illuminant_names()[random.below(illuminant_names().size())]);
+        const Sensitivity sensitivity(eye, light);
+        const ColorIntegral color = stack_color(stack, sensitivity, std::span(&angle, 1),
+                                                std::span(&side, 1), {.tolerance = tolerance}, 1)
+                                        .front();
+        const Triple exact = oracle::stack_xyz(stack, eye, light, angle, side == Side::transmitted,
+                                               tolerance / 1000);
+        double error = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            error = std::max(error, std::abs(color.xyz[c] - exact[c]));
+        result.errors.push_back(error);
+        result.evaluations += color.evaluations;
+        if (error > tolerance) {
+            ++result.violations;
+            std::printf("# error %.3g, estimate %.3g at %.17g degrees: %s\n", error, color.error,
+                        angle, oracle::text_of(stack).c_str());
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int count = argc > 1 ? std::atoi(argv[1]) : 200;
+    if (count < 1) {
+        std::fputs("usage: irido_accuracy [COUNT]: random stacks of each kind\n", stderr);
+        return 2;
+    }
+    std::puts("what,kind,stacks,tolerance,worst,worst_T_relative,worst_sum,violations,evaluations");
+    for (std::size_t k = 0; k < oracle::kKinds; ++k) {
+        const auto kind = static_cast<oracle::Kind>(k);
+        const std::string name(oracle::name_of(kind));
+        const Worst worst = compare_spectra(kind, count);
+        std::printf("spectrum,%s,%d,,%.2g,%.2g,%.2g,,\n", name.c_str(), count, worst.R, worst.T,
+                    worst.sum);
+        for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+            const ColorErrors colors = compare_colors(kind, count, tolerance);
+            std::printf("color,%s,%d,%.0e,%.2g,,,%zu,%zu\n", name.c_str(), count, tolerance,
+                        *std::max_element(colors.errors.begin(), colors.errors.end()),
+                        colors.violations, colors.evaluations / colors.errors.size());
+            std::fflush(stdout);
+        }
+    }
+    return 0;
+}
