@@ -59,21 +59,13 @@ std::vector<Side> parse_sides(const std::string& text) {
     throw UsageError("--side: must be R, T or both with a comma (got '" + text + "')");
 }
 
-std::string one_of(std::span<const std::string_view> names) {
-    std::string text;
-    for (const std::string_view name : names)
-        text += (text.empty() ? "" : ", ") + std::string(name);
-    return text;
-}
-
 bool contains(std::span<const std::string_view> names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
 const RgbSpace& parse_space(const std::string& text) {
     if (contains(rgb_space_names(), text)) return rgb_space(text);
-    throw UsageError("--space: must be one of " + one_of(rgb_space_names()) + " (got '" + text +
-                     "')");
+    throw UsageError("--space: " + not_one_of(rgb_space_names(), text));
 }
 
 const Observer& parse_observer(const std::string& text) {
@@ -87,18 +79,17 @@ Table parse_illuminant(const std::string& text) {
     try {
         return read_spectrum_csv(read_text(text), text);
     } catch (const InputError& error) {
-        if (text.find_first_of("./-") != std::string::npos) throw;
-        throw UsageError("--illuminant: must be one of " + one_of(illuminant_names()) +
-                         " or a file (got '" + text + "')");
+        if (text.find_first_of("./") != std::string::npos || text == "-") throw;
+        throw UsageError("--illuminant: " + not_one_of(illuminant_names(), text) +
+                         ", or a file");
     }
 }
 
 void check_choice(const std::string& option, const std::string& text,
                   std::initializer_list<std::string_view> choices) {
     if (std::ranges::find(choices, text) == choices.end())
-        throw UsageError(option + ": must be one of " +
-                         one_of(std::span(choices.begin(), choices.size())) + " (got '" + text +
-                         "')");
+        throw UsageError(option + ": " +
+                         not_one_of(std::span(choices.begin(), choices.size()), text));
 }
 
 ColorRequest parse(const ColorOptions& options) {
@@ -285,7 +276,7 @@ LitColors colors_under(const Sensitivity& sensitivity, const StackDocument& docu
 
 int run_color(const ColorOptions& options) {
     const bool is_picture = resolved_format(options.output) == "svg";
-    if (!is_picture) resolved_record_format(options.output);
+    if (!is_picture) resolved_record_format(options.output, "svg");
     const ColorRequest request = parse(options);
     const Observer& eye = parse_observer(options.observer);
     const Sensitivity first(eye, parse_illuminant(options.illuminant));

@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "core/error.hpp"
 #include "tables/atomic_file.hpp"
 
 namespace irido {
@@ -64,10 +65,12 @@ std::string resolved_format(const OutputOptions& output) {
     return output.file.substr(dot + 1);
 }
 
-const RecordFormat& resolved_record_format(const OutputOptions& output) {
+const RecordFormat& resolved_record_format(const OutputOptions& output, std::string_view others) {
     const std::string name = resolved_format(output);
     if (const RecordFormat* format = find_record_format(name)) return *format;
-    throw UsageError("--format: must be one of csv, json, npy (got '" + name + "')");
+    std::vector<std::string_view> names{"csv", "json", "npy"};
+    if (!others.empty()) names.push_back(others);
+    throw UsageError("--format: " + not_one_of(names, name));
 }
 
 void write_records(const Records& records, const OutputOptions& output) {

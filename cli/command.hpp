@@ -41,8 +41,9 @@ void set_examples(CLI::App& command, const std::vector<std::string>& examples);
 /// The format's name as typed or as the file's extension says, "csv" if by neither. UsageError.
 std::string resolved_format(const OutputOptions& output);
 
-/// The format of tables/records.hpp of that name. Throws UsageError.
-const RecordFormat& resolved_record_format(const OutputOptions& output);
+/// The format of tables/records.hpp of that name. Throws UsageError, which names `others` too.
+const RecordFormat& resolved_record_format(const OutputOptions& output,
+                                           std::string_view others = "");
 
 /// Writes records to the file or to standard output.
 void write_records(const Records& records, const OutputOptions& output);

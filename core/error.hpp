@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,5 +19,8 @@ std::string to_text(double value);
 
 /// Throws DomainError unless `value` lies in the closed range [lowest, highest]; NaN never does.
 void require_in_range(std::string_view name, double value, double lowest, double highest);
+
+/// "must be one of a, b, c (got x)".
+std::string not_one_of(std::span<const std::string_view> names, std::string_view got);
 
 }  // namespace irido

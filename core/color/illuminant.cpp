@@ -45,9 +45,7 @@ Table illuminant(std::string_view name) {
     if (name == "E") return {{300, 830}, {100, 100}};
     if (name == "FL2") return rows_of_5_nm(380, kFl2);
     if (name == "FL11") return rows_of_5_nm(380, kFl11);
-    std::string names;
-    for (const std::string_view known : kNames) names.append(names.empty() ? "" : ", ") += known;
-    throw DomainError("illuminant must be one of " + names + " (got " + std::string(name) + ")");
+    throw DomainError("illuminant " + not_one_of(kNames, name));
 }
 
 std::span<const std::string_view> illuminant_names() {

@@ -92,9 +92,7 @@ double bt2020_curve(double v) {
 const RgbSpace& rgb_space(std::string_view name) {
     const auto found = std::ranges::find(kSpaces, name, &RgbSpace::name);
     if (found != kSpaces.end()) return *found;
-    std::string names;
-    for (const std::string_view known : kNames) names.append(names.empty() ? "" : ", ") += known;
-    throw DomainError("space must be one of " + names + " (got " + std::string(name) + ")");
+    throw DomainError("space " + not_one_of(kNames, name));
 }
 
 std::span<const std::string_view> rgb_space_names() {
