@@ -59,25 +59,22 @@ IndexTable index_table(const StackDocument& document, const std::vector<double>&
     }
 }
 
-StackPower stack_power(const StackDocument& document) {
-    try {
-        return StackPower(document.stack);
-    } catch (const DomainError& error) {
-        throw InputError(document.file, "", error.what());
-    }
-}
-
-/// Powers [angle][wavelength].
-std::vector<Polarized> compute(const StackPower& stack, const IndexTable& table,
+/// Responses [angle][wavelength].
+std::vector<Polarized> compute(const StackDocument& document, const IndexTable& table,
                                const std::vector<double>& angles_deg, Needs needs,
                                unsigned threads) {
     const std::size_t count = table.wavelength_nm().size();
-    std::vector<Polarized> powers(angles_deg.size() * count);
-    parallel_for(angles_deg.size(), powers.size() < 256 ? 1 : threads, [&](std::size_t i) {
-        power_spectrum(stack, table, cos_of_incidence(angles_deg[i]), needs,
-                       std::span(powers).subspan(i * count, count));
-    });
-    return powers;
+    std::vector<Polarized> responses(angles_deg.size() * count);
+    try {
+        const StackPower stack(document.stack);
+        parallel_for(angles_deg.size(), responses.size() < 256 ? 1 : threads, [&](std::size_t i) {
+            power_spectrum(stack, table, cos_of_incidence(angles_deg[i]), needs,
+                           std::span(responses).subspan(i * count, count));
+        });
+    } catch (const DomainError& error) {
+        throw InputError(document.file, "", error.what());
+    }
+    return responses;
 }
 
 Power in_polarization(const Polarized& power, char letter) {
@@ -121,8 +118,8 @@ int run_spectrum(const SpectrumOptions& options) {
     const bool mean = letters.find('u') != std::string::npos;
     const Needs needs{mean || letters.find('s') != std::string::npos,
                       mean || letters.find('p') != std::string::npos};
-    const std::vector<Polarized> powers = compute(
-        stack_power(document), index_table(document, wavelengths), angles, needs, options.threads);
+    const std::vector<Polarized> powers =
+        compute(document, index_table(document, wavelengths), angles, needs, options.threads);
     write_records(to_records(wavelengths, angles, letters, powers), options.output);
     return 0;
 }

@@ -119,13 +119,16 @@ Response coherent_response(const Medium& above, std::span<const Element> element
     Power& power = response.power;
     power.R = std::norm(difference) / std::norm(sum);
     power.T = unit * out.flux * std::exp(-2 * m.log_scale);
-    if (slab.absorbs) response.denominator *= std::polar(1.0, dying_phase(elements, media, k0));
-    if (slab.absorbs)
+    if (slab.absorbs) {
+        response.denominator *= std::polar(1.0, dying_phase(elements, media, k0));
         power.A = unit * absorbed_flux(slab.absorbed, out) * std::exp(2 * slab.absorbed.log_scale);
+    }
     // an absorbing medium above mixes the incident and the reflected wave's power
     if (const Complex y0 = in.c / in.b; y0.imag() != 0)
         power.A -= 2 * (y0.imag() / y0.real()) * (difference / sum).imag();
     if (std::abs(power.A) > kSubtractable) power.A = 1 - power.R - power.T;
+    if (!std::isfinite(power.R + power.T + power.A))
+        throw DomainError("the stack amplifies without bound at this wavelength and angle");
     return response;
 }
 

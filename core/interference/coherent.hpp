@@ -56,7 +56,8 @@ struct Response {
 ///   elements      layers and groups from `above` to `below`
 ///   media         one per material of the stack;  k0 = 2 pi / wavelength, 1/nm
 /// Power is {1, 0, 0} when `above` carries no power towards the layers (exactly 90 degrees),
-/// {0, 1, 0} if then all media are the same.
+/// {0, 1, 0} if then all media are the same. Throws DomainError at the laser threshold of a stack
+/// that amplifies, where no power is finite.
 /// Source: P. Yeh, Optical Waves in Layered Media (1988), ch. 4 and 5; H. A. Macleod, Thin-Film
 /// Optical Filters (2010), ch. 2.
 Response coherent_response(const Medium& above, std::span<const Element> elements,
