@@ -24,6 +24,7 @@ struct ColorOptions {
     StackRequest stack;
     std::string angles = "0";
     std::string sides = "R";
+    std::string polarization = "u";
     std::string illuminant = "D65";
     std::string observer = "2";
     std::string space = "srgb";
@@ -42,6 +43,7 @@ struct ColorOptions {
 struct ColorRequest {
     std::vector<double> angles_deg;
     std::vector<Side> sides;
+    Light light;
     IntegrationLimits limits;
     const RgbSpace& space;
     Adaptation adaptation;
@@ -63,6 +65,13 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
+Light parse_light(const std::string& text) {
+    if (text == "s") return Light::s;
+    if (text == "p") return Light::p;
+    if (text == "u") return Light::unpolarized;
+    throw UsageError("--polarization: must be one of s, p, u for a colour (got '" + text + "')");
+}
+
 const RgbSpace& parse_space(const std::string& text) {
     if (contains(rgb_space_names(), text)) return rgb_space(text);
     throw UsageError("--space: " + not_one_of(rgb_space_names(), text));
@@ -80,8 +89,7 @@ Table parse_illuminant(const std::string& text) {
         return read_spectrum_csv(read_text(text), text);
     } catch (const InputError& error) {
         if (text.find_first_of("./") != std::string::npos || text == "-") throw;
-        throw UsageError("--illuminant: " + not_one_of(illuminant_names(), text) +
-                         ", or a file");
+        throw UsageError("--illuminant: " + not_one_of(illuminant_names(), text) + ", or a file");
     }
 }
 
@@ -99,6 +107,7 @@ ColorRequest parse(const ColorOptions& options) {
     if (tolerance.size() != 1) throw UsageError("--tolerance: must be one number");
     return {parse_list("--angles", options.angles, 0, kLargestAngle_deg),
             parse_sides(options.sides),
+            parse_light(options.polarization),
             {.tolerance = tolerance[0]},
             parse_space(options.space),
             options.adaptation == "none" ? Adaptation::none : Adaptation::bradford};
@@ -268,7 +277,7 @@ LitColors colors_under(const Sensitivity& sensitivity, const StackDocument& docu
     try {
         return {"", sensitivity.white(),
                 stack_color(document.stack, sensitivity, request.angles_deg, request.sides,
-                            request.limits, threads)};
+                            request.limits, threads, request.light)};
     } catch (const DomainError& error) {
         throw InputError(document.file, "", error.what());
     }
@@ -307,11 +316,16 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
         .add_option("-a,--angles", options.angles,
                     "angles of incidence in the incident medium, degrees, [0, 90] [0]")
         ->type_name("LIST");
-    command.add_option("--side", options.sides, "R (reflected), T (transmitted) or both [R]")
-        ->type_name("R,T");
+    command.add_option("--side", options.sides, "R (reflected), T (transmitted) or R,T [R]")
+        ->type_name("SIDES");
+    command
+        .add_option("-p,--polarization", options.polarization,
+                    "s, p or u (unpolarized: the mean of both) [u]")
+        ->type_name("LETTER");
     command
         .add_option("--illuminant", options.illuminant,
-                    "D65, D50, A, E, FL2, FL11 or a CSV file of nm,power [D65]")
+                    "D65, D50, A, E, FL2, FL11 or a CSV file of rows nm,power\n"
+                    "(relative, linear in between, zero outside) [D65]")
         ->type_name("NAME");
     command.add_flag("--compare-illuminants", options.compare,
                      "the same under every other named illuminant too; adds\n"
@@ -327,7 +341,8 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
                     "bradford (a perfect mirror is r = g = b = 1) or none [bradford]")
         ->type_name("NAME");
     command
-        .add_option("--method", options.method, "auto or quadrature (product quadrature) [auto]")
+        .add_option("--method", options.method,
+                    "auto, or quadrature: product quadrature, which auto takes [auto]")
         ->type_name("NAME");
     command
         .add_option("--tolerance", options.tolerance,

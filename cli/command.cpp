@@ -12,13 +12,15 @@ namespace irido {
 void add_stack_options(CLI::App& command, StackRequest& request) {
     command
         .add_option("STACK", request.stack,
-                    "stack file (.json), - for standard input, or an expression\n"
-                    "\"air | SiO2@100 | Si\": media from the incident side, @ nm")
+                    "stack file (.json; irido validate --schema explains it),\n"
+                    "- for standard input, or an expression: media from the\n"
+                    "incident side with their thickness in nm after @,\n"
+                    "\"air | (TiO2@58.5 | 1.46@94.2)^10 | 1.9+1.5i\"")
         ->required();
     command
         .add_option("--set", request.set,
-                    "PATH=VALUE: override a value of the stack by dotted path,\n"
-                    "repeatable: layers.0.thickness_nm=400")
+                    "override a value of the stack by dotted path, once for each:\n"
+                    "--set layers.0.thickness_nm=400 --set substrate=Si")
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false);
 }
@@ -70,7 +72,8 @@ const RecordFormat& resolved_record_format(const OutputOptions& output, std::str
     if (const RecordFormat* format = find_record_format(name)) return *format;
     std::vector<std::string_view> names{"csv", "json", "npy"};
     if (!others.empty()) names.push_back(others);
-    throw UsageError("--format: " + not_one_of(names, name));
+    throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
+                     not_one_of(names, name));
 }
 
 void write_records(const Records& records, const OutputOptions& output) {

@@ -62,7 +62,8 @@ int run_program(int argc, char** argv) {
     const std::vector<std::string> commands = names_of(program.get_subcommands({}));
     if (const std::string first = argc > 1 ? argv[1] : "--help";
         !first.starts_with('-') && std::ranges::find(commands, first) == commands.end())
-        return fail("there is no command '" + first + "'" + did_you_mean(first, commands));
+        return fail("there is no command '" + first + "'" + did_you_mean(first, commands) +
+                    " (see irido --help)");
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version

@@ -20,9 +20,8 @@ struct MaterialsOptions {
 
 LibraryMaterial material_named(std::string_view name) {
     if (auto found = find_material(name)) return *std::move(found);
-    const auto names = library_names();
-    throw UsageError("materials: unknown material '" + std::string(name) + "'" +
-                     did_you_mean(name, {names.begin(), names.end()}) +
+    throw UsageError("there is no material '" + std::string(name) + "'" +
+                     did_you_mean(name, library_names_and_aliases()) +
                      ", see irido materials list");
 }
 

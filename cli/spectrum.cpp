@@ -143,7 +143,7 @@ void add_spectrum_command(CLI::App& program, Run& run) {
     command
         ->add_option("-p,--polarization", options->polarization,
                      "s, p, u (unpolarized: the mean of both), several with commas [u]")
-        ->type_name("s,p,u");
+        ->type_name("LETTERS");
     add_output_options(*command, options->output, "csv, json or npy [csv]");
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");

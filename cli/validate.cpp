@@ -36,12 +36,27 @@ void add_validate_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
         "validate", "Check stack files: every error of every file, or FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
-    command->add_option("FILE", *files, "stack files (.json), - for standard input")->required();
+    const auto schema = std::make_shared<bool>(false);
+    CLI::Option* flag = command->add_flag(
+        "--schema", *schema, "print the JSON Schema of stack files, which explains every key");
+    command->add_option("FILE", *files, "stack files (.json), - for standard input")
+        ->excludes(flag);
     set_examples(*command,
                  {"irido validate schemas/examples/*.json", "irido validate - < stack.json"});
     command->footer(command->get_footer() +
                     "\n\nExit status: 0 if all are right, 1 if not, 2 if a file cannot be read.");
-    command->callback([files, &run] { run = [files] { return run_validate(*files); }; });
+    command->callback([files, schema, &run] {
+        if (*schema) {
+            run = [] {
+                write_stdout(stack_schema_text());
+                return 0;
+            };
+        } else if (files->empty()) {
+            throw UsageError("validate: FILE is required (see irido validate --help)");
+        } else {
+            run = [files] { return run_validate(*files); };
+        }
+    });
 }
 
 }  // namespace irido

@@ -90,17 +90,6 @@ std::string index_text(double n, double k) {
     return to_text(n) + (k > 0 ? "+" : "") + to_text(k) + "i";
 }
 
-/// Names and aliases of the built-in materials.
-std::vector<std::string> built_in_names() {
-    std::vector<std::string> names;
-    for (const std::string_view name : library_names()) {
-        names.emplace_back(name);
-        const auto aliases = find_material(name)->aliases;
-        names.insert(names.end(), aliases.begin(), aliases.end());
-    }
-    return names;
-}
-
 // --- equal materials ------------------------------------------------------------------------
 
 void mix(std::size_t& hash, double value) {
@@ -262,7 +251,9 @@ private:
         }
         if (object.contains("table")) {
             require_increasing(object["table"], pointer + "/table");
-            return {pointer, read_table(object["table"])};
+            const RefractiveIndex index = read_table(object["table"]);
+            note_gain(index, pointer);
+            return {pointer, index};
         }
         if (object.contains("cauchy")) {
             return {pointer, RefractiveIndex{read_cauchy(object["cauchy"])}};
@@ -277,6 +268,7 @@ private:
         if (std::hypot(n, k) < kSmallestIndex) {
             report(pointer, "must be at least 1e-6 in size (got " + index_text(n, k) + ")");
         }
+        if (k < 0) result_.notes.push_back(file_ + ": " + pointer + ": k < 0 amplifies");
         Material result{index_text(n, k), {}};
         auto& index = std::get<RefractiveIndex>(result.model);
         index.n = Constant{n};
@@ -286,8 +278,8 @@ private:
 
     Material built_in(const std::string& name, const std::string& pointer) {
         if (const auto found = find_material(name)) return found->material;
-        report(pointer,
-               "there is no material \"" + name + "\"" + did_you_mean(name, built_in_names()));
+        report(pointer, "there is no material \"" + name + "\"" +
+                            did_you_mean(name, library_names_and_aliases()));
         return {name, RefractiveIndex{}};
     }
 
@@ -306,11 +298,19 @@ private:
             for (const std::string& note : read.notes) {
                 result_.notes.push_back(place.string() + ": " + note);
             }
+            note_gain(std::get<RefractiveIndex>(read.material.model), pointer);
             return std::move(read.material);
         } catch (const InputError& error) {
-            problems.push_back(error);
+            report(pointer, error.what());
             return {path, RefractiveIndex{}};
         }
+    }
+
+    /// A k below 0 is often a table of n - ik.
+    void note_gain(const RefractiveIndex& index, const std::string& pointer) {
+        const auto* k = std::get_if<Table>(&index.k);
+        if (k != nullptr && *std::min_element(k->value.begin(), k->value.end()) < 0)
+            result_.notes.push_back(file_ + ": " + pointer + ": k < 0 amplifies");
     }
 
     void require_increasing(const json& rows, const std::string& pointer) {
@@ -324,15 +324,23 @@ private:
         }
     }
 
-    /// The incident medium has k = 0, as far as that is one number; n > 0 follows from its size.
+    /// The incident medium has no k: none at all where that is one number, none to speak of in the
+    /// middle of the visible where it is a function.
     void require_real(std::size_t incident) {
-        if (is_broken("/incident")) return;
-        const auto* index = std::get_if<RefractiveIndex>(&result_.stack.materials[incident].model);
-        if (index == nullptr) return;
-        const auto* k = std::get_if<Constant>(&index->k);
-        if (k == nullptr || k->value == 0) return;
-        report("/incident",
-               "must neither absorb nor amplify: its k must be 0 (got " + to_text(k->value) + ")");
+        constexpr double kMiddle_nm = 550, kNegligible = 1e-5;
+        if (is_broken("/incident") || result_.stack.materials.empty()) return;
+        Material medium = result_.stack.materials[incident];
+        const bool is_number = is_constant(medium);
+        medium.outside = Outside::clamp;
+        double k = 0;
+        try {
+            k = index_at(medium, kMiddle_nm).imag();
+        } catch (const DomainError&) {
+            return;  // said where it is used
+        }
+        if (std::abs(k) > (is_number ? 0 : kNegligible))
+            report("/incident",
+                   "must neither absorb nor amplify: its k must be 0 (got " + to_text(k) + ")");
     }
 
     const json& document_;
@@ -363,6 +371,12 @@ StackSource load_stack(const StackRequest& request) {
         source.file = "\"" + request.stack + "\"";
         source.document = parse_stack_expression(request.stack);
     } else {
+        std::error_code ignored;
+        if (request.stack != "-" && request.stack.find('.') == std::string::npos &&
+            !std::filesystem::exists(request.stack, ignored))
+            throw InputError("", "",
+                             "there is no file '" + request.stack +
+                                 "', and an expression has a '|' (see --help)");
         source.file = shown_path(request.stack);
         source.folder = folder_of(request.stack);
         source.document = parse_json(read_text(request.stack), source.file);

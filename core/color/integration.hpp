@@ -48,7 +48,7 @@ struct ColorIntegral {
 
 struct IntegrationLimits {
     double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
-    std::size_t evaluations = 1U << 20;  ///< per spectrum; past it the best value is returned
+    std::size_t evaluations = 1U << 20;  ///< a spectrum; past it the best value is returned
 };
 
 /// Integrals of `items` spectra times the sensitivity over adjoining panels that cover its support.

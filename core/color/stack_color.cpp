@@ -20,7 +20,12 @@ constexpr WavelengthRange kEssential{400, 700};
 constexpr double kOpaqueExponent = 35;
 
 constexpr double kLargestHalfTurn = 70;
-constexpr std::size_t kMostFirstPanels = 2048;
+
+/// Layers computed for one spectrum before it is given up, and points that any stack may have.
+constexpr double kMostWork = 2e7, kFewestPoints = 4096;
+
+/// Points of a panel that is not cut any further.
+constexpr double kPanelPoints = 129;
 
 /// Twice the optical thickness that light passes before it is lost, nm, and the exponent of its
 /// loss.
@@ -51,6 +56,17 @@ void add_path(std::span<const Element> elements, std::span<const Medium> media, 
             path.exponent += repeat * period.exponent;
         }
     }
+}
+
+/// Layers whose matrices one evaluation takes, a doubling of an absorbing group among them.
+double work_of(std::span<const Element> elements) {
+    double work = 1;
+    for (const Element& element : elements) {
+        const Group* group = std::get_if<Group>(&element.value);
+        const double doublings = group ? std::log2(static_cast<double>(group->repeat)) : 0;
+        work += group ? work_of(group->elements) + 4 * doublings : 1;
+    }
+    return work;
 }
 
 /// Longest optical path over a few wavelengths and the steepest and flattest angle.
@@ -94,16 +110,21 @@ std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support) {
 }
 
 std::vector<SpectralPanel> first_panels(const Stack& stack, WavelengthRange support,
-                                        std::span<const double> angles_deg) {
+                                        std::span<const double> angles_deg,
+                                        std::size_t evaluations) {
     const double path = 1.1 * optical_path_nm(stack, support, angles_deg);
     const std::vector<double> ends = smooth_pieces(stack, support);
+    // more panels than can be afforded do not help: the fringes stay unresolved
+    const double wanted_in_all =
+        std::numbers::pi * path * (1 / support.first_nm - 1 / support.last_nm) / kLargestHalfTurn;
+    const double affordable = static_cast<double>(evaluations) / kPanelPoints / 4;
+    const double scale = std::min(1.0, affordable / wanted_in_all);
     std::vector<SpectralPanel> panels;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         const double nu_first = 1 / ends[i], nu_last = 1 / ends[i + 1];
         const double half_turn = std::numbers::pi * path * (nu_first - nu_last);
-        const double wanted = std::ceil(half_turn / kLargestHalfTurn);
         const auto count = static_cast<std::size_t>(
-            std::clamp(wanted, 1.0, static_cast<double>(kMostFirstPanels)));
+            std::max(1.0, std::ceil(scale * half_turn / kLargestHalfTurn)));
         double from = ends[i];
         for (std::size_t k = 1; k <= count; ++k) {
             const double part = static_cast<double>(k) / static_cast<double>(count);
@@ -116,10 +137,12 @@ std::vector<SpectralPanel> first_panels(const Stack& stack, WavelengthRange supp
     return panels;
 }
 
-SpectrumSample sample_of(const Polarized& at, Side side) {
-    const Power mean = at.unpolarized();
+SpectrumSample sample_of(const Polarized& at, Side side, Light light) {
+    const Power power = light == Light::s   ? at.s.power
+                        : light == Light::p ? at.p.power
+                                            : at.unpolarized();
     const auto scaled = [](const Response& r) { return ScaledComplex{r.denominator, r.log_scale}; };
-    return {side == Side::reflected ? mean.R : mean.T, {scaled(at.s), scaled(at.p)}};
+    return {side == Side::reflected ? power.R : power.T, {scaled(at.s), scaled(at.p)}};
 }
 
 }  // namespace
@@ -149,7 +172,7 @@ std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensit
 std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& sensitivity,
                                        std::span<const double> angles_deg,
                                        std::span<const Side> sides, const IntegrationLimits& limits,
-                                       unsigned threads) {
+                                       unsigned threads, Light light) {
     for (const HeldRange& entry : held_ranges(stack, sensitivity))
         if (!entry.usable)
             throw DomainError(
@@ -159,6 +182,11 @@ std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& se
     for (Material& material : held.materials) material.outside = Outside::clamp;
     const StackPower power(held);
     const std::size_t per_angle = sides.size();
+    const Needs needs{light != Light::p, light != Light::s};
+    IntegrationLimits bounded = limits;
+    bounded.evaluations = std::min(
+        limits.evaluations,
+        static_cast<std::size_t>(std::max(kFewestPoints, kMostWork / work_of(held.elements))));
 
     const SpectraAt spectra = [&](std::span<const double> wavelength_nm,
                                   std::span<const std::size_t> items,
@@ -173,16 +201,17 @@ std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& se
             const std::size_t angle = items[starts[k]] / per_angle;
             const std::size_t end = k + 1 < starts.size() ? starts[k + 1] : items.size();
             std::vector<Polarized> at(points);
-            power_spectrum(power, table, cos_of_incidence(angles_deg[angle]), {}, at);
+            power_spectrum(power, table, cos_of_incidence(angles_deg[angle]), needs, at);
             for (std::size_t i = starts[k]; i < end; ++i) {
                 const Side side = sides[items[i] % per_angle];
                 for (std::size_t w = 0; w < points; ++w)
-                    samples[i * points + w] = sample_of(at[w], side);
+                    samples[i * points + w] = sample_of(at[w], side, light);
             }
         });
     };
-    return integrate_color(sensitivity, first_panels(held, sensitivity.support(), angles_deg),
-                           angles_deg.size() * per_angle, spectra, limits);
+    const std::vector<SpectralPanel> panels =
+        first_panels(held, sensitivity.support(), angles_deg, bounded.evaluations);
+    return integrate_color(sensitivity, panels, angles_deg.size() * per_angle, spectra, bounded);
 }
 
 }  // namespace irido

@@ -1,5 +1,6 @@
 #include "core/interference/coherent.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -119,6 +120,7 @@ Response coherent_response(const Medium& above, std::span<const Element> element
     Power& power = response.power;
     power.R = std::norm(difference) / std::norm(sum);
     power.T = unit * out.flux * std::exp(-2 * m.log_scale);
+    if (!slab.absorbs && out.flux >= 0) power.R = std::min(power.R, 1.0);  // 1 + a rounding
     if (slab.absorbs) {
         response.denominator *= std::polar(1.0, dying_phase(elements, media, k0));
         power.A = unit * absorbed_flux(slab.absorbed, out) * std::exp(2 * slab.absorbed.log_scale);

@@ -151,7 +151,8 @@ double normalize(Matrix& m) {
     const double size = std::max({std::abs(m.a.real()), std::abs(m.a.imag()), std::abs(m.b.real()),
                                   std::abs(m.b.imag()), std::abs(m.c.real()), std::abs(m.c.imag()),
                                   std::abs(m.d.real()), std::abs(m.d.imag())});
-    if (!(size > 1e60)) return 0;
+    const bool shrunk = size > 0 && size < 1e-60 && m.log_scale + std::log(size) > 100;
+    if (!(size > 1e60) && !shrunk) return 0;
     const int exponent = std::ilogb(size);
     const double factor = std::ldexp(1.0, -exponent);
     for (Complex* entry : {&m.a, &m.b, &m.c, &m.d}) *entry *= factor;

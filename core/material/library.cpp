@@ -151,4 +151,14 @@ std::optional<LibraryMaterial> find_material(std::string_view name) {
     return found;
 }
 
+std::vector<std::string> library_names_and_aliases() {
+    std::vector<std::string> names;
+    for (const std::string_view name : library_names()) {
+        const std::optional<LibraryMaterial> found = find_material(name);
+        names.emplace_back(name);
+        names.insert(names.end(), found->aliases.begin(), found->aliases.end());
+    }
+    return names;
+}
+
 }  // namespace irido

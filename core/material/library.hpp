@@ -21,6 +21,9 @@ struct LibraryMaterial {
 /// Names of all built-in materials, aliases left out, related ones together. Static data.
 std::span<const std::string_view> library_names();
 
+/// The same with the aliases of each behind it, for suggestions.
+std::vector<std::string> library_names_and_aliases();
+
 /// The built-in material of this name or alias, exact and case-sensitive; nothing if there is none.
 std::optional<LibraryMaterial> find_material(std::string_view name);
 

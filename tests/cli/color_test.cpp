@@ -171,3 +171,21 @@ TEST_CASE("the same stack under every illuminant", "[cli][color]") {
     CHECK(from_a[2][12] == "D65");
     CHECK(std::abs(std::stod(from_a[2][13]) - std::stod(rows[3][13])) < 1e-12);
 }
+
+TEST_CASE("one polarization, and the mean of both", "[cli][color]") {
+    const std::string stack = "air | TiO2@35 | Ti";
+    const auto s = row_of({"color", stack, "-a", "60", "-p", "s"});
+    const auto p = row_of({"color", stack, "-a", "60", "-p", "p"});
+    const auto u = row_of({"color", stack, "-a", "60"});
+    CHECK(std::abs(std::stod(s[3]) - std::stod(p[3])) > 0.01);
+    for (std::size_t c = 2; c < 5; ++c)  // each is within its own tolerance of 1e-6
+        CHECK(std::abs((std::stod(s[c]) + std::stod(p[c])) / 2 - std::stod(u[c])) < 2e-6);
+    CHECK(run_irido({"color", stack, "-p", "s,p"}).status == 2);
+}
+
+TEST_CASE("a billion periods end soon, in numbers", "[cli][color]") {
+    const Outcome outcome = run_irido({"color", "air | (TiO2@58 | SiO2@94)^1000000000 | BK7"});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.err, Contains("the tolerance 1e-06 cannot be met"));
+    CHECK_THAT(outcome.err, !Contains("nan") && !Contains("inf"));
+}

@@ -187,7 +187,8 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
         {{"spectrum", stack, "-p", "x"}, "--polarization: must be s, p, u"},
         {{"spectrum", stack, "-p", "s,"}, "--polarization: must be s, p, u"},
         {{"spectrum", stack, "-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
-        {{"spectrum", stack, "-o", "x.xml"}, "--format: must be one of csv, json, npy (got xml)"},
+        {{"spectrum", stack, "-o", "x.xml"},
+         "--output: the extension must be one of csv, json, npy (got xml)"},
         {{"spectrum", stack, "-o", "x"}, "--output: must have an extension"},
         {{"spectrum", stack, "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
         {{"spectrum", stack, "-j", "1.5"}, "--threads: must be one whole number"},
@@ -200,7 +201,7 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
          "/layers/0/material: TiO2-rutile is known from 430 to 1530 nm (asked for 380)"},
         {{"spectrum", "1 | gold@10 | Agg"}, "/substrate: "},
         {{"spectrum", "1+0.1i | 1"}, "/incident: "},
-        {{"spectrum", "Au | 1"}, "/incident: the incident medium must be transparent"},
+        {{"spectrum", "Au | 1"}, "/incident: must neither absorb nor amplify: its k must be 0"},
         {{"spectrum", stack, "-o", "/no/such/folder/x.csv"},
          "/no/such/folder/x.csv: cannot be written: No such file or directory"},
     };

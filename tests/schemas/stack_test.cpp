@@ -252,7 +252,8 @@ TEST_CASE("validate lists what the schema and what the reader finds") {
             "\"layers\"} (got 5)",
         f + "/incident: must neither absorb nor amplify: its k must be 0 (got 1)",
         f + "/layers/0/material: there is no material \"watr\" (did you mean \"water\"?)",
-        (file.parent_path() / "none.csv").string() + ": cannot be read: No such file or directory",
+        f + "/layers/3/layers/0/material/file: " + (file.parent_path() / "none.csv").string() +
+            ": cannot be read: No such file or directory",
         f + "/substrate: there is no material \"airr\" (did you mean \"air\"?)"};
     CHECK(validate_stack_file(file.string()) == expected);
     std::filesystem::remove(file);

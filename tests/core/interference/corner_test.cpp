@@ -231,3 +231,15 @@ TEST_CASE("wavelengths from 1 nm to 1 cm") {
         check(periods(12, 2.3, 60, 1.46, 94, 1.52), wavelength, 45);
     }
 }
+
+TEST_CASE("weak absorption over a million periods stays finite") {
+    // the doubled matrices shrink as fast as their logarithm grows
+    for (const double k : {1e-12, 1e-9, 1e-6, 1e-3}) {
+        StackBuilder b;
+        b.add(StackBuilder::group(1000000, {b.layer({2.48, k}, 58), b.layer(1.46, 94)}));
+        const Powers powers = ask(b.over(1.52), 486.56, 0);
+        CAPTURE(k);
+        CHECK(std::abs(powers.s.R + powers.s.T + powers.s.A - 1) < 1e-13);
+        CHECK(powers.s.A > 0);
+    }
+}
