@@ -51,9 +51,16 @@ std::string strip_at(double y, const Swatches::Strip& strip) {
     return out;
 }
 
+/// 1, 2, 5, 10, 20, ...: the first that leaves at most kMostTicks labels.
+std::size_t tick_step(std::size_t count) {
+    for (std::size_t decade = 1;; decade *= 10)
+        for (const std::size_t digit : {1U, 2U, 5U})
+            if (count <= kMostTicks * digit * decade) return digit * decade;
+}
+
 std::string axis_at(double y, const Swatches& swatches) {
     const std::size_t count = swatches.positions.size();
-    const std::size_t step = (count + kMostTicks - 1) / kMostTicks;
+    const std::size_t step = tick_step(count);
     std::string out;
     for (std::size_t i = 0; i < count; i += step)
         out += text_at((edge(i, count) + edge(i + 1, count)) / 2, y, "middle",

@@ -112,7 +112,8 @@ TEST_CASE("k is 0 where the file does not give it, and the reader says so", "[ri
                                   "        0.29 1e-7\n"));
     CHECK(range_of(apart.material) == WavelengthRange{380, 780});
     CHECK(index_at(apart.material, 400).imag() == 0);
-    CHECK(has_note(apart, "k is known from 280 to 290 nm only, n from 380 to 780 nm: k = 0 elsewhere"));
+    CHECK(has_note(apart,
+                   "k is known from 280 to 290 nm only, n from 380 to 780 nm: k = 0 elsewhere"));
 
     const auto shorter =
         read("DATA:\n" + kFormulaN + table("k", "        0.4 0.1\n        0.9 0.1\n"));
