@@ -312,10 +312,7 @@ int run_color(const ColorOptions& options) {
 }
 
 void add_color_options(CLI::App& command, ColorOptions& options) {
-    command
-        .add_option("-a,--angles", options.angles,
-                    "angles of incidence in the incident medium, degrees, [0, 90] [0]")
-        ->type_name("LIST");
+    add_angles_option(command, options.angles);
     command.add_option("--side", options.sides, "R (reflected), T (transmitted) or R,T [R]")
         ->type_name("SIDES");
     command

@@ -34,6 +34,13 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
     command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
 }
 
+void add_angles_option(CLI::App& command, std::string& angles) {
+    command
+        .add_option("-a,--angles", angles,
+                    "angles of incidence in the incident medium, degrees, [0, 90] [0]")
+        ->type_name("LIST");
+}
+
 void add_threads_option(CLI::App& command, unsigned& threads) {
     command
         .add_option_function<std::string>(

@@ -32,6 +32,9 @@ void add_stack_options(CLI::App& command, StackRequest& request);
 /// -o and -f; `formats` as the help shows them.
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
 
+/// -a
+void add_angles_option(CLI::App& command, std::string& angles);
+
 /// -j
 void add_threads_option(CLI::App& command, unsigned& threads);
 

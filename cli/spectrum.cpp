@@ -136,10 +136,7 @@ void add_spectrum_command(CLI::App& program, Run& run) {
                      "vacuum wavelengths, nm, [1, 1e7]: v, v1,v2, start:stop:step\n"
                      "or start:stop/count [380:780:1]")
         ->type_name("LIST");
-    command
-        ->add_option("-a,--angles", options->angles,
-                     "angles of incidence in the incident medium, degrees, [0, 90] [0]")
-        ->type_name("LIST");
+    add_angles_option(*command, options->angles);
     command
         ->add_option("-p,--polarization", options->polarization,
                      "s, p, u (unpolarized: the mean of both), several with commas [u]")

@@ -175,10 +175,13 @@ private:
     void settle(const PanelRule& rule, const Triple& budget, bool last,
                 std::vector<std::size_t>& items, Samples& samples) {
         const std::size_t points = rule.wavelength_nm.size();
+        Triple per_coefficient{};
+        for (std::size_t c = 0; c < 3; ++c)
+            per_coefficient[c] = error_per_coefficient(rule.moment[c]);
         std::size_t left = 0;
         for (std::size_t i = 0; i < items.size(); ++i) {
             const std::span<const SpectrumSample> f(samples.data() + i * points, points);
-            const Triple error = estimate(rule, f);
+            const Triple error = estimate(rule, per_coefficient, f);
             bool met = true;
             for (std::size_t c = 0; c < 3; ++c) met = met && error[c] <= budget[c];
             const std::size_t item = items[i];
@@ -194,7 +197,8 @@ private:
     }
 
     /// Error of the panel's X, Y, Z.
-    static Triple estimate(const PanelRule& rule, std::span<const SpectrumSample> f) {
+    static Triple estimate(const PanelRule& rule, const Triple& per_coefficient,
+                           std::span<const SpectrumSample> f) {
         const std::size_t points = f.size();
         std::vector<double> values(points), coefficients(points);
         for (std::size_t j = 0; j < points; ++j) values[j] = f[j].value;
@@ -204,7 +208,7 @@ private:
         for (std::size_t which = 0; which < 2; ++which) mark_hidden_zeros(rule.x, f, which, marked);
         Triple error{};
         for (std::size_t c = 0; c < 3; ++c) {
-            error[c] = error_per_coefficient(rule.moment[c]) * last;
+            error[c] = per_coefficient[c] * last;
             for (std::size_t j = 0; j < points; ++j)
                 if (marked[j]) error[c] += std::abs(rule.weight[c][j]);
         }

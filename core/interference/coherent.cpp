@@ -19,9 +19,7 @@ struct Wave {
 
 /// The wave that travels or decays away from the stack: Im(kz) > 0, or Re(kz) > 0 where it is real.
 Wave outgoing_wave(const Medium& m, Polarization polarization) {
-    Complex kz = m.q2.imag() != 0   ? std::sqrt(m.q2)
-                 : m.q2.real() >= 0 ? Complex(std::sqrt(m.q2.real()), 0)
-                                    : Complex(0, std::sqrt(-m.q2.real()));
+    Complex kz = square_root(m.q2);
     if (kz.imag() < 0) kz = -kz;
     if (polarization == Polarization::s) return {1, kz, kz.real()};
     return {kz, m.eps, (std::conj(kz) * m.eps).real()};

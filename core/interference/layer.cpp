@@ -19,12 +19,6 @@ struct Phase {
     double log_scale;
 };
 
-/// Principal square root, exact on the real axis.
-Complex square_root(Complex z) {
-    if (z.imag() != 0) return std::sqrt(z);
-    return z.real() >= 0 ? Complex(std::sqrt(z.real()), 0) : Complex(0, std::sqrt(-z.real()));
-}
-
 Phase layer_phase(Complex q2, double k0_d) {
     Complex delta = k0_d * square_root(q2);
     if (delta.imag() < 0) delta = -delta;  // c and sd are even in delta
@@ -33,10 +27,8 @@ Phase layer_phase(Complex q2, double k0_d) {
         const Complex half = std::sin(delta / 2.0);
         return {a, b, -2.0 * half * half, std::sin(delta), 0};
     }
-    const double cos_a = std::cos(a), sin_a = std::sin(a);
-    const double half_less = -std::expm1(-2 * b) / 2, half_more = 1 - half_less;
-    const Complex c{cos_a * half_more, -sin_a * half_less};
-    return {a, b, c - std::exp(-b), {sin_a * half_more, cos_a * half_less}, b};
+    const ScaledTurn turn = scaled_turn(delta);
+    return {a, b, turn.cos - std::exp(-b), turn.sin, b};
 }
 
 /// k0 d sinc(delta), times exp(-log_scale).
@@ -131,6 +123,17 @@ Matrix phase_matrix(const Medium& m, const Phase& phase, double k0_d, Polarizati
 }
 
 }  // namespace
+
+Complex square_root(Complex z) {
+    if (z.imag() != 0) return std::sqrt(z);
+    return z.real() >= 0 ? Complex(std::sqrt(z.real()), 0) : Complex(0, std::sqrt(-z.real()));
+}
+
+ScaledTurn scaled_turn(Complex z) {
+    const double cos_a = std::cos(z.real()), sin_a = std::sin(z.real());
+    const double half_less = -std::expm1(-2 * z.imag()) / 2, half_more = 1 - half_less;
+    return {{cos_a * half_more, -sin_a * half_less}, {sin_a * half_more, cos_a * half_less}};
+}
 
 Matrix layer_matrix(const Medium& m, double k0_d, Polarization polarization) {
     return phase_matrix(m, layer_phase(m.q2, k0_d), k0_d, polarization);

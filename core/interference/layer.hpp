@@ -30,6 +30,15 @@ struct Slab {
     bool absorbs = false;
 };
 
+/// Principal square root, exact on the real axis.
+Complex square_root(Complex z);
+
+/// cos(z) and sin(z), both times exp(-Im z), for Im z >= 0.
+struct ScaledTurn {
+    Complex cos, sin;
+};
+ScaledTurn scaled_turn(Complex z);
+
 /// Characteristic matrix of one layer, thickness k0 d (radians in vacuum, >= 0).
 Matrix layer_matrix(const Medium& medium, double k0_d, Polarization polarization);
 

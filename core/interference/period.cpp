@@ -10,17 +10,6 @@ namespace {
 /// Where exp(2 |Im K|) passes the digits of a double, only one Bloch wave is left.
 constexpr double kLargestLogTrace = 40;
 
-/// cos(z) and sin(z), both times exp(-Im z), for Im z >= 0.
-struct ScaledTurn {
-    Complex cos, sin;
-};
-
-ScaledTurn scaled_turn(Complex z) {
-    const double cos_a = std::cos(z.real()), sin_a = std::sin(z.real());
-    const double half_less = -std::expm1(-2 * z.imag()) / 2, half_more = 1 - half_less;
-    return {{cos_a * half_more, -sin_a * half_less}, {sin_a * half_more, cos_a * half_less}};
-}
-
 /// (sign cos(z) - 1) exp(-log_scale); cos_z is cos(z) exp(-Im z), log_scale >= Im z.
 Complex without_identity(double sign, Complex z, Complex cos_z, double log_scale) {
     if (sign > 0 && z.imag() < 1) {
