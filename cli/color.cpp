@@ -273,11 +273,11 @@ std::vector<std::string> illuminants(const ColorOptions& options) {
 }
 
 LitColors colors_under(const Sensitivity& sensitivity, const StackDocument& document,
-                       const ColorRequest& request, unsigned threads) {
+                       const ColorRequest& request, const Execution& execution) {
     try {
         return {"", sensitivity.white(),
                 stack_color(document.stack, sensitivity, request.angles_deg, request.sides,
-                            request.limits, threads, request.light)};
+                            request.limits, execution, request.light)};
     } catch (const DomainError& error) {
         throw InputError(document.file, "", error.what());
     }
@@ -295,7 +295,7 @@ int run_color(const ColorOptions& options) {
     std::vector<LitColors> lits;
     for (const std::string& name : illuminants(options)) {
         lits.push_back(colors_under(lits.empty() ? first : Sensitivity(eye, illuminant(name)),
-                                    document, request, options.threads));
+                                    document, request, execution_of(options.threads)));
         lits.back().illuminant = name;
         if (const int status = check_tolerance(request, lits.back().colors, document.file))
             return status;

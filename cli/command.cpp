@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
 
 #include "core/error.hpp"
@@ -53,6 +54,28 @@ void add_threads_option(CLI::App& command, unsigned& threads) {
             },
             "threads [all cores]; the answer does not depend on it")
         ->type_name("N");
+}
+
+Execution execution_of(unsigned threads) {
+    const char* const name = std::getenv("IRIDO_SIMD");
+    if (!name || !*name) return {threads};
+    std::vector<std::string_view> names;
+    for (const SimdLevel level : kSimdLevels) {
+        names.push_back(name_of(level));
+        if (names.back() != name) continue;
+        if (!is_available(level))
+            throw UsageError("IRIDO_SIMD: this machine has no " + std::string(name));
+        return {threads, level};
+    }
+    throw UsageError("IRIDO_SIMD: " + not_one_of(names, name));
+}
+
+double parse_one_number(std::string_view option, const std::string& text, double lowest,
+                        double highest) {
+    const std::vector<double> values = parse_list(option, text, lowest, highest);
+    if (values.size() != 1)
+        throw UsageError(std::string(option) + ": must be one number (got '" + text + "')");
+    return values.front();
 }
 
 void set_examples(CLI::App& command, const std::vector<std::string>& examples) {

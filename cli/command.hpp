@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/list.hpp"
+#include "core/math/simd_level.hpp"
 #include "schemas/stack_document.hpp"
 #include "tables/records.hpp"
 
@@ -19,6 +20,7 @@ void add_spectrum_command(CLI::App& program, Run& run);
 void add_color_command(CLI::App& program, Run& run);
 void add_materials_command(CLI::App& program, Run& run);
 void add_validate_command(CLI::App& program, Run& run);
+void add_bench_command(CLI::App& program, Run& run);
 
 /// Where a command's answer goes, as typed.
 struct OutputOptions {
@@ -37,6 +39,14 @@ void add_angles_option(CLI::App& command, std::string& angles);
 
 /// -j
 void add_threads_option(CLI::App& command, unsigned& threads);
+
+/// How to run, with the instruction set that the environment variable IRIDO_SIMD names (plain,
+/// baseline, avx2, avx512) or the best one of the machine. Throws UsageError.
+Execution execution_of(unsigned threads = 0);
+
+/// One number in [lowest, highest]. Throws UsageError naming the option.
+double parse_one_number(std::string_view option, const std::string& text, double lowest,
+                        double highest);
 
 /// The last lines of a help page.
 void set_examples(CLI::App& command, const std::vector<std::string>& examples);

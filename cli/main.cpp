@@ -29,7 +29,8 @@ void handle_signals() {
 }
 
 std::string version_text() {
-    return std::string("irido ") + IRIDO_VERSION + ", " + IRIDO_COMPILER + ", SIMD baseline";
+    return std::string("irido ") + IRIDO_VERSION + ", " + IRIDO_COMPILER + ", SIMD " +
+           std::string(name_of(execution_of().simd));
 }
 
 int fail(const std::string& text) {
@@ -56,6 +57,7 @@ int run_program(int argc, char** argv) {
     add_color_command(program, run);
     add_materials_command(program, run);
     add_validate_command(program, run);
+    add_bench_command(program, run);
     set_examples(program,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
                   "irido color \"air | TiO2@35 | Ti\" -a 0:80:10", "irido COMMAND --help"});

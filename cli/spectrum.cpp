@@ -1,9 +1,11 @@
+#include <algorithm>
+#include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/spectrum_columns.hpp"
 #include "core/error.hpp"
 #include "core/interference/spectrum.hpp"
-#include "core/math/parallel.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/number.hpp"
 
@@ -16,8 +18,10 @@ struct SpectrumOptions {
     std::string wavelengths = "380:780:1";
     std::string angles = "0";
     std::string polarization = "u";
+    std::string columns;
     OutputOptions output;
     unsigned threads = 0;
+    bool stats = false;
     bool quiet = false;
 };
 
@@ -59,51 +63,53 @@ IndexTable index_table(const StackDocument& document, const std::vector<double>&
     }
 }
 
-/// Responses [angle][wavelength].
-std::vector<Polarized> compute(const StackDocument& document, const IndexTable& table,
-                               const std::vector<double>& angles_deg, Needs needs,
-                               unsigned threads) {
-    const std::size_t count = table.wavelength_nm().size();
-    std::vector<Polarized> responses(angles_deg.size() * count);
+StackPower stack_power(const StackDocument& document) {
     try {
-        const StackPower stack(document.stack);
-        parallel_for(angles_deg.size(), responses.size() < 256 ? 1 : threads, [&](std::size_t i) {
-            power_spectrum(stack, table, cos_of_incidence(angles_deg[i]), needs,
-                           std::span(responses).subspan(i * count, count));
-        });
+        return StackPower(document.stack);
     } catch (const DomainError& error) {
         throw InputError(document.file, "", error.what());
     }
-    return responses;
 }
 
-Power in_polarization(const Polarized& power, char letter) {
-    return letter == 's' ? power.s.power : letter == 'p' ? power.p.power : power.unpolarized();
+std::string count_of(std::size_t part, std::size_t all, const std::string& what) {
+    return std::to_string(part) + " of " + std::to_string(all) + " " + what;
 }
 
-Records to_records(const std::vector<double>& wavelengths_nm, const std::vector<double>& angles_deg,
-                   const std::string& letters, const std::vector<Polarized>& powers) {
-    Column::Numbers wavelength, angle, r, t, a;
-    Column::Texts polarization;
-    for (std::size_t i = 0; i < angles_deg.size(); ++i) {
-        for (const char letter : letters) {
-            for (std::size_t w = 0; w < wavelengths_nm.size(); ++w) {
-                const Power power = in_polarization(powers[i * wavelengths_nm.size() + w], letter);
-                wavelength.push_back(wavelengths_nm[w]);
-                angle.push_back(angles_deg[i]);
-                polarization.emplace_back(1, letter);
-                r.push_back(power.R);
-                t.push_back(power.T);
-                a.push_back(power.A);
-            }
-        }
+/// How the request was computed, and what its physics spared.
+std::vector<std::string> stats_of(const Work& work, const Needs& needs, std::size_t angles) {
+    std::vector<std::string> lines;
+    const std::string points = std::to_string(work.points) + " points of wavelength and angle, ";
+    if (work.kernel == SimdLevel::plain) {
+        lines.push_back(points +
+                        "one at a time (spread thicknesses, A_layers or groups of many "
+                        "absorbing layers, or IRIDO_SIMD=plain)");
+    } else {
+        lines.push_back(points + "side by side (" + std::string(name_of(work.kernel)) + "), " +
+                        std::to_string(work.layers) + " layers");
     }
-    return {{{"wavelength_nm", std::move(wavelength)},
-             {"angle_deg", std::move(angle)},
-             {"polarization", std::move(polarization)},
-             {"R", std::move(r)},
-             {"T", std::move(t)},
-             {"A", std::move(a)}}};
+    const auto skipped = [&](const std::string& what) { lines.push_back("skipped: " + what); };
+    if (work.normal_angles > 0 && needs.s && needs.p)
+        skipped("p at " + count_of(work.normal_angles, angles, "angles (s serves both at 0 deg)"));
+    if (!needs.s || !needs.p) skipped(std::string(needs.s ? "p" : "s") + " (not asked for)");
+    if (work.kernel == SimdLevel::plain) return lines;
+    if (work.one_film) skipped("the recursion over layers (one film: Airy's sum)");
+    if (work.transparent_layers > 0)
+        skipped("complex arithmetic in " +
+                count_of(work.transparent_layers, work.layers, "layers (transparent)"));
+    if (work.distinct_layers < work.layers)
+        skipped("matrices of " + count_of(work.layers - work.distinct_layers, work.layers,
+                                          "layers (equal to others)"));
+    if (work.powers > 0)
+        skipped("the repetitions of " + std::to_string(work.powers) +
+                " groups (powers in closed form)");
+    if (work.constant_media > 0)
+        skipped("angle terms of " + count_of(work.constant_media, work.media,
+                                             "media but once an angle (no dispersion)"));
+    if (!work.absorbs) skipped("absorption (no layer absorbs)");
+    if (work.passes > 1)
+        lines.push_back(std::to_string(work.passes) +
+                        " passes through coherent blocks between incoherent layers");
+    return lines;
 }
 
 int run_spectrum(const SpectrumOptions& options) {
@@ -112,15 +118,27 @@ int run_spectrum(const SpectrumOptions& options) {
         "--wavelengths", options.wavelengths, kAllWavelengths.first_nm, kAllWavelengths.last_nm);
     const std::vector<double> angles = parse_list("--angles", options.angles, 0, kLargestAngle_deg);
     const std::string letters = parse_polarizations(options.polarization);
+    const std::vector<SpectrumColumn> columns = parse_spectrum_columns(options.columns);
     const StackDocument document = read_stack(options.stack);
     for (const std::string& text : document.notes) note(text, options.quiet);
 
-    const bool mean = letters.find('u') != std::string::npos;
-    const Needs needs{mean || letters.find('s') != std::string::npos,
-                      mean || letters.find('p') != std::string::npos};
-    const std::vector<Polarized> powers =
-        compute(document, index_table(document, wavelengths), angles, needs, options.threads);
-    write_records(to_records(wavelengths, angles, letters, powers), options.output);
+    const StackPower stack = stack_power(document);
+    const Needs needs = spectrum_needs(letters, columns, stack);
+    const IndexTable table = index_table(document, wavelengths);
+    const Execution execution = execution_of(options.threads);
+    std::vector<double> cosines(angles.size());
+    std::ranges::transform(angles, cosines.begin(), cos_of_incidence);
+    Spectra spectra;
+    try {
+        irido::spectra(stack, table, cosines, needs, execution, spectra);
+    } catch (const DomainError& error) {
+        throw InputError(document.file, "", error.what());
+    }
+    if (options.stats)
+        for (const std::string& line :
+             stats_of(work_of(stack, table, cosines, needs, execution), needs, angles.size()))
+            std::cerr << "irido: stats: " << line << '\n';
+    write_records(spectrum_records(wavelengths, angles, letters, columns, spectra), options.output);
     return 0;
 }
 
@@ -141,11 +159,24 @@ void add_spectrum_command(CLI::App& program, Run& run) {
         ->add_option("-p,--polarization", options->polarization,
                      "s, p, u (unpolarized: the mean of both), several with commas [u]")
         ->type_name("LETTERS");
+    command
+        ->add_option("--columns", options->columns,
+                     "more columns, several with commas, in that order:\n"
+                     "r_re r_im t_re t_im  amplitudes of the tangential electric\n"
+                     "    field, time factor exp(-i w t), so that r_p = r_s at 0 deg\n"
+                     "psi_deg delta_deg  ellipsometric angles, r_p/r_s = tan(psi)\n"
+                     "    exp(i delta); delta = 0 at 0 deg (others have 180 there)\n"
+                     "A_layers  A_1 A_2 ..., absorbed in each layer, at most 1000\n"
+                     "All but A_layers need -p s, p or s,p and coherent layers")
+        ->type_name("LIST");
     add_output_options(*command, options->output, "csv, json or npy [csv]");
     add_threads_option(*command, options->threads);
+    command->add_flag("--stats", options->stats,
+                      "say on standard error how it was computed and what was skipped");
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(*command,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
+                  "irido spectrum \"air | SiO2@25 | Si\" -a 70 -p s --columns psi_deg,delta_deg",
                   "irido spectrum stack.json --set layers.0.thickness_nm=420 -o out.npy"});
     command->callback([options, &run] { run = [options] { return run_spectrum(*options); }; });
 }

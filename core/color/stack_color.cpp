@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "core/interference/spectrum.hpp"
-#include "core/math/parallel.hpp"
 
 namespace irido {
 
@@ -81,8 +80,9 @@ double optical_path_nm(const Stack& stack, WavelengthRange support,
     for (const double angle : {flat, steep}) {
         for (std::size_t w = 0; w < wavelengths.size(); ++w) {
             std::vector<Medium> media;
-            for (const Complex index : table.at(w))
-                media.push_back(medium(index, table.incident_index(w), cos_of_incidence(angle)));
+            for (std::size_t m = 0; m < table.materials(); ++m)
+                media.push_back(medium(table.index(m, w), table.n(table.incident())[w],
+                                       cos_of_incidence(angle)));
             Path path;
             add_path(stack.elements, media, 2 * std::numbers::pi / wavelengths[w], path);
             longest = std::max(longest, path.length_nm);
@@ -137,12 +137,19 @@ std::vector<SpectralPanel> first_panels(const Stack& stack, WavelengthRange supp
     return panels;
 }
 
-SpectrumSample sample_of(const Polarized& at, Side side, Light light) {
-    const Power power = light == Light::s   ? at.s.power
-                        : light == Light::p ? at.p.power
-                                            : at.unpolarized();
-    const auto scaled = [](const Response& r) { return ScaledComplex{r.denominator, r.log_scale}; };
-    return {side == Side::reflected ? power.R : power.T, {scaled(at.s), scaled(at.p)}};
+SpectrumSample sample_of(const Spectra& at, std::size_t point, Side side, Light light) {
+    const auto value = [&](const Spectrum& spectrum) {
+        return side == Side::reflected ? spectrum.R[point] : spectrum.T[point];
+    };
+    const auto denominator = [&](const Spectrum& spectrum) {
+        return spectrum.denominator.empty()
+                   ? ScaledComplex{}
+                   : ScaledComplex{spectrum.denominator[point], spectrum.log_scale[point]};
+    };
+    return {light == Light::s   ? value(at.s)
+            : light == Light::p ? value(at.p)
+                                : (value(at.s) + value(at.p)) / 2,
+            {denominator(at.s), denominator(at.p)}};
 }
 
 }  // namespace
@@ -172,7 +179,7 @@ std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensit
 std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& sensitivity,
                                        std::span<const double> angles_deg,
                                        std::span<const Side> sides, const IntegrationLimits& limits,
-                                       unsigned threads, Light light) {
+                                       const Execution& execution, Light light) {
     for (const HeldRange& entry : held_ranges(stack, sensitivity))
         if (!entry.usable)
             throw DomainError(
@@ -182,7 +189,14 @@ std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& se
     for (Material& material : held.materials) material.outside = Outside::clamp;
     const StackPower power(held);
     const std::size_t per_angle = sides.size();
-    const Needs needs{light != Light::p, light != Light::s};
+    const bool reflected = std::ranges::find(sides, Side::reflected) != sides.end();
+    const bool transmitted = std::ranges::find(sides, Side::transmitted) != sides.end();
+    const Needs needs{.s = light != Light::p,
+                      .p = light != Light::s,
+                      .R = reflected,
+                      .T = transmitted,
+                      .A = false,
+                      .denominators = true};
     IntegrationLimits bounded = limits;
     bounded.evaluations = std::min(
         limits.evaluations,
@@ -196,18 +210,18 @@ std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& se
         std::vector<std::size_t> starts;  // where in `items` each angle begins
         for (std::size_t i = 0; i < items.size(); ++i)
             if (i == 0 || items[i] / per_angle != items[i - 1] / per_angle) starts.push_back(i);
-        const bool small = starts.size() * points < 256;
-        parallel_for(starts.size(), small ? 1 : threads, [&](std::size_t k) {
-            const std::size_t angle = items[starts[k]] / per_angle;
+        std::vector<double> cosines;
+        for (const std::size_t start : starts)
+            cosines.push_back(cos_of_incidence(angles_deg[items[start] / per_angle]));
+        const Spectra at = irido::spectra(power, table, cosines, needs, execution);
+        for (std::size_t k = 0; k < starts.size(); ++k) {
             const std::size_t end = k + 1 < starts.size() ? starts[k + 1] : items.size();
-            std::vector<Polarized> at(points);
-            power_spectrum(power, table, cos_of_incidence(angles_deg[angle]), needs, at);
             for (std::size_t i = starts[k]; i < end; ++i) {
                 const Side side = sides[items[i] % per_angle];
                 for (std::size_t w = 0; w < points; ++w)
-                    samples[i * points + w] = sample_of(at[w], side, light);
+                    samples[i * points + w] = sample_of(at, k * points + w, side, light);
             }
-        });
+        }
     };
     const std::vector<SpectralPanel> panels =
         first_panels(held, sensitivity.support(), angles_deg, bounded.evaluations);

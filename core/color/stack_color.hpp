@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/color/integration.hpp"
+#include "core/math/simd_level.hpp"
 #include "core/stack/stack.hpp"
 
 namespace irido {
@@ -27,13 +28,14 @@ enum class Light { s, p, unpolarized };
 
 /// X, Y, Z of light reflected or transmitted by a stack, for every angle and side
 /// ([angle][side]). Materials hold their end values outside their range.
-///   angles_deg  [0, 90];   threads  0 for one per core; the result does not depend on it
+///   angles_deg  [0, 90]
 ///   limits      stacks of many layers are given up earlier, after about 2e7 layers' worth of work
 /// Throws DomainError if a held range is not usable, and as StackPower, IndexTable and
 /// integrate_color do.
 std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& sensitivity,
                                        std::span<const double> angles_deg,
                                        std::span<const Side> sides, const IntegrationLimits& limits,
-                                       unsigned threads, Light light = Light::unpolarized);
+                                       const Execution& execution = {},
+                                       Light light = Light::unpolarized);
 
 }  // namespace irido

@@ -22,8 +22,10 @@ struct Medium {
     Complex q2;   ///< (kz / k0)^2 = eps - S^2, formed without its cancellation near grazing
 };
 
-/// Permittivity and squared normal index of a medium of the given complex index.
-///     q2 = (n - n0)(n + n0) - k^2 + 2 i n k + (n0 cos theta)^2
+/// Permittivity and squared normal index of a medium of the given complex index,
+///     q2 = eps - n0^2 (1 - cos theta)(1 + cos theta)                up to 45 degrees,
+///     q2 = (n - n0)(n + n0) - k^2 + 2 i n k + (n0 cos theta)^2      beyond:
+/// the first keeps the digits of small indices, the second those of grazing angles.
 /// n0 > 0 is the real index of the incident medium, cos_theta in [0, 1] belongs to it.
 Medium medium(Complex index, double n0, double cos_theta);
 
@@ -39,6 +41,7 @@ double cos_of_incidence(double angle_deg);
 /// absorbers.
 struct Response {
     Power power;
+    Complex r{}, t{};  ///< amplitudes of the tangential electric field, reflected and transmitted
     Complex denominator{1};
     double log_scale = 0;
 };

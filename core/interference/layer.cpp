@@ -38,16 +38,6 @@ Complex scaled_sd(const Phase& phase, double k0_d) {
     return k0_d * (1.0 - delta * delta / 6.0);  // next term below 1e-18
 }
 
-/// Coupling of the fields: B' = c B - i w sd C, C' = c C - i v sd B.
-struct Coupling {
-    Complex w, v;
-};
-
-Coupling coupling(const Medium& m, Polarization polarization) {
-    if (polarization == Polarization::s) return {1.0, m.q2};
-    return {m.q2 / m.eps, m.eps};
-}
-
 /// Integrals over the depth of a layer, divided by exp(2 log_scale), times k0:
 ///     cc = int |cos|^2,  ss = int |sin(kz z)/(kz/k0)|^2,  cs = int cos conj(sin(kz z)/(kz/k0))
 struct DepthIntegrals {
@@ -97,8 +87,8 @@ DepthIntegrals depth_integrals(const Phase& phase, double k0_d) {
     return result;
 }
 
-AbsorbedPower layer_absorption(const Medium& m, const Phase& phase, double k0_d,
-                               Polarization polarization) {
+AbsorbedPower absorbed_power(const Medium& m, const Phase& phase, double k0_d,
+                             Polarization polarization) {
     // flux falls by Im(v') |B|^2 + Im(w) |C|^2 a depth of 1/k0, v' = eps for both polarizations
     const auto [w, v] = coupling(m, polarization);
     const DepthIntegrals f = depth_integrals(phase, k0_d);
@@ -135,6 +125,24 @@ ScaledTurn scaled_turn(Complex z) {
     return {{cos_a * half_more, -sin_a * half_less}, {sin_a * half_more, cos_a * half_less}};
 }
 
+Coupling coupling(const Medium& m, Polarization polarization) {
+    if (polarization == Polarization::s) return {1.0, m.q2};
+    return {m.q2 / m.eps, m.eps};
+}
+
+LayerTurn layer_turn(Complex q2, double k0_d) {
+    const Phase phase = layer_phase(q2, k0_d);
+    return {phase.less + std::exp(-phase.log_scale), scaled_sd(phase, k0_d), phase.log_scale};
+}
+
+AbsorbedPower absorbed_power(const Medium& m, double k0_d, Polarization polarization) {
+    return absorbed_power(m, layer_phase(m.q2, k0_d), k0_d, polarization);
+}
+
+double absorbed_flux(const AbsorbedPower& q, Complex b, Complex c) {
+    return q.bb * std::norm(b) + q.cc * std::norm(c) + 2 * (std::conj(b) * q.bc * c).real();
+}
+
 Matrix layer_matrix(const Medium& m, double k0_d, Polarization polarization) {
     return phase_matrix(m, layer_phase(m.q2, k0_d), k0_d, polarization);
 }
@@ -142,7 +150,7 @@ Matrix layer_matrix(const Medium& m, double k0_d, Polarization polarization) {
 Slab layer_slab(const Medium& m, double k0_d, Polarization polarization) {
     const Phase phase = layer_phase(m.q2, k0_d);
     Slab slab{phase_matrix(m, phase, k0_d, polarization), {}, m.eps.imag() != 0};
-    if (slab.absorbs) slab.absorbed = layer_absorption(m, phase, k0_d, polarization);
+    if (slab.absorbs) slab.absorbed = absorbed_power(m, phase, k0_d, polarization);
     return slab;
 }
 
@@ -154,7 +162,7 @@ double normalize(Matrix& m) {
     const double size = std::max({std::abs(m.a.real()), std::abs(m.a.imag()), std::abs(m.b.real()),
                                   std::abs(m.b.imag()), std::abs(m.c.real()), std::abs(m.c.imag()),
                                   std::abs(m.d.real()), std::abs(m.d.imag())});
-    const bool shrunk = size > 0 && size < 1e-60 && m.log_scale + std::log(size) > 100;
+    const bool shrunk = size > 0 && size < 1e-60 && m.log_scale + std::log(size) > 10;
     if (!(size > 1e60) && !shrunk) return 0;
     const int exponent = std::ilogb(size);
     const double factor = std::ldexp(1.0, -exponent);
@@ -194,7 +202,7 @@ AbsorbedPower operator+(const AbsorbedPower& p, const AbsorbedPower& q) {
 
 AbsorbedPower normalized(AbsorbedPower q) {
     const double size = std::max({std::abs(q.bb), std::abs(q.cc), std::abs(q.bc)});
-    if ((size > 1e-60 && size < 1e60) || size == 0) return q;
+    if ((size > 1e-60 && size < 1e60) || size < 1e-280) return q;  // 0 or as good as that
     const int half = std::ilogb(size) / 2;
     const double factor = std::ldexp(1.0, -2 * half);
     return {q.bb * factor, q.cc * factor, q.bc * factor, q.log_scale + half * std::log(2.0)};

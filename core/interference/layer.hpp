@@ -39,6 +39,26 @@ struct ScaledTurn {
 };
 ScaledTurn scaled_turn(Complex z);
 
+/// Coupling of the fields in a medium: with c, sd of LayerTurn, B' = c B - i w sd C and
+/// C' = c C - i v sd B.
+struct Coupling {
+    Complex w, v;
+};
+Coupling coupling(const Medium& medium, Polarization polarization);
+
+/// cos(delta) and k0 d sinc(delta), delta = k0 d sqrt(q2), both times exp(-log_scale).
+struct LayerTurn {
+    Complex cos, sd;
+    double log_scale = 0;
+};
+LayerTurn layer_turn(Complex q2, double k0_d);
+
+/// Power that one layer absorbs, by the fields at its lower face: an exact integral over its depth.
+AbsorbedPower absorbed_power(const Medium& medium, double k0_d, Polarization polarization);
+
+/// v^H Q v of the fields v = (b, c).
+double absorbed_flux(const AbsorbedPower& q, Complex b, Complex c);
+
 /// Characteristic matrix of one layer, thickness k0 d (radians in vacuum, >= 0).
 Matrix layer_matrix(const Medium& medium, double k0_d, Polarization polarization);
 

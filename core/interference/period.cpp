@@ -76,6 +76,10 @@ Slab with_matrix(const Slab& slab, const Matrix& matrix) {
     return result;
 }
 
+double log_size(const Matrix& m) {
+    return std::log(std::abs(m.a) + std::abs(m.b) + std::abs(m.c) + std::abs(m.d)) + m.log_scale;
+}
+
 /// A group that absorbs: its absorption is raised by doubling, every step adds terms of one sign.
 /// The matrices on the way are closed powers while light comes through; where it does not, only
 /// doubled matrices balance with the doubled absorption to the last digit.
@@ -95,7 +99,21 @@ Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
         if (group.repeat & step) total = of_periods(doubled * total, below += step);
         if (2 * step <= group.repeat) doubled = of_periods(doubled * doubled, 2 * step);
     }
+    if (!closed)  // each doubling doubles the error of the logarithm; the closed power does not
+        total.matrix.log_scale +=
+            log_size(power(period.matrix, bloch, group.repeat)) - log_size(total.matrix);
     return total;
+}
+
+bool absorbs(std::span<const Element> elements, std::span<const Medium> media) {
+    for (const Element& element : elements) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            if (media[layer->material].eps.imag() != 0) return true;
+        } else if (absorbs(std::get<Group>(element.value).elements, media)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// One layer repeated is a thicker layer.
@@ -176,6 +194,12 @@ Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, d
         total = slab * total;
     }
     return total;
+}
+
+Slab coherent_slab(std::span<const Element> elements, std::span<const Medium> media, double k0,
+                   Polarization polarization) {
+    if (absorbs(elements, media)) return slab_of(elements, media, k0, polarization);
+    return {matrix_of(elements, media, k0, polarization), {}, false};
 }
 
 }  // namespace irido

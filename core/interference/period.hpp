@@ -15,6 +15,10 @@ Matrix matrix_of(std::span<const Element> elements, std::span<const Medium> medi
 Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
              Polarization polarization);
 
+/// The latter if any of them absorbs, else the former.
+Slab coherent_slab(std::span<const Element> elements, std::span<const Medium> media, double k0,
+                   Polarization polarization);
+
 /// Bloch phase K of a period, cos(K) = tr(M)/2, by the squares of its half angle: each loses its
 /// digits where it is formed from the other.
 struct BlochPhase {

@@ -3,49 +3,65 @@
 #include <span>
 #include <vector>
 
+#include "core/interference/index_table.hpp"
 #include "core/interference/stack_power.hpp"
+#include "core/math/simd_level.hpp"
 
 namespace irido {
 
-/// Complex index of every material of a stack at every wavelength, computed once for all angles.
-class IndexTable {
-public:
-    /// Throws DomainError as index_at does, and if the incident medium absorbs: |k| above 1e-5 (a
-    /// smaller k is left out).
-    IndexTable(const Stack& stack, std::vector<double> wavelength_nm);
-
-    const std::vector<double>& wavelength_nm() const { return wavelength_nm_; }
-    /// All materials at one wavelength.
-    std::span<const Complex> at(std::size_t wavelength) const {
-        return {index_.data() + wavelength * materials_, materials_};
-    }
-    double incident_index(std::size_t wavelength) const { return at(wavelength)[incident_].real(); }
-
-private:
-    std::vector<double> wavelength_nm_;
-    std::size_t materials_, incident_;
-    std::vector<Complex> index_;
-};
-
-/// Responses in the two polarizations; one that was not asked for stays empty.
-struct Polarized {
-    Response s, p;
-    /// The mean of the two powers.
-    Power unpolarized() const {
-        const Power &a = s.power, &b = p.power;
-        return {(a.R + b.R) / 2, (a.T + b.T) / 2, (a.A + b.A) / 2};
-    }
-};
-
-/// Which polarizations a request needs.
+/// What a request needs. What is false is not computed, except that quantities may come along with
+/// another one that is needed.
 struct Needs {
     bool s = true, p = true;
+    bool R = true, T = true, A = true;
+    bool amplitudes = false;    ///< r and t; of coherent stacks without spread thicknesses only
+    bool denominators = false;  ///< of Response
+    bool layers = false;        ///< absorption of every layer
 };
 
-/// The batch form of the kernel: powers at every wavelength of the table for one angle.
-///   cos_theta  of the angle of incidence, [0, 1]; at 1 both polarizations are one computation
-///   out        one entry per wavelength
-void power_spectrum(const StackPower& stack, const IndexTable& table, double cos_theta, Needs needs,
-                    std::span<Polarized> out);
+/// Quantities of one polarization at every point, [angle][wavelength]; empty where not asked for.
+struct Spectrum {
+    std::vector<double> R, T, A;
+    std::vector<Complex> r, t;
+    std::vector<Complex> denominator;  ///< times exp(log_scale)
+    std::vector<double> log_scale;
+    std::vector<double> A_layers;  ///< [layer][angle][wavelength], layers with groups written out
+};
+
+struct Spectra {
+    Spectrum s, p;
+};
+
+/// How a request is computed, and what its physics makes needless.
+struct Work {
+    std::size_t points = 0;
+    SimdLevel kernel = SimdLevel::plain;  ///< plain where the vector kernel does not take the stack
+    // of the vector kernel
+    std::size_t passes = 0;              ///< 1; more if incoherent layers part coherent blocks
+    std::size_t layers = 0;              ///< that are computed, those of a period once
+    std::size_t transparent_layers = 0;  ///< of these: in real arithmetic
+    std::size_t distinct_layers = 0;     ///< matrices computed, where that is less
+    std::size_t powers = 0;              ///< groups raised to their power in closed form
+    std::size_t media = 0;               ///< of layers and substrate
+    std::size_t constant_media = 0;      ///< of these: angle terms once an angle
+    bool one_film = false;               ///< the Airy sum
+    std::size_t normal_angles = 0;       ///< one polarization serves both
+    bool absorbs = false;                ///< any layer
+    double operations_per_point = 0;     ///< see vector/program.hpp
+};
+Work work_of(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
+             const Needs& needs, const Execution& execution = {1});
+
+/// The batch form of the kernel: a stack at all wavelengths of the table and all angles.
+///   cos_theta  of the angles of incidence, [0, 1]; at 1 both polarizations are one computation
+/// Stacks of fixed thicknesses go through the vector kernel; spread ones, A_layers and what the
+/// vector kernel leaves go through StackPower one by one. Throws DomainError if amplitudes are
+/// needed of a stack that has none, and as StackPower does.
+Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
+                const Needs& needs, const Execution& execution = {1});
+
+/// The same into memory that is used again.
+void spectra(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
+             const Needs& needs, const Execution& execution, Spectra& out);
 
 }  // namespace irido

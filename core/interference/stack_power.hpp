@@ -3,7 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "core/interference/coherent.hpp"
+#include "core/interference/chain.hpp"
+#include "core/interference/spread/spread_mean.hpp"
 
 namespace irido {
 
@@ -15,9 +16,8 @@ namespace irido {
 /// Source: S. J. Byrnes, arXiv:1603.02720 (2016), section 4.
 ///
 /// A layer with thickness_sigma_nm has its power averaged over a Gaussian of thicknesses, cut at
-/// zero, to 1e-10, or as far as 4096 panels go where a resonance is narrower than 1e-5 of the
-/// spread; in a repeated group all repetitions share the deviation, different layers are
-/// independent.
+/// zero, to 1e-12 (kThicknessMeanError); in a repeated group all repetitions share the deviation,
+/// different layers are independent.
 class StackPower {
 public:
     /// Throws DomainError if more than kLargestSpreadLayers layers have a thickness_sigma_nm, or if
@@ -32,27 +32,30 @@ public:
     /// The denominator is the product of those of all coherent blocks at the mean thicknesses.
     Response operator()(std::span<const Medium> media, double k0, Polarization polarization) const;
 
+    /// Whether Response has r and t: they do not survive where powers are added or averaged.
+    bool has_amplitudes() const { return chain_.gaps.empty() && spreads_.empty(); }
+
+    /// Its blocks, if no thickness is spread; else nullptr.
+    const Chain* chain() const { return spreads_.empty() ? &chain_ : nullptr; }
+
+    /// Layers with groups written out, from the incident side to the substrate.
+    std::size_t layer_count() const { return layer_count_; }
+
+    static constexpr std::size_t kLargestLayerList = 1000;
+
+    /// Power absorbed in each of them, as part of the incident one; gain is negative. From the
+    /// layers' own fluxes, so that it keeps its digits where it is small. Arguments as above;
+    /// absorbed has layer_count() entries. In an incoherent layer between absorbing ones this
+    /// includes what the interference of its waves at its faces takes. Throws DomainError if there
+    /// are more than kLargestLayerList layers.
+    void layer_absorption(std::span<const Medium> media, double k0, Polarization polarization,
+                          std::span<double> absorbed) const;
+
 private:
-    /// Coherent layers in both directions of travel.
-    struct Block {
-        std::vector<Element> down, up;
-    };
-    /// Blocks with an incoherent layer between each and the next.
-    struct Chain {
-        std::vector<Block> blocks;
-        std::vector<Layer> gaps;
-    };
-
-    static Chain chain_of(const std::vector<Element>& elements);
-    Response of_chain(const Chain& chain, std::span<const Medium> media, double k0,
-                      Polarization polarization) const;
-    Response averaged(std::vector<Element>& elements, std::size_t spread,
-                      std::span<const Medium> media, double k0, Polarization polarization) const;
-
-    std::size_t substrate_;
-    std::vector<Element> elements_;
+    std::size_t layer_count_ = 0;
     Chain chain_;
-    std::size_t spread_layers_ = 0;
+    std::vector<SpreadLayer> spreads_;
+    std::vector<std::size_t> spread_of_;  ///< of the chain's spread layers, as in SpreadMean
 };
 
 }  // namespace irido

@@ -4,6 +4,9 @@ namespace irido {
 
 namespace {
 
+/// Of one value with its comma.
+constexpr std::size_t kUsualBytes = 16;
+
 void append_text(std::string& out, const std::string& text) {
     if (text.find_first_of(",\"\n\r") == std::string::npos) {
         out += text;
@@ -17,15 +20,6 @@ void append_text(std::string& out, const std::string& text) {
     out += '"';
 }
 
-struct AppendValue {
-    std::string& out;
-    std::size_t row;
-
-    void operator()(const Column::Numbers& v) const { append_number(out, v[row]); }
-    void operator()(const Column::Texts& v) const { append_text(out, v[row]); }
-    void operator()(const Column::Flags& v) const { out += v[row] ? "true" : "false"; }
-};
-
 }  // namespace
 
 std::string write_csv(const Records& records) {
@@ -35,11 +29,13 @@ std::string write_csv(const Records& records) {
         append_text(out, records.columns[c].name);
     }
     out += '\n';
+    const RowWriter writer(records, append_text);
     const std::size_t rows = records.rows();
+    out.reserve(out.size() + rows * records.columns.size() * kUsualBytes);
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t c = 0; c < records.columns.size(); ++c) {
             if (c > 0) out += ',';
-            std::visit(AppendValue{out, row}, records.columns[c].values);
+            writer.append(out, c, row);
         }
         out += '\n';
     }

@@ -10,20 +10,16 @@ std::string quoted_json(const std::string& text) {
     return nlohmann::json(text).dump();
 }
 
-struct AppendValue {
-    std::string& out;
-    std::size_t row;
-
-    void operator()(const Column::Numbers& v) const { append_number(out, v[row]); }
-    void operator()(const Column::Texts& v) const { out += quoted_json(v[row]); }
-    void operator()(const Column::Flags& v) const { out += v[row] ? "true" : "false"; }
-};
+void append_text(std::string& out, const std::string& text) {
+    out += quoted_json(text);
+}
 
 }  // namespace
 
 std::string write_json(const Records& records) {
     std::vector<std::string> keys;
     for (const Column& column : records.columns) keys.push_back(quoted_json(column.name) + ":");
+    const RowWriter writer(records, append_text);
     std::string out = "[";
     const std::size_t rows = records.rows();
     for (std::size_t row = 0; row < rows; ++row) {
@@ -31,7 +27,7 @@ std::string write_json(const Records& records) {
         for (std::size_t c = 0; c < keys.size(); ++c) {
             if (c > 0) out += ',';
             out += keys[c];
-            std::visit(AppendValue{out, row}, records.columns[c].values);
+            writer.append(out, c, row);
         }
         out += '}';
     }

@@ -31,18 +31,19 @@ struct TypeOf {
         return {"<U" + std::to_string(longest(v)), kCharacterBytes * longest(v)};
     }
     FieldType operator()(const Column::Flags&) const { return {"|b1", 1}; }
+    FieldType operator()(const Column::CodedNumbers& v) const { return (*this)(v.values); }
+    FieldType operator()(const Column::CodedTexts& v) const { return (*this)(v.values); }
 };
 
-struct StoreValue {
-    char* to;
-    std::size_t row;
-
-    void operator()(const Column::Numbers& v) const { std::memcpy(to, &v[row], sizeof(double)); }
-    void operator()(const Column::Texts& v) const {  // ASCII, one code point in four bytes
-        for (std::size_t i = 0; i < v[row].size(); ++i) to[kCharacterBytes * i] = v[row][i];
-    }
-    void operator()(const Column::Flags& v) const { *to = v[row] ? 1 : 0; }
-};
+void store(char* to, double value) {
+    std::memcpy(to, &value, sizeof(double));
+}
+void store(char* to, const std::string& text) {  // ASCII, one code point in four bytes
+    for (std::size_t i = 0; i < text.size(); ++i) to[kCharacterBytes * i] = text[i];
+}
+void store(char* to, bool flag) {
+    *to = flag ? 1 : 0;
+}
 
 std::string header(const Records& records, const std::vector<FieldType>& types) {
     std::string text = "{'descr': [";
@@ -71,11 +72,15 @@ std::string write_npy(const Records& records) {
     std::size_t at = out.size();
     const std::size_t rows = records.rows();
     out.resize(at + rows * record_bytes, '\0');
-    for (std::size_t row = 0; row < rows; ++row) {
-        for (std::size_t c = 0; c < types.size(); ++c) {
-            std::visit(StoreValue{out.data() + at, row}, records.columns[c].values);
-            at += types[c].bytes;
-        }
+    for (std::size_t c = 0; c < types.size(); ++c) {
+        std::visit(
+            [&](const auto& values) {
+                char* to = out.data() + at;
+                for (std::size_t row = 0; row < rows; ++row, to += record_bytes)
+                    store(to, values[row]);
+            },
+            records.columns[c].values);
+        at += types[c].bytes;
     }
     return out;
 }

@@ -36,10 +36,11 @@ Worst compare_spectra(oracle::Kind kind, int count) {
         const Stack stack = oracle::random_stack(kind, random);
         const double angle = oracle::random_angle(random), nm = random.uniform(400, 700);
         const IndexTable table(stack, {nm});
-        std::vector<Polarized> at(1);
-        power_spectrum(StackPower(stack), table, cos_of_incidence(angle), {}, at);
-        worst.take(at[0].s.power, oracle::coherent(stack, {nm, angle, Polarization::s}));
-        worst.take(at[0].p.power, oracle::coherent(stack, {nm, angle, Polarization::p}));
+        const double cosine = cos_of_incidence(angle);
+        const Spectra at = spectra(StackPower(stack), table, std::span(&cosine, 1), {});
+        const auto power = [](const Spectrum& of) { return Power{of.R[0], of.T[0], of.A[0]}; };
+        worst.take(power(at.s), oracle::coherent(stack, {nm, angle, Polarization::s}));
+        worst.take(power(at.p), oracle::coherent(stack, {nm, angle, Polarization::p}));
     }
     return worst;
 }

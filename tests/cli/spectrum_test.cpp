@@ -128,6 +128,64 @@ TEST_CASE("JSON has the CSV's names", "[cli][spectrum]") {
           "\"A\":0}\n]\n");
 }
 
+TEST_CASE("more columns come in the order asked for", "[cli][spectrum]") {
+    const std::string out =
+        run_irido({"spectrum", "1 | 1.5@100 | 2+1i", "-w", "500,600", "-a", "0,60", "-p", "p,s",
+                   "--columns", "A_layers,delta_deg,psi_deg,t_im,t_re,r_im,r_re"})
+            .out;
+    const auto table = parse_csv(out);
+    REQUIRE(table.size() == 9);
+    const std::vector<std::string> header{
+        "wavelength_nm", "angle_deg", "polarization", "R",    "T",    "A",   "A_1",
+        "delta_deg",     "psi_deg",   "t_im",         "t_re", "r_im", "r_re"};
+    CHECK(table[0] == header);
+    for (std::size_t row = 1; row < table.size(); ++row) {
+        const auto at = [&](std::size_t column) { return std::stod(table[row][column]); };
+        CHECK(std::abs(at(11) * at(11) + at(12) * at(12) - at(3)) < 1e-14);
+        CHECK(at(6) == 0);
+    }
+    // the two polarizations of an angle have one psi and delta, 45 and 0 at normal incidence
+    CHECK(table[1][7] == "0");
+    CHECK(std::abs(std::stod(table[1][8]) - 45) < 1e-12);
+    CHECK(table[5][7] == table[7][7]);
+    CHECK(table[5][8] == table[7][8]);
+}
+
+TEST_CASE("absorption layer by layer, u being the mean", "[cli][spectrum]") {
+    const std::string stack = "1 | (1.5+0.001i@100 | 2.2@50)^2 | 0.2+3i@10 | 1.5";
+    const auto rows = parse_csv(run_irido({"spectrum", stack, "-w", "500", "-a", "50", "-p",
+                                           "s,p,u", "--columns", "A_layers"})
+                                    .out);
+    REQUIRE(rows.size() == 4);
+    REQUIRE(rows[0].size() == 11);
+    CHECK(rows[0][10] == "A_5");
+    for (std::size_t column = 6; column < 11; ++column)
+        CHECK(std::abs((std::stod(rows[1][column]) + std::stod(rows[2][column])) / 2 -
+                       std::stod(rows[3][column])) < 1e-16);
+    double sum = 0;
+    for (std::size_t column = 6; column < 11; ++column) sum += std::stod(rows[3][column]);
+    CHECK(std::abs(sum - std::stod(rows[3][5])) < 1e-15);
+    CHECK(parse_csv(run_irido({"spectrum", "1 | 2", "-w", "500", "--columns", "A_layers"}).out)[0]
+              .size() == 6);
+}
+
+TEST_CASE("all columns are in JSON and numpy arrays too", "[cli][spectrum]") {
+    CHECK_THAT(run_irido({"spectrum", "1 | 1.5", "-w", "500", "-p", "s", "-f", "json", "--columns",
+                          "r_re,psi_deg"})
+                   .out,
+               Contains("\"A\":0,\"r_re\":-0.2") && Contains("\"psi_deg\":45"));
+    const TemporaryFolder folder;
+    const Outcome done = run_shell(
+        "\"$IRIDO\" spectrum '1 | Au@20 | 1.5' -p s -a 30 --columns A_layers,t_re -o s.npy && "
+        "/usr/bin/python3 -c 'import numpy; a = numpy.load(\"s.npy\"); "
+        "assert a.dtype.names[-2:] == (\"A_1\", \"t_re\"); "
+        "assert abs(a[\"A\"] - a[\"A_1\"]).max() < 1e-14; "
+        "assert set(a[\"polarization\"]) == {\"s\"}; assert a[\"wavelength_nm\"][3] == 383'",
+        folder.path());
+    INFO(done.err);
+    CHECK(done.status == 0);
+}
+
 TEST_CASE("numpy reads the array", "[cli][spectrum]") {
     const TemporaryFolder folder;
     const std::string request = "\"$IRIDO\" spectrum 'air | Au@20 | BK7' -a 0,60 -p s,u ";
@@ -192,6 +250,15 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
         {{"spectrum", stack, "-o", "x"}, "--output: must have an extension"},
         {{"spectrum", stack, "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
         {{"spectrum", stack, "-j", "1.5"}, "--threads: must be one whole number"},
+        {{"spectrum", stack, "--columns", "r_re"}, "--columns: r_re belongs to s or p"},
+        {{"spectrum", stack, "-p", "s,u", "--columns", "psi_deg"}, "use -p s,p"},
+        {{"spectrum", stack, "--columns", "A_layer"},
+         "--columns: must be one of r_re, r_im, t_re, t_im, psi_deg, delta_deg, A_layers (got "
+         "A_layer) (did you mean \"A_layers\"?)"},
+        {{"spectrum", stack, "--columns", "A_layers,A_layers"}, "A_layers twice"},
+        {{"spectrum", stack, "--columns", "A_layers,"}, "--columns: must be one of"},
+        {{"spectrum", "1 | (1.5@1 | 2@1)^501 | 1", "--columns", "A_layers"},
+         "--columns: A_layers needs a stack of at most 1000 layers (got 1002"},
         {{"spectrum", stack, "--what"}, "--what"},
         {{"spectrum"}, "STACK"},
         {{"spectra", stack}, "there is no command 'spectra' (did you mean \"spectrum\"?)"},
@@ -212,6 +279,19 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
         CHECK(outcome.out.empty());
         CHECK_THAT(outcome.err, StartsWith("irido: error: ") && Contains(error));
         CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    }
+}
+
+TEST_CASE("amplitudes of averaged powers are refused", "[cli][refused]") {
+    for (const std::string layer : {R"("coherent": false)", R"("thickness_sigma_nm": 1)"}) {
+        const Outcome outcome =
+            run_irido({"spectrum", "-", "-p", "s", "--columns", "delta_deg"},
+                      R"({"incident": 1, "layers": [{"material": 1.5, "thickness_nm": 9, )" +
+                          layer + R"(}], "substrate": 1})");
+        CHECK(outcome.status == 2);
+        CHECK_THAT(
+            outcome.err,
+            StartsWith("irido: error: --columns: delta_deg needs a stack of coherent layers"));
     }
 }
 

@@ -8,62 +8,6 @@
 
 namespace irido::oracle {
 
-std::uint64_t Random::bits() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15U);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-}
-
-double Random::uniform(double from, double to) {
-    return from + (to - from) * (static_cast<double>(bits() >> 11) * 0x1p-53);
-}
-
-std::size_t Random::below(std::size_t count) {
-    return static_cast<std::size_t>(uniform(0, 1) * static_cast<double>(count));
-}
-
-StackBuilder::StackBuilder(Complex incident) {
-    stack_.incident = material(incident);
-}
-
-std::size_t StackBuilder::material(Complex index) {
-    Material constant;
-    constant.model = RefractiveIndex{Constant{index.real()}, Constant{index.imag()}};
-    return material(std::move(constant));
-}
-
-std::size_t StackBuilder::material(Material material) {
-    for (std::size_t i = 0; i < stack_.materials.size(); ++i)
-        if (stack_.materials[i] == material) return i;
-    stack_.materials.push_back(std::move(material));
-    return stack_.materials.size() - 1;
-}
-
-Element StackBuilder::layer(Complex index, double thickness_nm) {
-    return layer_of(material(index), thickness_nm);
-}
-
-Element StackBuilder::layer_of(std::size_t material, double thickness_nm) {
-    Layer layer;
-    layer.material = material;
-    layer.thickness_nm = thickness_nm;
-    return {layer};
-}
-
-Element StackBuilder::group(std::uint64_t repeat, std::vector<Element> elements) {
-    return {Group{repeat, std::move(elements)}};
-}
-
-Stack StackBuilder::over(Complex substrate) {
-    return over_material(material(substrate));
-}
-
-Stack StackBuilder::over_material(std::size_t substrate) {
-    stack_.substrate = substrate;
-    return stack_;
-}
-
 std::string_view name_of(Kind kind) {
     constexpr std::array<std::string_view, kKinds> names{
         "film",         "film on metal", "multilayer", "tabulated metal",

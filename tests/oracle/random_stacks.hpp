@@ -4,38 +4,13 @@
 #include <string_view>
 
 #include "core/complex.hpp"
-#include "core/stack/stack.hpp"
+#include "core/math/random.hpp"
+#include "core/stack/builder.hpp"
 
 namespace irido::oracle {
 
-/// Numbers that are the same on every machine (splitmix64).
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits();
-    double uniform(double from, double to);
-    std::size_t below(std::size_t count);
-
-private:
-    std::uint64_t state_;
-};
-
-/// A stack that is written down layer by layer.
-class StackBuilder {
-public:
-    explicit StackBuilder(Complex incident = 1);
-    std::size_t material(Complex index);
-    std::size_t material(Material material);
-    Element layer(Complex index, double thickness_nm);
-    Element layer_of(std::size_t material, double thickness_nm);
-    static Element group(std::uint64_t repeat, std::vector<Element> elements);
-    void add(Element element) { stack_.elements.push_back(std::move(element)); }
-    Stack over(Complex substrate);
-    Stack over_material(std::size_t substrate);
-
-private:
-    Stack stack_;
-};
+using irido::Random;
+using irido::StackBuilder;
 
 enum class Kind {
     film,             ///< one dielectric film on a dielectric

@@ -6,8 +6,8 @@
 #include "core/interference/coherent.hpp"
 #include "core/stack/stack.hpp"
 
-/// Second opinions on what core computes: other formulas, more digits, no shared code. They are
-/// slow and trust their input.
+/// Second opinions on what core computes, built on core's reference: other formulas, more digits,
+/// no code shared with the kernel. They are slow and trust their input.
 namespace irido::oracle {
 
 /// One question about a stack.
@@ -17,16 +17,14 @@ struct Query {
     Polarization polarization = Polarization::s;
 };
 
-/// R, T and A = 1 - R - T in 100 digits, all layers coherent: textbook transfer matrices D P D^-1
-/// of forward and backward waves with kz on an explicit branch, groups by repeated squaring.
-/// `seed` other than 0 shifts every input (indices, wavelength, cosine, thicknesses) by a random
-/// relative 2^-53 or less: how far the answers scatter tells how well the question is posed.
+/// reference_power in 100 digits. `seed` other than 0 shifts every input (indices, wavelength,
+/// cosine, thicknesses) by a random relative 2^-53 or less: how far the answers scatter tells how
+/// well the question is posed.
 Power coherent(const Stack& stack, const Query& query, std::uint64_t seed = 0);
 
 /// The same for media given as the kernel takes them, eps and q2 exact.
 Power coherent(const Medium& above, std::span<const Element> elements, const Medium& below,
-               std::span<const Medium> media, double k0, Polarization polarization,
-               std::uint64_t seed = 0);
+               std::span<const Medium> media, double k0, Polarization polarization);
 
 /// The same formulas in double; good to about 1e-13 on tame stacks, and fast.
 Power coherent_fast(const Stack& stack, const Query& query);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "core/interference/spectrum.hpp"
 #include "core/interference/stack_power.hpp"
@@ -15,9 +15,11 @@ struct Powers {
 /// Both polarizations at one wavelength and angle, by the public way through core.
 inline Powers ask(const Stack& stack, double wavelength_nm, double angle_deg) {
     const IndexTable table(stack, {wavelength_nm});
-    std::vector<Polarized> out(1);
-    power_spectrum(StackPower(stack), table, cos_of_incidence(angle_deg), {}, out);
-    return {out.front().s.power, out.front().p.power, out.front().unpolarized()};
+    const double cosine = cos_of_incidence(angle_deg);
+    const Spectra at = spectra(StackPower(stack), table, std::span(&cosine, 1), {});
+    const auto power = [](const Spectrum& of) { return Power{of.R[0], of.T[0], of.A[0]}; };
+    const Power s = power(at.s), p = power(at.p);
+    return {s, p, {(s.R + p.R) / 2, (s.T + p.T) / 2, (s.A + p.A) / 2}};
 }
 
 }  // namespace irido

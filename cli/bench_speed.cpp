@@ -1,0 +1,371 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <thread>
+
+#include "cli/bench.hpp"
+#include "core/interference/spectrum.hpp"
+#include "core/math/parallel.hpp"
+#include "core/math/vector_math.hpp"
+#include "core/stability/reference.hpp"
+
+namespace irido {
+
+namespace {
+
+struct SpeedOptions {
+    std::string time = "0.1";
+    std::string cases = "all";
+    OutputOptions output;
+    unsigned threads = 0;
+};
+
+/// A stack and what is asked of it, at 380:780:1 nm and the angles 0.5:89.5:1 or 0 degrees.
+struct SpeedCase {
+    std::string_view name;
+    int layers;
+    std::string_view summary;
+    Stack (*stack)(int layers);
+    bool normal = false;
+    bool only_R = false;
+};
+
+Material constant(double n, double k = 0) {
+    return {"", RefractiveIndex{Constant{n}, Constant{k}}};
+}
+
+/// `layers` different films, their index given for each one.
+template <class Index>
+Stack films(int layers, const Index& index) {
+    Stack stack;
+    stack.materials = {constant(1), constant(1.52)};
+    stack.substrate = 1;
+    for (int i = 0; i < layers; ++i) {
+        stack.materials.push_back(index(i));
+        stack.elements.push_back(
+            {Layer{stack.materials.size() - 1, 50 + 100 * std::fmod(0.618 * i, 1)}});
+    }
+    return stack;
+}
+
+double index_of(int layer) {
+    return 1.35 + std::fmod(0.382 * layer, 1);
+}
+
+Stack transparent(int layers) {
+    return films(layers, [](int i) { return constant(index_of(i)); });
+}
+
+Stack absorbing(int layers) {
+    return films(layers, [](int i) { return constant(index_of(i), 0.01); });
+}
+
+Stack dispersive(int layers) {
+    return films(layers, [](int i) {
+        return Material{"", RefractiveIndex{Formula{5, {index_of(i), 0.005, -2}, kAllWavelengths},
+                                            Constant{0}}};
+    });
+}
+
+Stack periods(int layers) {
+    Stack stack = transparent(2);
+    stack.elements = {{Group{static_cast<std::uint64_t>(layers / 2), stack.elements}}};
+    return stack;
+}
+
+constexpr std::array kCases{
+    SpeedCase{"film", 1, "one transparent film", transparent},
+    SpeedCase{"film_normal", 1, "the same at 0 degrees", transparent, true},
+    SpeedCase{"film_R", 1, "the same where only R is asked for", transparent, false, true},
+    SpeedCase{"film_absorbing", 1, "one absorbing film", absorbing},
+    SpeedCase{"2", 2, "two transparent films", transparent},
+    SpeedCase{"10", 10, "ten of them", transparent},
+    SpeedCase{"10_absorbing", 10, "ten absorbing films", absorbing},
+    SpeedCase{"40", 40, "40 transparent films", transparent},
+    SpeedCase{"40_normal", 40, "the same at 0 degrees", transparent, true},
+    SpeedCase{"40_dispersive", 40, "40 films with dispersion formulas", dispersive},
+    SpeedCase{"40_absorbing", 40, "40 absorbing films", absorbing},
+    SpeedCase{"20_periods", 40, "20 periods of two films", periods},
+    SpeedCase{"500_periods", 1000, "500 periods of two films", periods},
+    SpeedCase{"1000", 1000, "1000 transparent films", transparent},
+    SpeedCase{"1000_absorbing", 1000, "1000 absorbing films", absorbing},
+};
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_of(const auto& work) {
+    const Clock::time_point start = Clock::now();
+    work();
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Shortest of repeated runs over `budget` seconds; the first one warms up.
+double best_seconds(double budget, const auto& work) {
+    double best = seconds_of(work);
+    for (double spent = 0; spent < budget;) {
+        const double once = seconds_of(work);
+        best = std::min(best, once);
+        spent += once;
+    }
+    return best;
+}
+
+/// Multiply-adds of doubles a second.
+double machine_limit(SimdLevel level, unsigned threads) {
+    constexpr std::uint64_t kCount = 4'000'000;
+    volatile double sink = 0;
+    const double seconds = best_seconds(0.02, [&] {
+        parallel_for(threads, threads, [&](std::size_t) {
+            const double result = multiply_adds(kCount, level);
+            if (result < 0) sink = result;
+        });
+    });
+    return static_cast<double>(kCount * lanes(level) * threads) / seconds;
+}
+
+std::vector<double> case_wavelengths() {
+    std::vector<double> wavelengths(401);
+    for (std::size_t i = 0; i < wavelengths.size(); ++i)
+        wavelengths[i] = 380 + static_cast<double>(i);
+    return wavelengths;
+}
+
+struct Row {
+    std::string name, method;
+    double layers = 0, threads = 1, points = 0, rate = 0, worst_R = 0;
+    double operations = 0, limit = 0;
+};
+
+/// One case with what its rows share.
+class Measurement {
+public:
+    Measurement(const SpeedCase& of, double budget)
+        : case_(of),
+          budget_(budget),
+          stack_(of.stack(of.layers)),
+          power_(stack_),
+          table_(stack_, case_wavelengths()) {
+        needs_.T = needs_.A = !of.only_R;
+        for (int i = 0; i < 90; ++i) angles_deg_.push_back(of.normal ? 0 : i + 0.5);
+        for (const double angle : angles_deg_) cosines_.push_back(cos_of_incidence(angle));
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            const Sample sample{i * 400 / (kSamples - 1), of.normal ? 0 : (i * 37 + 5) % 90};
+            samples_.push_back(sample);
+            for (const Polarization polarization : {Polarization::s, Polarization::p})
+                exact_.push_back(reference(sample, polarization, Precision::digits50));
+        }
+    }
+
+    Row by_kernel(const Execution& execution) const {
+        Row row = new_row(std::string(name_of(execution.simd)));
+        row.threads = execution.threads;
+        // a slow kernel gets fewer angles
+        const double one_angle = seconds_of([&] { run(1, execution); });
+        const auto affordable = static_cast<std::size_t>(std::max(1.0, budget_ / one_angle));
+        const std::size_t angles = std::min(affordable, cosines_.size());
+        row.points = static_cast<double>(angles * table_.wavelength_nm().size());
+        row.rate = row.points / best_seconds(budget_, [&] { run(angles, execution); });
+        row.worst_R = error_of_kernel(execution);
+        return row;
+    }
+
+    Row by_long_double() const {
+        Row row = new_row("long_double");
+        std::size_t done = 0;
+        const double seconds = seconds_of([&] {
+            const Clock::time_point start = Clock::now();
+            while (std::chrono::duration<double>(Clock::now() - start).count() < budget_) {
+                const Sample& sample = samples_[done++ % kSamples];
+                for (const Polarization polarization : polarizations())
+                    reference(sample, polarization, Precision::extended);
+            }
+        });
+        row.points = static_cast<double>(done);
+        row.rate = row.points / seconds;
+        for (std::size_t i = 0; i < kSamples; ++i)
+            for (std::size_t p = 0; p < polarizations().size(); ++p)
+                row.worst_R = std::max(
+                    row.worst_R,
+                    std::abs(reference(samples_[i], polarizations()[p], Precision::extended) -
+                             exact_[2 * i + p]));
+        return row;
+    }
+
+private:
+    static constexpr std::size_t kSamples = 12;
+    /// Indices of a wavelength and an angle.
+    struct Sample {
+        std::size_t wavelength, angle;
+    };
+
+    Row new_row(std::string method) const {
+        Row row;
+        row.name = case_.name;
+        row.method = std::move(method);
+        row.layers = case_.layers;
+        row.operations = work_of(power_, table_, cosines_, needs_, {1, SimdLevel::baseline})
+                             .operations_per_point;
+        return row;
+    }
+
+    std::span<const Polarization> polarizations() const {
+        static constexpr std::array both{Polarization::s, Polarization::p};
+        return std::span(both).first(case_.normal ? 1 : 2);
+    }
+
+    double reference(const Sample& sample, Polarization polarization, Precision precision) const {
+        return reference_power(stack_, table_.wavelength_nm()[sample.wavelength],
+                               angles_deg_[sample.angle], polarization, precision)
+            .R;
+    }
+
+    void run(std::size_t angles, const Execution& execution) const {
+        spectra(power_, table_, std::span(cosines_).first(angles), needs_, execution, out_);
+    }
+
+    double error_of_kernel(const Execution& execution) const {
+        double worst = 0;
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            const Spectra at =
+                spectra(power_, table_, std::span(cosines_).subspan(samples_[i].angle, 1), needs_,
+                        execution);
+            const std::size_t w = samples_[i].wavelength;
+            worst = std::max({worst, std::abs(at.s.R[w] - exact_[2 * i]),
+                              std::abs(at.p.R[w] - exact_[2 * i + 1])});
+        }
+        return worst;
+    }
+
+    SpeedCase case_;
+    double budget_;
+    Stack stack_;
+    StackPower power_;
+    IndexTable table_;
+    Needs needs_;
+    std::vector<double> angles_deg_, cosines_;
+    std::vector<Sample> samples_;
+    std::vector<double> exact_;  ///< R of every sample, s and p
+    mutable Spectra out_;
+};
+
+/// Sine and cosine together, of 4096 phases up to 1e5, beside the C library's.
+Row sine_row(SimdLevel level, double budget) {
+    std::vector<double> x(4096), sine(x.size()), cosine(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = 1e5 * std::fmod(std::numbers::phi * static_cast<double>(i), 1);
+    const auto by_library = [&] {
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            sine[i] = std::sin(x[i]);
+            cosine[i] = std::cos(x[i]);
+        }
+    };
+    const auto by_vectors = [&] { sin_cos(x, sine, cosine, level); };
+    Row row;
+    row.name = "sin_cos";
+    row.method = name_of(level);
+    row.points = static_cast<double>(x.size());
+    row.operations = 33;
+    row.rate = row.points / (level == SimdLevel::plain ? best_seconds(budget, by_library)
+                                                       : best_seconds(budget, by_vectors));
+    return row;
+}
+
+std::vector<SpeedCase> chosen_cases(const std::string& text) {
+    if (text == "all") return {kCases.begin(), kCases.end()};
+    std::vector<SpeedCase> chosen;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string name = text.substr(begin, end - begin);
+        const auto found = std::ranges::find(kCases, name, &SpeedCase::name);
+        if (found == kCases.end())
+            throw UsageError("--cases: there is no case '" + name +
+                             "' (see irido bench speed --help)");
+        chosen.push_back(*found);
+        begin = end + 1;
+    }
+    return chosen;
+}
+
+Records to_records(const std::vector<Row>& rows) {
+    Column::Texts names, methods;
+    for (const Row& row : rows) {
+        names.push_back(row.name);
+        methods.push_back(row.method);
+    }
+    Records records{{{"case", std::move(names)}, {"method", std::move(methods)}}};
+    const auto add = [&](std::string name, auto value) {
+        Column::Numbers numbers(rows.size());
+        std::ranges::transform(rows, numbers.begin(), value);
+        records.columns.push_back({std::move(name), std::move(numbers)});
+    };
+    add("threads", [](const Row& r) { return r.threads; });
+    add("layers", [](const Row& r) { return r.layers; });
+    add("points", [](const Row& r) { return r.points; });
+    add("points_per_s", [](const Row& r) { return r.rate; });
+    add("ns_per_point", [](const Row& r) { return 1e9 / r.rate; });
+    add("worst_R", [](const Row& r) { return r.worst_R; });
+    add("operations_per_point", [](const Row& r) { return r.operations; });
+    add("limit_per_s", [](const Row& r) { return r.limit; });
+    add("fraction_of_limit", [](const Row& r) { return r.rate * r.operations / r.limit; });
+    return records;
+}
+
+int run_speed(const SpeedOptions& options) {
+    resolved_record_format(options.output);
+    const double budget = parse_one_number("--time", options.time, 0.001, 60);
+    const std::vector<SpeedCase> cases = chosen_cases(options.cases);
+    const unsigned all_threads =
+        options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+    const SimdLevel widest = execution_of(all_threads).simd;
+    std::vector<Row> rows;
+    // clocks change: the limit is measured on both sides of the rate
+    const auto add = [&](SimdLevel level, unsigned threads, const auto& measure) {
+        const double before = machine_limit(level, threads);
+        Row row = measure();
+        row.limit = std::max(before, machine_limit(level, threads));
+        rows.push_back(std::move(row));
+    };
+    std::vector<SimdLevel> levels;
+    for (const SimdLevel level : kSimdLevels)
+        if (level <= widest && is_available(level)) levels.push_back(level);
+    for (const SimdLevel level : levels) add(level, 1, [&] { return sine_row(level, budget); });
+    for (const SpeedCase& one : cases) {
+        const Measurement measurement(one, budget);
+        add(SimdLevel::plain, 1, [&] { return measurement.by_long_double(); });
+        for (const SimdLevel level : levels)
+            add(level, 1, [&] { return measurement.by_kernel({1, level}); });
+        if (all_threads > 1)
+            add(widest, all_threads, [&] { return measurement.by_kernel({all_threads, widest}); });
+    }
+    write_records(to_records(rows), options.output);
+    return 0;
+}
+
+std::string cases_help() {
+    std::string text = "all, or some of these with commas [all]:";
+    for (const SpeedCase& one : kCases)
+        text += "\n" + std::string(one.name) + ": " + std::string(one.summary);
+    return text;
+}
+
+}  // namespace
+
+void add_bench_speed(CLI::App& bench, Run& run) {
+    CLI::App* command = bench.add_subcommand(
+        "speed",
+        "Points a second of every kernel beside what this machine can do, and their errors.");
+    const auto options = std::make_shared<SpeedOptions>();
+    command->add_option("-t,--time", options->time, "seconds spent on each row, [0.001, 60] [0.1]")
+        ->type_name("S");
+    command->add_option("-c,--cases", options->cases, cases_help())->type_name("NAMES");
+    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_threads_option(*command, options->threads);
+    set_examples(*command, {"irido bench speed -o speed.csv",
+                            "irido bench speed --cases film,40,40_absorbing --time 1 -f json"});
+    command->callback([options, &run] { run = [options] { return run_speed(*options); }; });
+}
+
+}  // namespace irido

@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "cli/bench.hpp"
+#include "core/error.hpp"
+#include "core/stability/stability.hpp"
+#include "schemas/nearest.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kLargestSeed = 0x1p53;
+
+struct StabilityOptions {
+    std::string count = "80";
+    std::string seed = "1";
+    std::string regimes = "all";
+    OutputOptions output;
+    unsigned threads = 0;
+};
+
+std::uint64_t whole_number(std::string_view option, const std::string& text, double lowest,
+                           double highest) {
+    const std::vector<double> values = parse_list(option, text, lowest, highest);
+    const auto whole = static_cast<std::uint64_t>(values.front());
+    if (values.size() != 1 || values.front() != static_cast<double>(whole))
+        throw UsageError(std::string(option) + ": must be one whole number (got '" + text + "')");
+    return whole;
+}
+
+const Regime& regime_named(const std::string& name) {
+    if (const Regime* found = find_regime(name)) return *found;
+    std::vector<std::string> names{"all"};
+    for (const Regime& regime : regimes()) names.emplace_back(regime.name);
+    throw UsageError("--regime: there is no regime '" + name + "'" + did_you_mean(name, names) +
+                     " (see irido bench stability --help)");
+}
+
+/// The regimes of "a,b" in that order.
+std::vector<Regime> parse_regimes(const std::string& text) {
+    if (text == "all") return {regimes().begin(), regimes().end()};
+    std::vector<Regime> chosen;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        chosen.push_back(regime_named(text.substr(begin, end - begin)));
+        begin = end + 1;
+    }
+    return chosen;
+}
+
+Records to_records(const std::vector<RegimeReport>& reports) {
+    Column::Texts names;
+    for (const RegimeReport& report : reports) names.emplace_back(report.regime);
+    Records records{{{"regime", std::move(names)}}};
+    const auto add = [&](std::string name, auto value) {
+        Column::Numbers numbers(reports.size());
+        std::ranges::transform(reports, numbers.begin(), value);
+        records.columns.push_back({std::move(name), std::move(numbers)});
+    };
+    const auto add_count = [&](std::string name, std::uint64_t RegimeReport::*count) {
+        add(std::move(name), [=](const RegimeReport& r) { return static_cast<double>(r.*count); });
+    };
+    const auto add_error = [&](const std::string& name, ErrorSummary RegimeReport::*error) {
+        add("worst_" + name, [=](const RegimeReport& r) { return (r.*error).worst; });
+        add("p99_" + name, [=](const RegimeReport& r) { return (r.*error).p99; });
+        add("condition_" + name, [=](const RegimeReport& r) { return (r.*error).condition; });
+        add("roundings_" + name, [=](const RegimeReport& r) { return (r.*error).roundings; });
+    };
+    add_count("count", &RegimeReport::count);
+    add_error("R", &RegimeReport::R);
+    add_error("T", &RegimeReport::T);
+    add_error("T_relative", &RegimeReport::T_relative);
+    add_error("A", &RegimeReport::A);
+    add_error("A_relative", &RegimeReport::A_relative);
+    add_count("not_finite", &RegimeReport::not_finite);
+    add_count("negative", &RegimeReport::negative);
+    add_count("above_one", &RegimeReport::excess);
+    add_count("beyond_bound", &RegimeReport::beyond);
+    add_count("thresholds", &RegimeReport::thresholds);
+    return records;
+}
+
+/// What is wrong, regime by regime, "" for nothing.
+std::string violations(const std::vector<RegimeReport>& reports) {
+    std::string text;
+    for (const RegimeReport& report : reports)
+        if (!report.passed())
+            text += (text.empty() ? "" : "; ") + std::string(report.regime) + ": " +
+                    report.first_violation + " (--regime " + std::string(report.regime) +
+                    " --count 1 --seed " + std::to_string(report.first_seed) + ")";
+    return text;
+}
+
+int run_stability(const StabilityOptions& options) {
+    resolved_record_format(options.output);
+    const std::uint64_t count = whole_number("--count", options.count, 1, kLargestStabilityCount);
+    const std::uint64_t seed = whole_number("--seed", options.seed, 0, kLargestSeed);
+    const Execution execution = execution_of(options.threads);
+    std::vector<RegimeReport> reports;
+    for (const Regime& regime : parse_regimes(options.regimes))
+        reports.push_back(measure_stability(regime, count, seed, execution));
+    write_records(to_records(reports), options.output);
+    const std::string wrong = violations(reports);
+    if (wrong.empty()) return 0;
+    std::cerr << "irido: error: " << wrong << '\n';
+    return 1;
+}
+
+std::string regimes_help() {
+    std::string text = "all, or some of these with commas [all]:";
+    for (const Regime& regime : regimes())
+        text += "\n" + std::string(regime.name) + ": " + std::string(regime.summary);
+    return text;
+}
+
+}  // namespace
+
+void add_bench_stability(CLI::App& bench, Run& run) {
+    CLI::App* command = bench.add_subcommand(
+        "stability",
+        "Errors of R, T, A on stacks where digits get lost; status 1 if one is beyond its bound.");
+    const auto options = std::make_shared<StabilityOptions>();
+    command
+        ->add_option("-n,--count", options->count,
+                     "random stacks of each regime, two polarizations each,\n[1, 1e6] [80]")
+        ->type_name("N");
+    command
+        ->add_option("-s,--seed", options->seed,
+                     "stack i of a regime depends on seed + i only, [0, 2^53] [1]")
+        ->type_name("S");
+    command->add_option("-r,--regime", options->regimes, regimes_help())->type_name("NAMES");
+    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_threads_option(*command, options->threads);
+    set_examples(*command, {"irido bench stability --count 1000 -o stability.csv",
+                            "irido bench stability --regime band_edge,critical --seed 7 -f json"});
+    command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
+}
+
+}  // namespace irido

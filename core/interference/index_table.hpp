@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/complex.hpp"
+#include "core/stack/stack.hpp"
+
+namespace irido {
+
+/// Complex index of every material of a stack at every wavelength, computed once for all angles.
+class IndexTable {
+public:
+    /// Throws DomainError as index_at does, and if the incident medium absorbs: |k| above 1e-5 (a
+    /// smaller k is left out).
+    IndexTable(const Stack& stack, std::vector<double> wavelength_nm);
+
+    const std::vector<double>& wavelength_nm() const { return wavelength_nm_; }
+    std::size_t materials() const { return materials_; }
+    /// Real and imaginary part of one material's index at all wavelengths.
+    std::span<const double> n(std::size_t material) const { return row(n_, material); }
+    std::span<const double> k(std::size_t material) const { return row(k_, material); }
+    Complex index(std::size_t material, std::size_t wavelength) const {
+        return {n(material)[wavelength], k(material)[wavelength]};
+    }
+    std::size_t incident() const { return incident_; }
+    /// 2 pi / wavelength, 1/nm.
+    const std::vector<double>& k0() const { return k0_; }
+    /// Whether the material has one index at all wavelengths.
+    bool is_constant(std::size_t material) const { return constant_[material]; }
+    /// Per material: whether its index has an imaginary part at any wavelength.
+    const std::vector<bool>& absorbs() const { return absorbs_; }
+    /// Per material: whether that is negative anywhere.
+    const std::vector<bool>& amplifies() const { return amplifies_; }
+
+private:
+    std::span<const double> row(const std::vector<double>& values, std::size_t material) const {
+        return {values.data() + material * wavelength_nm_.size(), wavelength_nm_.size()};
+    }
+
+    std::vector<double> wavelength_nm_;
+    std::size_t materials_, incident_;
+    // n_ and k_ are [material][wavelength]; all three can be read 8 values past their end
+    std::vector<double> n_, k_, k0_;
+    std::vector<bool> constant_, absorbs_, amplifies_;
+};
+
+}  // namespace irido

@@ -1,0 +1,150 @@
+#include "core/interference/vector/chain_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/interference/incoherent.hpp"
+
+namespace irido {
+
+namespace {
+
+double value_at(const Stream& stream, std::size_t point) {
+    return stream.values[stream.varies ? point : 0];
+}
+
+/// Powers of all points of a run in one polarization.
+struct BlockRun {
+    std::vector<double> R, T, A, log_scale;
+    std::vector<Complex> denominator;
+
+    BlockRun(std::size_t points, bool with_denominators) : R(points), T(points), A(points) {
+        if (!with_denominators) return;
+        log_scale.resize(points);
+        denominator.resize(points);
+    }
+    RunOutput output() {
+        RunOutput out{.R = R.data(), .T = T.data(), .A = A.data()};
+        if (denominator.empty()) return out;
+        out.denominator = denominator.data();
+        out.log_scale = log_scale.data();
+        return out;
+    }
+    Power power(std::size_t point) const { return {R[point], T[point], A[point]}; }
+};
+
+/// Both polarizations of one direction through one block.
+struct BothRuns {
+    BlockRun s, p;
+
+    BothRuns(const Program& program, const PointRun& run, bool with_s, bool with_p,
+             bool with_denominators, std::vector<std::size_t>& redo, SimdLevel level)
+        : s(with_s ? run.count : 0, with_denominators),
+          p(with_p ? run.count : 0, with_denominators) {
+        const RunOutput out_s = s.output(), out_p = p.output();
+        run_program(program, run, with_s ? &out_s : nullptr, with_p ? &out_p : nullptr, redo,
+                    level);
+    }
+};
+
+/// What lies below a block, point by point.
+struct Below {
+    std::vector<Power> power;
+    std::vector<Complex> denominator;
+    std::vector<double> log_scale;
+
+    explicit Below(const BlockRun& last)
+        : power(last.R.size()), denominator(last.denominator), log_scale(last.log_scale) {
+        for (std::size_t i = 0; i < power.size(); ++i) power[i] = last.power(i);
+    }
+
+    void add(const BlockRun& down, const BlockRun& up, const std::vector<Attenuation>& gap,
+             const std::vector<char>& lost) {
+        for (std::size_t i = 0; i < power.size(); ++i)
+            if (!lost[i]) power[i] = over_gap({down.power(i), up.power(i)}, gap[i], power[i]);
+        for (std::size_t i = 0; i < denominator.size(); ++i) {
+            const double size = std::abs(down.denominator[i]);
+            denominator[i] *= down.denominator[i] / size;
+            log_scale[i] += down.log_scale[i] + std::log(size);
+        }
+    }
+
+    void store(const RunOutput& out) const {
+        for (std::size_t i = 0; i < power.size(); ++i) {
+            const std::size_t at = i * out.stride;
+            if (out.R) out.R[at] = power[i].R;
+            if (out.T) out.T[at] = power[i].T;
+            if (out.A) out.A[at] = power[i].A;
+            if (out.denominator) {
+                out.denominator[at] = denominator[i];
+                out.log_scale[at] = log_scale[i];
+            }
+        }
+    }
+};
+
+std::vector<Attenuation> attenuations(const Layer& gap, const PointRun& run) {
+    std::vector<Attenuation> result;
+    for (std::size_t i = 0; i < run.count; ++i) {
+        const Complex index{value_at(run.n[gap.material], i), value_at(run.k[gap.material], i)};
+        const Medium inside = medium(index, value_at(run.incident, i), value_at(run.cos_theta, i));
+        result.push_back(attenuation(inside, value_at(run.k0, i) * gap.thickness_nm));
+    }
+    return result;
+}
+
+}  // namespace
+
+std::optional<ChainProgram> compile(const Chain& chain, const std::vector<bool>& absorbs,
+                                    const std::vector<bool>& amplifies) {
+    ChainProgram result;
+    result.gaps = chain.gaps;
+    for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
+        const bool last = i == chain.gaps.size();
+        const std::size_t below = last ? chain.substrate : chain.gaps[i].material;
+        if (!last && amplifies[below]) return std::nullopt;
+        std::optional<Program> down = compile(chain.blocks[i].down, below, absorbs);
+        if (!down) return std::nullopt;
+        result.down.push_back(std::move(*down));
+        if (last) break;
+        // above the first block is the incident medium, which does not absorb
+        std::optional<Program> up = compile(
+            chain.blocks[i].up, i == 0 ? Program::kIncident : chain.gaps[i - 1].material, absorbs);
+        if (!up) return std::nullopt;
+        result.up.push_back(std::move(*up));
+    }
+    return result;
+}
+
+void run_chain(const ChainProgram& chain, const PointRun& run, const RunOutput* s,
+               const RunOutput* p, std::vector<std::size_t>& redo, SimdLevel level) {
+    const std::size_t last = chain.gaps.size();
+    if (last == 0) return run_program(chain.down[0], run, s, p, redo, level);
+    const bool with_denominators = (s && s->denominator) || (p && p->denominator);
+    PointRun from_gap = run;
+    const auto pass = [&](const Program& program, const PointRun& points) {
+        return BothRuns(program, points, s, p, with_denominators, redo, level);
+    };
+    const auto above = [&](std::size_t block) -> const PointRun& {
+        if (block == 0) return run;
+        from_gap.above = chain.gaps[block - 1].material;
+        return from_gap;
+    };
+    const BothRuns bottom = pass(chain.down[last], above(last));
+    Below below_s(bottom.s), below_p(bottom.p);
+    std::vector<char> lost(run.count);
+    for (std::size_t i = last; i-- > 0;) {
+        const BothRuns down = pass(chain.down[i], above(i));
+        const BothRuns up = pass(chain.up[i], above(i + 1));
+        for (const std::size_t point : redo) lost[point] = 1;
+        const std::vector<Attenuation> gap = attenuations(chain.gaps[i], run);
+        below_s.add(down.s, up.s, gap, lost);
+        below_p.add(down.p, up.p, gap, lost);
+    }
+    std::ranges::sort(redo);
+    redo.erase(std::unique(redo.begin(), redo.end()), redo.end());
+    if (s) below_s.store(*s);
+    if (p) below_p.store(*p);
+}
+
+}  // namespace irido

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/complex.hpp"
+#include "core/interference/vector/program.hpp"
+#include "core/math/simd_level.hpp"
+
+namespace irido {
+
+/// A number of every point of a run, or one for all.
+struct Stream {
+    const double* values = nullptr;  ///< a run that varies can be read 7 values past its end
+    bool varies = false;
+};
+
+/// Points that the vector kernel takes together.
+struct PointRun {
+    std::size_t count = 0;
+    Stream k0;                 ///< 2 pi / wavelength, 1/nm
+    Stream incident;           ///< real index n0
+    Stream cos_theta;          ///< in (0, 1]
+    std::vector<Stream> n, k;  ///< one per material
+    /// Index into them of the medium above the layers; nothing for the incident medium. Its wave is
+    /// the one that travels or decays downwards, and k >= 0.
+    std::optional<std::size_t> above;
+};
+
+/// Where the quantities of one polarization go, each nullptr if it is not needed; the value of
+/// point i is stored at i * stride.
+struct RunOutput {
+    double *R = nullptr, *T = nullptr, *A = nullptr;
+    Complex *r = nullptr, *t = nullptr, *denominator = nullptr;
+    double* log_scale = nullptr;
+    std::size_t stride = 1;
+};
+
+/// What coherent_response() computes, for many points at once.
+///   s, p  nullptr for a polarization that is not needed
+///   redo  receives the points that need the plain kernel (no finite result, or exponents too
+///         large for this one)
+/// A lane's result does not depend on what is in the other lanes. R, T and A agree with
+/// coherent_response() to the last digits that the question determines.
+void run_program(const Program& program, const PointRun& run, const RunOutput* s,
+                 const RunOutput* p, std::vector<std::size_t>& redo, SimdLevel level);
+
+}  // namespace irido

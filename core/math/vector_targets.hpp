@@ -1,0 +1,15 @@
+#pragma once
+
+/// Instruction sets that Highway compiles the vector code for: SimdLevel has one name for each.
+/// Its own dispatch is not used, so nothing of its library is linked and the level is an argument.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
+
+/// The instance of a function in irido::HWY_NAMESPACE for a SimdLevel.
+#if defined(__x86_64__)
+#define IRIDO_DISPATCH(level, function)                        \
+    ((level) == SimdLevel::avx512 ? &::irido::N_AVX3::function \
+     : (level) == SimdLevel::avx2 ? &::irido::N_AVX2::function \
+                                  : &::irido::N_SCALAR::function)
+#else
+#define IRIDO_DISPATCH(level, function) ((void)(level), &HWY_STATIC_DISPATCH(function))
+#endif
