@@ -75,14 +75,21 @@ std::string count_of(std::size_t part, std::size_t all, const std::string& what)
     return std::to_string(part) + " of " + std::to_string(all) + " " + what;
 }
 
+/// Why the vector kernel does not take a request.
+std::string why_plain(const StackPower& stack, const Needs& needs, SimdLevel simd) {
+    if (simd == SimdLevel::plain) return "IRIDO_SIMD=plain";
+    if (needs.layers) return "A_layers";
+    if (!stack.chain()) return "spread thicknesses";
+    return "groups of many absorbing layers, or phases beyond 1e12";
+}
+
 /// How the request was computed, and what its physics spared.
-std::vector<std::string> stats_of(const Work& work, const Needs& needs, std::size_t angles) {
+std::vector<std::string> stats_of(const Work& work, const Needs& needs, std::size_t angles,
+                                  const std::string& plain_reason) {
     std::vector<std::string> lines;
     const std::string points = std::to_string(work.points) + " points of wavelength and angle, ";
     if (work.kernel == SimdLevel::plain) {
-        lines.push_back(points +
-                        "one at a time (spread thicknesses, A_layers or groups of many "
-                        "absorbing layers, or IRIDO_SIMD=plain)");
+        lines.push_back(points + "one at a time (" + plain_reason + ")");
     } else {
         lines.push_back(points + "side by side (" + std::string(name_of(work.kernel)) + "), " +
                         std::to_string(work.layers) + " layers");
@@ -134,10 +141,12 @@ int run_spectrum(const SpectrumOptions& options) {
     } catch (const DomainError& error) {
         throw InputError(document.file, "", error.what());
     }
-    if (options.stats)
+    if (options.stats) {
+        const Work work = work_of(stack, table, cosines, needs, execution);
         for (const std::string& line :
-             stats_of(work_of(stack, table, cosines, needs, execution), needs, angles.size()))
+             stats_of(work, needs, angles.size(), why_plain(stack, needs, execution.simd)))
             std::cerr << "irido: stats: " << line << '\n';
+    }
     write_records(spectrum_records(wavelengths, angles, letters, columns, spectra), options.output);
     return 0;
 }

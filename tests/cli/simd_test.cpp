@@ -82,5 +82,8 @@ TEST_CASE("--stats says what was skipped and does not touch the answer", "[cli][
     CHECK_THAT(metal, Contains("skipped: complex arithmetic in 2 of 4 layers"));
     CHECK_THAT(metal, Contains("skipped: matrices of 2 of 4 layers"));
     CHECK_THAT(metal, !Contains("skipped: absorption"));
-    CHECK_THAT(stats("\"1 | Ag@10 | 1.5\" -a 30 --columns A_layers"), Contains("one at a time"));
+    CHECK_THAT(stats("\"1 | Ag@10 | 1.5\" -a 30 --columns A_layers"),
+               Contains("one at a time (A_layers)"));
+    CHECK_THAT(stats("\"1 | (Ag@1 | 1.5@100)^300 | 1.5\" -a 30"),
+               Contains("one at a time (groups of many absorbing layers"));
 }

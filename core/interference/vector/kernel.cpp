@@ -687,7 +687,7 @@ private:
             const Cx over{Mul(e.sum.re, inverse), negative(Mul(e.sum.im, inverse))};
             e.unit = Mul(in.unit, inverse);
             e.r = mul(difference, over);
-            e.mixed = Mul(in.mixed, e.r.im);
+            if (run_.above) e.mixed = Mul(in.mixed, e.r.im);
             const V amplitude = Mul(constant(2), exp_of_log_scale(e.log_scale, -1));
             e.t = scaled(mul(mul(out_b, in.c), over), amplitude);
         }

@@ -225,6 +225,21 @@ TEST_CASE("what is not needed is not computed, and the rest keeps its value") {
     });
 }
 
+TEST_CASE("zeros are not negative") {
+    StackBuilder b;
+    b.add(b.layer(1.46, 25));
+    const Stack stack = b.over({3.9, 0.02});
+    const std::vector<double> cosines{1, 0.3};
+    for (const SimdLevel level : vector_levels()) {
+        const Spectra at =
+            spectra(StackPower(stack), IndexTable(stack, {633}), cosines, kEverything, {1, level});
+        for (const double A : {at.s.A[0], at.s.A[1], at.p.A[1]}) {
+            CHECK(A == 0);
+            CHECK_FALSE(std::signbit(A));
+        }
+    }
+}
+
 TEST_CASE("work says which path a stack takes") {
     const auto work = [](const Stack& stack, const Needs& needs = {}) {
         const IndexTable table(stack, {500, 600});
