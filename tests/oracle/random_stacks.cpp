@@ -95,6 +95,16 @@ Stack random_stack(Kind kind, Random& random) {
     return b.over(1);
 }
 
+Element incoherent(Element layer) {
+    std::get<Layer>(layer.value).coherent = false;
+    return layer;
+}
+
+Element spread(Element layer, double sigma_nm) {
+    std::get<Layer>(layer.value).thickness_sigma_nm = sigma_nm;
+    return layer;
+}
+
 double random_angle(Random& random) {
     return random.below(5) == 0 ? random.uniform(75, 89) : random.uniform(0, 75);
 }

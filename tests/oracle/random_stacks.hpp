@@ -27,6 +27,10 @@ std::string_view name_of(Kind kind);
 
 Stack random_stack(Kind kind, Random& random);
 
+/// The layer with powers, not amplitudes, added across it; the layer with a spread thickness.
+Element incoherent(Element layer);
+Element spread(Element layer, double sigma_nm);
+
 /// 0 to 89, every fifth above 75.
 double random_angle(Random& random);
 

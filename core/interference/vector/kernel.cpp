@@ -231,20 +231,15 @@ private:
         p_out = p;
     }
 
-    /// The same with matrices from share_layers().
-    template <bool kS, bool kP>
-    HWY_NOINLINE void shared_travelling_step(const Program::Step& step, Fields& s_out,
-                                             Fields& p_out) const {
+    /// One layer after the other, in registers; `through(layer, s, p)` takes the fields through one.
+    template <bool kS, bool kP, class Through>
+    HWY_INLINE void layer_by_layer(const Program::Step& step, Fields& s_out, Fields& p_out,
+                                   const Through& through) const {
         Fields s = s_out, p = p_out;
         const std::uint32_t* order = program_.order.data() + step.first;
         for (std::uint32_t left = step.count; left > 0;) {
             const std::uint32_t some = std::min(left, kLayersBetweenChecks);
-            for (std::uint32_t i = 0; i < some; ++i) {
-                const double* shared = shared_.get() + order[i] * kShared;
-                const V c = slot(shared, kCos);
-                if (kS) through_transparent(s, c, slot(shared, kBetaS), slot(shared, kGammaS));
-                if (kP) through_transparent(p, c, slot(shared, kBetaP), slot(shared, kGammaP));
-            }
+            for (std::uint32_t i = 0; i < some; ++i) through(order[i], s, p);
             order += some;
             left -= some;
             if (kS) check_size(s);
@@ -252,6 +247,20 @@ private:
         }
         s_out = s;
         p_out = p;
+    }
+
+    /// Travelling layers with matrices from share_layers().
+    template <bool kS, bool kP>
+    HWY_NOINLINE void shared_travelling_step(const Program::Step& step, Fields& s_out,
+                                             Fields& p_out) const {
+        const double* all = shared_.get();
+        layer_by_layer<kS, kP>(
+            step, s_out, p_out, [all](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
+                const double* shared = all + layer * kShared;
+                const V c = slot(shared, kCos);
+                if (kS) through_transparent(s, c, slot(shared, kBetaS), slot(shared, kGammaS));
+                if (kP) through_transparent(p, c, slot(shared, kBetaP), slot(shared, kGammaP));
+            });
     }
 
     /// Layers some of which are evanescent somewhere.
@@ -305,77 +314,60 @@ private:
 
     template <bool kS, bool kP, bool kFlux>
     HWY_NOINLINE void absorbing_step(const Program::Step& step, V k0, Fields& s_out, Fields& p_out,
-                                     V& dying) const {
-        Fields s = s_out, p = p_out;
-        const std::uint32_t* order = program_.order.data() + step.first;
-        for (std::uint32_t left = step.count; left > 0;) {
-            const std::uint32_t some = std::min(left, kLayersBetweenChecks);
-            for (std::uint32_t i = 0; i < some; ++i) {
-                const std::uint32_t layer = order[i];
-                const double* medium = record(layer);
-                const V k0_d = vacuum_phase(layer, k0);
-                const AbsorbingTurn t = absorbing_turn(layer, k0_d);
-                if constexpr (kFlux) {
-                    const V e = exp(Mul(constant(-2), t.phase.im));
-                    const DepthIntegrals integrals =
-                        depth_integrals(medium, t.phase, t.turn, t.less, e, k0_d);
-                    if (kS)
-                        s.absorbed =
-                            MulAdd(s.absorbed, e, absorbed_in_layer<false>(s, medium, integrals));
-                    if (kP)
-                        p.absorbed =
-                            MulAdd(p.absorbed, e, absorbed_in_layer<true>(p, medium, integrals));
-                }
-                if (kS) {
-                    through_absorbing(s, t.cos, mul(slots(medium, kSwRe), t.sin),
-                                      mul(slots(medium, kSvRe), t.sin));
-                    grow(s, t.phase.im);
-                }
-                if (kP) {
-                    through_absorbing(p, t.cos, mul(slots(medium, kPwRe), t.sin),
-                                      mul(slots(medium, kPvRe), t.sin));
-                    grow(p, t.phase.im);
-                }
-                if (wants_denominators_) dying = dying_turn(t.phase.re, t.phase.im, dying);
+                                     V& dying_out) const {
+        V dying = dying_out;
+        const auto through = [&, k0](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
+            const double* medium = record(layer);
+            const V k0_d = vacuum_phase(layer, k0);
+            const AbsorbingTurn t = absorbing_turn(layer, k0_d);
+            if constexpr (kFlux) {
+                const V e = exp(Mul(constant(-2), t.phase.im));
+                const DepthIntegrals integrals =
+                    depth_integrals(medium, t.phase, t.turn, t.less, e, k0_d);
+                if (kS)
+                    s.absorbed =
+                        MulAdd(s.absorbed, e, absorbed_in_layer<false>(s, medium, integrals));
+                if (kP)
+                    p.absorbed =
+                        MulAdd(p.absorbed, e, absorbed_in_layer<true>(p, medium, integrals));
             }
-            order += some;
-            left -= some;
-            if (kS) check_size(s);
-            if (kP) check_size(p);
-        }
-        s_out = s;
-        p_out = p;
+            if (kS) {
+                through_absorbing(s, t.cos, mul(slots(medium, kSwRe), t.sin),
+                                  mul(slots(medium, kSvRe), t.sin));
+                grow(s, t.phase.im);
+            }
+            if (kP) {
+                through_absorbing(p, t.cos, mul(slots(medium, kPwRe), t.sin),
+                                  mul(slots(medium, kPvRe), t.sin));
+                grow(p, t.phase.im);
+            }
+            if (wants_denominators_) dying = dying_turn(t.phase.re, t.phase.im, dying);
+        };
+        layer_by_layer<kS, kP>(step, s_out, p_out, through);
+        dying_out = dying;
     }
 
     /// The same with matrices from share_layers().
     template <bool kS, bool kP>
     HWY_NOINLINE void shared_absorbing_step(const Program::Step& step, Fields& s_out, Fields& p_out,
-                                            V& dying) const {
-        Fields s = s_out, p = p_out;
-        const std::uint32_t* order = program_.order.data() + step.first;
-        for (std::uint32_t left = step.count; left > 0;) {
-            const std::uint32_t some = std::min(left, kLayersBetweenChecks);
-            for (std::uint32_t i = 0; i < some; ++i) {
-                const double* shared = shared_.get() + order[i] * kShared;
-                const Cx c = slots(shared, kCRe);
-                const V b = slot(shared, kDecay);
-                if (kS) {
-                    through_absorbing(s, c, slots(shared, kPsRe), slots(shared, kQsRe));
-                    grow(s, b);
-                }
-                if (kP) {
-                    through_absorbing(p, c, slots(shared, kPpRe), slots(shared, kQpRe));
-                    grow(p, b);
-                }
-                if (wants_denominators_) dying = dying_turn(slot(shared, kTurn), b, dying);
+                                            V& dying_out) const {
+        V dying = dying_out;
+        const auto through = [&](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
+            const double* shared = shared_.get() + layer * kShared;
+            const Cx c = slots(shared, kCRe);
+            const V b = slot(shared, kDecay);
+            if (kS) {
+                through_absorbing(s, c, slots(shared, kPsRe), slots(shared, kQsRe));
+                grow(s, b);
             }
-            order += some;
-            left -= some;
-            if (kS) check_size(s);
-            if (kP) check_size(p);
-        }
-        s_out = s;
-        p_out = p;
+            if (kP) {
+                through_absorbing(p, c, slots(shared, kPpRe), slots(shared, kQpRe));
+                grow(p, b);
+            }
+            if (wants_denominators_) dying = dying_turn(slot(shared, kTurn), b, dying);
+        };
+        layer_by_layer<kS, kP>(step, s_out, p_out, through);
+        dying_out = dying;
     }
 
     /// A transparent layer of half its thickness, without the identity: cosh and sinh plain.

@@ -12,19 +12,11 @@ using namespace irido;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 using oracle::Query;
+using oracle::incoherent;
+using oracle::spread;
 using oracle::StackBuilder;
 
 namespace {
-
-Element incoherent(Element element) {
-    std::get<Layer>(element.value).coherent = false;
-    return element;
-}
-
-Element spread(Element element, double sigma_nm) {
-    std::get<Layer>(element.value).thickness_sigma_nm = sigma_nm;
-    return element;
-}
 
 std::vector<double> layers_of(const Stack& stack, const Query& query) {
     const IndexTable table(stack, {query.wavelength_nm});

@@ -9,19 +9,11 @@
 
 using namespace irido;
 using Catch::WithinAbs;
+using oracle::incoherent;
+using oracle::spread;
 using oracle::StackBuilder;
 
 namespace {
-
-Element incoherent(Element element) {
-    std::get<Layer>(element.value).coherent = false;
-    return element;
-}
-
-Element spread(Element element, double sigma_nm) {
-    std::get<Layer>(element.value).thickness_sigma_nm = sigma_nm;
-    return element;
-}
 
 void check_same(const Power& a, const Power& b, double tolerance) {
     CHECK_THAT(a.R, WithinAbs(b.R, tolerance));

@@ -10,16 +10,12 @@
 
 using namespace irido;
 using Catch::WithinAbs;
+using oracle::incoherent;
 using oracle::StackBuilder;
 
 namespace {
 
 constexpr Needs kEverything{.amplitudes = true, .denominators = true};
-
-Element incoherent(Element layer) {
-    std::get<Layer>(layer.value).coherent = false;
-    return layer;
-}
 
 /// Films of every sort that the kernel has a path for.
 enum class Sort {
