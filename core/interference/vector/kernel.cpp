@@ -231,7 +231,8 @@ private:
         p_out = p;
     }
 
-    /// One layer after the other, in registers; `through(layer, s, p)` takes the fields through one.
+    /// One layer after the other, in registers; `through(layer, s, p)` takes the fields through
+    /// one.
     template <bool kS, bool kP, class Through>
     HWY_INLINE void layer_by_layer(const Program::Step& step, Fields& s_out, Fields& p_out,
                                    const Through& through) const {

@@ -11,8 +11,8 @@
 using namespace irido;
 using Catch::WithinAbs;
 using Catch::WithinRel;
-using oracle::Query;
 using oracle::incoherent;
+using oracle::Query;
 using oracle::spread;
 using oracle::StackBuilder;
 
