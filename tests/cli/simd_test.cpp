@@ -56,7 +56,7 @@ TEST_CASE("an unknown instruction set is refused in one line", "[cli][simd][refu
           "irido: error: IRIDO_SIMD: must be one of plain, baseline, avx2, avx512 (got sse9)\n");
 }
 
-TEST_CASE("--stats says what was skipped and does not touch the answer", "[cli][simd]") {
+TEST_CASE("stats say what was skipped and do not touch the answer", "[cli][simd]") {
     const auto stats = [](const std::string& arguments) {
         const std::string request = "\"$IRIDO\" spectrum " + arguments;
         const Outcome plain = run_shell(request, IRIDO_SOURCE_DIR);
