@@ -78,8 +78,9 @@ double parse_one_number(std::string_view option, const std::string& text, double
     return values.front();
 }
 
-void set_examples(CLI::App& command, const std::vector<std::string>& examples) {
-    std::string text = "Examples:";
+void set_examples(CLI::App& command, const std::vector<std::string>& examples,
+                  const std::string& notes) {
+    std::string text = notes.empty() ? "Examples:" : notes + "\n\nExamples:";
     for (const std::string& example : examples) text += "\n  " + example;
     command.footer(text);
 }

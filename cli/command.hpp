@@ -48,8 +48,9 @@ Execution execution_of(unsigned threads = 0);
 double parse_one_number(std::string_view option, const std::string& text, double lowest,
                         double highest);
 
-/// The last lines of a help page.
-void set_examples(CLI::App& command, const std::vector<std::string>& examples);
+/// The last lines of a help page, after `notes` if there are any.
+void set_examples(CLI::App& command, const std::vector<std::string>& examples,
+                  const std::string& notes = "");
 
 /// The format's name as typed or as the file's extension says, "csv" if by neither. UsageError.
 std::string resolved_format(const OutputOptions& output);

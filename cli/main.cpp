@@ -25,7 +25,9 @@ extern "C" void stop_on_signal(int signal) {
 void handle_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         if (std::signal(signal, stop_on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
-    std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of write(), handled there
+    // a closed pipe and a file that grows too large are errors of write(), handled there
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 std::string version_text() {
@@ -47,10 +49,27 @@ std::vector<std::string> names_of(const std::vector<CLI::App*>& commands) {
     return names;
 }
 
+/// The command typed at a place of the command line must be one of the parent's, and if that has
+/// commands itself, so must the next. Throws UsageError.
+void require_known(CLI::App& parent, int argc, char** argv, int place) {
+    const std::vector<std::string> commands = names_of(parent.get_subcommands({}));
+    const std::string typed = place < argc ? argv[place] : "";
+    if (commands.empty() || typed.starts_with('-')) return;
+    const std::string help = place == 1 ? "irido --help" : "irido " + parent.get_name() + " --help";
+    if (typed.empty()) {
+        if (place == 1) return;
+        throw UsageError("a command must follow " + parent.get_name() + " (see " + help + ")");
+    }
+    if (std::ranges::find(commands, typed) == commands.end())
+        throw UsageError("there is no command '" + typed + "'" + did_you_mean(typed, commands) +
+                         " (see " + help + ")");
+    require_known(*parent.get_subcommand(typed), argc, argv, place + 1);
+}
+
 int run_program(int argc, char** argv) {
     CLI::App program("What a stack of thin films does to light: spectra and colours.", "irido");
     program.require_subcommand(1);
-    program.set_version_flag("--version", version_text(), "version, compiler and SIMD level");
+    program.set_version_flag("--version", version_text, "version, compiler and SIMD level");
     program.get_formatter()->column_width(26);
     Run run;
     add_spectrum_command(program, run);
@@ -61,11 +80,7 @@ int run_program(int argc, char** argv) {
     set_examples(program,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
                   "irido color \"air | TiO2@35 | Ti\" -a 0:80:10", "irido COMMAND --help"});
-    const std::vector<std::string> commands = names_of(program.get_subcommands({}));
-    if (const std::string first = argc > 1 ? argv[1] : "--help";
-        !first.starts_with('-') && std::ranges::find(commands, first) == commands.end())
-        return fail("there is no command '" + first + "'" + did_you_mean(first, commands) +
-                    " (see irido --help)");
+    require_known(program, argc, argv, 1);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version

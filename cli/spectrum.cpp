@@ -141,13 +141,13 @@ int run_spectrum(const SpectrumOptions& options) {
     } catch (const DomainError& error) {
         throw InputError(document.file, "", error.what());
     }
+    write_records(spectrum_records(wavelengths, angles, letters, columns, spectra), options.output);
     if (options.stats) {
         const Work work = work_of(stack, table, cosines, needs, execution);
         for (const std::string& line :
              stats_of(work, needs, angles.size(), why_plain(stack, needs, execution.simd)))
             std::cerr << "irido: stats: " << line << '\n';
     }
-    write_records(spectrum_records(wavelengths, angles, letters, columns, spectra), options.output);
     return 0;
 }
 
@@ -176,6 +176,7 @@ void add_spectrum_command(CLI::App& program, Run& run) {
                      "psi_deg delta_deg  ellipsometric angles, r_p/r_s = tan(psi)\n"
                      "    exp(i delta); delta = 0 at 0 deg (others have 180 there)\n"
                      "A_layers  A_1 A_2 ..., absorbed in each layer, at most 1000\n"
+                     "    (np.load needs max_header_size=100000 for more than 500)\n"
                      "All but A_layers need -p s, p or s,p and coherent layers")
         ->type_name("LIST");
     add_output_options(*command, options->output, "csv, json or npy [csv]");

@@ -162,9 +162,10 @@ double normalize(Matrix& m) {
     const double size = std::max({std::abs(m.a.real()), std::abs(m.a.imag()), std::abs(m.b.real()),
                                   std::abs(m.b.imag()), std::abs(m.c.real()), std::abs(m.c.imag()),
                                   std::abs(m.d.real()), std::abs(m.d.imag())});
-    const bool shrunk = size > 0 && size < 1e-60 && m.log_scale + std::log(size) > 10;
+    const bool shrunk = size > 0 && size < 1e-60 && m.log_scale > 1;
     if (!(size > 1e60) && !shrunk) return 0;
-    const int exponent = std::ilogb(size);
+    const int lowest = -static_cast<int>(std::min(m.log_scale / std::log(2.0), 2000.0));
+    const int exponent = std::max(std::ilogb(size), lowest);
     const double factor = std::ldexp(1.0, -exponent);
     for (Complex* entry : {&m.a, &m.b, &m.c, &m.d}) *entry *= factor;
     const double moved = exponent * std::log(2.0);

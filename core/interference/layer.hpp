@@ -69,8 +69,8 @@ Slab layer_slab(const Medium& medium, double k0_d, Polarization polarization);
 Matrix operator*(const Matrix& upper, const Matrix& lower);
 Slab operator*(const Slab& upper, const Slab& lower);
 
-/// Moves the size of a very large or very small matrix into its log_scale, as long as that stays
-/// far above 0; returns what it moved.
+/// Moves the size of a very large or very small matrix into its log_scale, as far as that stays
+/// above 0; returns what it moved.
 double normalize(Matrix& matrix);
 
 }  // namespace irido

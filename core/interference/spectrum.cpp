@@ -97,8 +97,15 @@ public:
 private:
     void compute(Polarization polarization, double k0, std::size_t point, Spectrum* to,
                  Spectrum* also) {
-        const Response response = stack_(media_, k0, polarization);
-        if (needs_.layers) stack_.layer_absorption(media_, k0, polarization, absorbed_);
+        Response response;
+        try {
+            response = stack_(media_, k0, polarization);
+            if (needs_.layers) stack_.layer_absorption(media_, k0, polarization, absorbed_);
+        } catch (const DomainError& error) {
+            const double nm = table_.wavelength_nm()[point % table_.wavelength_nm().size()];
+            throw DomainError(std::string(error.what()) + " (" + to_text(nm) + " nm, " +
+                              (polarization == Polarization::s ? "s" : "p") + ")");
+        }
         for (Spectrum* spectrum : {to, also}) {
             if (!spectrum) continue;
             store(*spectrum, point, response);

@@ -70,9 +70,9 @@ Error relative_error(double value, double exact, double condition) {
 }
 
 void judge(Answer& answer, std::string_view which, const std::optional<Error>& e,
-           double well_posed = kWellPosedError) {
+           double well_posed = kWellPosedError, double roundings = kAllowedRoundings) {
     if (!e) return;
-    const double share = e->error / error_bound(e->condition, well_posed);
+    const double share = e->error / error_bound(e->condition, well_posed, roundings);
     if (share <= answer.beyond) return;
     answer.beyond = share;
     answer.which = which;
@@ -101,8 +101,10 @@ Answer compared(const Power& power, const ConditionedPower& exact, bool passive)
     judge(answer, "T", answer.T);
     judge(answer, "A", answer.A);
     if (answer.T_relative && error_bound(answer.T_relative->condition) < kLargestRelativeBound)
-        judge(answer, "T (relative)", answer.T_relative);
-    judge(answer, "A (relative)", answer.A_relative, kWellPosedRelativeA);
+        judge(answer, "T (relative)", answer.T_relative, kWellPosedError,
+              kAllowedRelativeRoundings);
+    judge(answer, "A (relative)", answer.A_relative, kWellPosedRelativeA,
+          kAllowedRelativeRoundings);
     return answer;
 }
 
@@ -159,7 +161,7 @@ void count(RegimeReport& report, const Answer& answer, bool passive, std::uint64
     report.not_finite += !answer.finite;
     report.negative += answer.negative;
     report.excess += answer.excess;
-    report.beyond += answer.beyond > 1;
+    report.beyond += answer.beyond > 1 || (passive && answer.refused);
     if (!report.passed()) return;
     report.first_violation = violation_of(answer, passive);
     report.first_seed = seed;
@@ -167,8 +169,8 @@ void count(RegimeReport& report, const Answer& answer, bool passive, std::uint64
 
 }  // namespace
 
-double error_bound(double condition, double well_posed) {
-    return std::max(well_posed, kAllowedRoundings * condition * kUnitRoundoff);
+double error_bound(double condition, double well_posed, double roundings) {
+    return std::max(well_posed, roundings * condition * kUnitRoundoff);
 }
 
 StackCase stability_case(const Regime& regime, std::uint64_t seed) {

@@ -21,8 +21,10 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 /// of the fields, which loses twice the digits that cancel in them (guided modes behind a gap), or
 /// the difference 1 - R - T where it exceeds 0.01.
 inline constexpr double kWellPosedError = 1e-13, kWellPosedRelativeA = 1e-9;
-inline constexpr double kAllowedRoundings = 10;
-double error_bound(double condition, double well_posed = kWellPosedError);
+/// Relative errors of T and A may be ten times larger: they are products of all that lies above.
+inline constexpr double kAllowedRoundings = 10, kAllowedRelativeRoundings = 100;
+double error_bound(double condition, double well_posed = kWellPosedError,
+                   double roundings = kAllowedRoundings);
 
 /// R + T of a passive stack may exceed 1 by this.
 inline constexpr double kAllowedExcess = 1e-13;
@@ -47,7 +49,7 @@ struct RegimeReport {
     std::uint64_t not_finite = 0;
     std::uint64_t negative = 0;    ///< R, T or A < 0 though nothing amplifies
     std::uint64_t excess = 0;      ///< R + T > 1 + kAllowedExcess though nothing amplifies
-    std::uint64_t beyond = 0;      ///< an error above its bound
+    std::uint64_t beyond = 0;      ///< an error above its bound, or refused without gain
     std::uint64_t thresholds = 0;  ///< refused: at a laser threshold
     /// The first answer that is any of the first four, or refused without gain: "" if there is
     /// none, else what is wrong; `first_seed` with a count of 1 repeats that case.

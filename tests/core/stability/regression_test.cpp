@@ -185,3 +185,23 @@ TEST_CASE("A of an evanescent absorber of many wavelengths keeps its digits", "[
     b.add(b.layer(2.5619715108718752, 80));
     check(b.over(1.0634427736125911), 411.19241300020275, 86.534186274493663);
 }
+
+TEST_CASE("opaque periods with groups in them are no lasers", "[regression]") {
+    // matrices whose logarithm overestimates them vanished when they were squared
+    StackBuilder b;
+    const Element inner =
+        StackBuilder::group(3, {b.layer(1.875, 228.78), b.layer({1.371, 0.00213}, 141.81)});
+    b.add(StackBuilder::group(7594, {inner, b.layer(1.6, 100)}));
+    check(b.over(1.5), 500, 75);
+    StackBuilder c;
+    const Element lossless = StackBuilder::group(89, {c.layer(1.81, 278), c.layer(1.78, 265)});
+    c.add(StackBuilder::group(5000, {c.layer({1.37, 0.002}, 141.81), lossless}));
+    for (const double nm : {400.0, 520.0, 633.0, 800.0}) check(c.over(1.5), nm, 75);
+    StackBuilder d;
+    const Element once =
+        StackBuilder::group(1, {d.layer({1.44, 2.29e-13}, 51.21), d.layer({1.93, 9.86e-12}, 215.7),
+                                d.layer({1.417, 2.48e-15}, 226.3)});
+    const Element many = StackBuilder::group(522812, {once, d.layer(1.357, 296.98)});
+    d.add(StackBuilder::group(585679, {many, d.layer(1.404, 89.87)}));
+    check(d.over(1.5), 540, 20);
+}
