@@ -113,7 +113,7 @@ TEST_CASE("the error stays below the tolerance") {
     oracle::Random random(100 + static_cast<std::uint64_t>(kind));
     double worst = 0, worst_estimate = 0;
     std::string worst_stack;
-    for (int i = 0; i < 50; ++i) {
+    for (int i = 0; i < 20; ++i) {
         const Stack stack = oracle::random_stack(kind, random);
         const double angle = oracle::random_angle(random);
         const bool transmitted = random.below(3) == 0;
