@@ -15,9 +15,15 @@ TEST_CASE("the program says what it is", "[cli]") {
 }
 
 TEST_CASE("every help page has a purpose and two examples", "[cli]") {
-    const std::vector<std::vector<std::string>> commands{
-        {"spectrum"},         {"color"}, {"validate"}, {"materials"}, {"materials", "list"},
-        {"materials", "show"}};
+    const std::vector<std::vector<std::string>> commands{{"spectrum"},
+                                                         {"color"},
+                                                         {"validate"},
+                                                         {"materials"},
+                                                         {"materials", "list"},
+                                                         {"materials", "show"},
+                                                         {"bench"},
+                                                         {"bench", "speed"},
+                                                         {"bench", "stability"}};
     for (auto command : commands) {
         command.emplace_back("--help");
         const Outcome help = run_irido(command);
@@ -80,4 +86,15 @@ TEST_CASE("validate prints the schema that it uses", "[cli][validate]") {
     CHECK(schema.status == 0);
     CHECK(schema.out == read_file(std::string(IRIDO_SOURCE_DIR) + "/schemas/stack.schema.json"));
     CHECK(run_irido({"validate"}).status == 2);
+}
+
+TEST_CASE("a file that may not grow as large as the answer is no file", "[cli]") {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_shell(
+        "ulimit -f 10; \"$IRIDO\" spectrum '1 | 1.5@100 | 1' -a 0:89:1 -o limited.npy; status=$?; "
+        "ls; exit $status",
+        folder.path());
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err == "irido: error: limited.npy: cannot be written: File too large\n");
 }
