@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/math/simd_level.hpp"
 
 namespace irido {
 
@@ -12,18 +13,15 @@ namespace {
 /// Absorption of an incident medium that passes as none: catalogue glasses have k of 1e-8.
 constexpr double kNegligibleAbsorption = 1e-5;
 
-/// The last vector of a row may be read whole.
-constexpr std::size_t kReadAhead = 8;
-
 }  // namespace
 
 IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     : wavelength_nm_(std::move(wavelength_nm)),
       materials_(stack.materials.size()),
       incident_(stack.incident),
-      n_(wavelength_nm_.size() * materials_ + kReadAhead, 1),
+      n_(wavelength_nm_.size() * materials_ + kMostLanes, 1),
       k_(n_.size(), 0),
-      k0_(wavelength_nm_.size() + kReadAhead, 1),
+      k0_(wavelength_nm_.size() + kMostLanes, 1),
       constant_(materials_, true),
       absorbs_(materials_, false),
       amplifies_(materials_, false) {

@@ -40,7 +40,7 @@ private:
 
     std::vector<double> wavelength_nm_;
     std::size_t materials_, incident_;
-    // n_ and k_ are [material][wavelength]; all three can be read 8 values past their end
+    // n_ and k_ are [material][wavelength]; all three can be read kMostLanes past their end
     std::vector<double> n_, k_, k0_;
     std::vector<bool> constant_, absorbs_, amplifies_;
 };

@@ -11,9 +11,6 @@ namespace irido {
 
 namespace {
 
-/// An absorption above this loses nothing as 1 - R - T.
-constexpr double kSubtractable = 0.01;
-
 /// An absorbing slab is opaque below this transmittance. Its R depends on its top only, its A on
 /// all that was multiplied: A has fewer digits then, and 1 - R - T more than the fluxes above
 /// kSubtractableIfOpaque.

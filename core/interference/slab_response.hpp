@@ -6,6 +6,9 @@
 
 namespace irido {
 
+/// An absorption above this loses nothing as 1 - R - T.
+inline constexpr double kSubtractable = 0.01;
+
 /// One wave of a medium: its tangential fields B : C, up to a common factor, and the flux
 /// Re(conj(B) C) of that.
 struct Wave {

@@ -18,9 +18,6 @@ constexpr std::size_t kPlainBlock = 64, kVectorBlock = 1024;
 /// Fewer wavelengths than this go side by side with other angles.
 constexpr std::size_t kFewWavelengths = 8;
 
-/// Values past the end of a run that the vector kernel may read.
-constexpr std::size_t kReadAhead = 8;
-
 /// The vector kernel's sine takes phases up to 2^40.
 constexpr double kLargestPhase = 0x1p40;
 
@@ -194,7 +191,7 @@ public:
         if (across) {
             cosines.assign(cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.begin),
                            cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.end));
-            cosines.resize(cosines.size() + kReadAhead, 1);
+            cosines.resize(cosines.size() + kMostLanes, 1);
             run.cos_theta.values = cosines.data();
         }
         for (std::size_t m = 0; m < table_.materials(); ++m) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace irido {
@@ -14,6 +15,10 @@ enum class SimdLevel {
 };
 inline constexpr std::array kSimdLevels{SimdLevel::plain, SimdLevel::baseline, SimdLevel::avx2,
                                         SimdLevel::avx512};
+
+/// Lanes of the widest vector of doubles. Rows that vectors read are as much longer than what they
+/// hold, so that the last vector needs no care.
+inline constexpr std::size_t kMostLanes = 8;
 
 /// "plain", "baseline", "avx2", "avx512".
 std::string_view name_of(SimdLevel level);

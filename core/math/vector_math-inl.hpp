@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "core/math/simd_level.hpp"
 #include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
 
@@ -16,7 +17,7 @@ namespace irido::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Lanes = hn::CappedTag<double, 8>;
+using Lanes = hn::CappedTag<double, kMostLanes>;
 using V = hn::Vec<Lanes>;
 using Mask = hn::Mask<Lanes>;
 

@@ -22,14 +22,14 @@ HWY_ATTR void for_each_vector(std::span<const double> x, const F& f) {
     std::size_t i = 0;
     for (; i + step <= x.size(); i += step) f(hn::LoadU(Lanes(), x.data() + i), i, step);
     if (i == x.size()) return;
-    HWY_ALIGN std::array<double, 8> rest{};
+    HWY_ALIGN std::array<double, kMostLanes> rest{};
     std::copy(x.begin() + static_cast<std::ptrdiff_t>(i), x.end(), rest.begin());
     f(hn::Load(Lanes(), rest.data()), i, x.size() - i);
 }
 
 HWY_INLINE void store(V value, std::span<double> out, std::size_t at, std::size_t count) {
     if (count == hn::Lanes(Lanes())) return hn::StoreU(value, Lanes(), out.data() + at);
-    HWY_ALIGN std::array<double, 8> values;
+    HWY_ALIGN std::array<double, kMostLanes> values;
     hn::Store(value, Lanes(), values.data());
     std::copy_n(values.begin(), count, out.begin() + static_cast<std::ptrdiff_t>(at));
 }

@@ -12,6 +12,7 @@
 #include <memory>
 #include <new>
 
+#include "core/interference/slab_response.hpp"
 #include "core/interference/vector/kernel.hpp"
 #include "core/math/vector_math-inl.hpp"
 
@@ -35,8 +36,6 @@ using hn::Or;
 using hn::Store;
 using hn::Sub;
 
-constexpr std::size_t kMaxLanes = 8;
-
 /// Stands in for an exact zero of kz, so that sin(k0 d kz)/kz becomes k0 d.
 constexpr double kTinyIndex = 1e-140;
 
@@ -49,9 +48,6 @@ constexpr std::uint32_t kSideBySide = 4;
 
 /// A half period with a larger exponent is left to the plain kernel.
 constexpr double kLargestHalfExponent = 150;
-
-/// An absorption above this loses nothing as 1 - R - T.
-constexpr double kSubtractable = 0.01;
 
 /// A thin layer, |delta|^2, whose depth integrals are summed as series.
 constexpr double kThinSquare = 0.25;
@@ -133,7 +129,7 @@ enum AbsorbingSlot {
     kLossW,  // Im eps, w = kz^2/eps, Im w
     kAbsorbingSlots
 };
-constexpr std::size_t kRecord = kAbsorbingSlots * kMaxLanes;
+constexpr std::size_t kRecord = kAbsorbingSlots * kMostLanes;
 // Slots of a shared layer.
 enum SharedTransparent { kCos, kBetaS, kGammaS, kBetaP, kGammaP, kExponent, kSharedTransparent };
 enum SharedAbsorbing {
@@ -151,13 +147,13 @@ enum SharedAbsorbing {
     kTurn,
     kSharedAbsorbing
 };
-constexpr std::size_t kShared = kSharedAbsorbing * kMaxLanes;
+constexpr std::size_t kShared = kSharedAbsorbing * kMostLanes;
 
 HWY_INLINE V slot(const double* record, int index) {
-    return Load(Lanes(), record + static_cast<std::size_t>(index) * kMaxLanes);
+    return Load(Lanes(), record + static_cast<std::size_t>(index) * kMostLanes);
 }
 HWY_INLINE void put(double* record, int index, V value) {
-    Store(value, Lanes(), record + static_cast<std::size_t>(index) * kMaxLanes);
+    Store(value, Lanes(), record + static_cast<std::size_t>(index) * kMostLanes);
 }
 HWY_INLINE Cx slots(const double* record, int index) {
     return {slot(record, index), slot(record, index + 1)};

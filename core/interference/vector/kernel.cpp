@@ -711,7 +711,7 @@ private:
             hn::StoreU(value, Lanes(), to + point);
             return;
         }
-        HWY_ALIGN double values[kMaxLanes];
+        HWY_ALIGN double values[kMostLanes];
         Store(value, Lanes(), values);
         for (std::size_t lane = 0; lane < lanes; ++lane) to[(point + lane) * stride] = values[lane];
     }
@@ -719,8 +719,8 @@ private:
     static HWY_INLINE void store(Cx value, Complex* to, std::size_t point, std::size_t lanes,
                                  std::size_t stride) {
         if (!to) return;
-        HWY_ALIGN double re[kMaxLanes];
-        HWY_ALIGN double im[kMaxLanes];
+        HWY_ALIGN double re[kMostLanes];
+        HWY_ALIGN double im[kMostLanes];
         Store(value.re, Lanes(), re);
         Store(value.im, Lanes(), im);
         for (std::size_t lane = 0; lane < lanes; ++lane)
@@ -741,7 +741,7 @@ private:
         const Mask finite = hn::Le(Abs(total), constant(1e300));
         const Mask redo = Or(bad, hn::Not(finite));
         if (HWY_LIKELY(hn::AllFalse(Lanes(), redo))) return 0;
-        HWY_ALIGN double flags[kMaxLanes];
+        HWY_ALIGN double flags[kMostLanes];
         Store(IfThenElse(redo, constant(1), constant(0)), Lanes(), flags);
         std::uint32_t bits = 0;
         for (std::size_t lane = 0; lane < lanes; ++lane)

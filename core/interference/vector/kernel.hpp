@@ -11,7 +11,7 @@ namespace irido {
 
 /// A number of every point of a run, or one for all.
 struct Stream {
-    const double* values = nullptr;  ///< a run that varies can be read 7 values past its end
+    const double* values = nullptr;  ///< a run that varies can be read kMostLanes past its end
     bool varies = false;
 };
 
