@@ -268,7 +268,7 @@ Row sine_row(SimdLevel level, double budget) {
     row.name = "sin_cos";
     row.method = name_of(level);
     row.points = static_cast<double>(x.size());
-    row.operations = 33;
+    row.operations = kSinCosOperations;
     row.rate = row.points / (level == SimdLevel::plain ? best_seconds(budget, by_library)
                                                        : best_seconds(budget, by_vectors));
     return row;
@@ -283,15 +283,12 @@ std::vector<std::string> case_names() {
 std::vector<SpeedCase> chosen_cases(const std::string& text) {
     if (text == "all") return {kCases.begin(), kCases.end()};
     std::vector<SpeedCase> chosen;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string name = text.substr(begin, end - begin);
+    for (const std::string_view name : comma_separated(text)) {
         const auto found = std::ranges::find(kCases, name, &SpeedCase::name);
         if (found == kCases.end())
-            throw UsageError("--cases: there is no case '" + name + "'" +
+            throw UsageError("--cases: there is no case '" + std::string(name) + "'" +
                              did_you_mean(name, case_names()) + " (see irido bench speed --help)");
         chosen.push_back(*found);
-        begin = end + 1;
     }
     return chosen;
 }
@@ -304,9 +301,7 @@ Records to_records(const std::vector<Row>& rows) {
     }
     Records records{{{"case", std::move(names)}, {"method", std::move(methods)}}};
     const auto add = [&](std::string name, auto value) {
-        Column::Numbers numbers(rows.size());
-        std::ranges::transform(rows, numbers.begin(), value);
-        records.columns.push_back({std::move(name), std::move(numbers)});
+        add_numbers(records, std::move(name), rows, value);
     };
     add("threads", [](const Row& r) { return r.threads; });
     add("layers", [](const Row& r) { return r.layers; });

@@ -21,32 +21,19 @@ struct StabilityOptions {
     unsigned threads = 0;
 };
 
-std::uint64_t whole_number(std::string_view option, const std::string& text, double lowest,
-                           double highest) {
-    const std::vector<double> values = parse_list(option, text, lowest, highest);
-    const auto whole = static_cast<std::uint64_t>(values.front());
-    if (values.size() != 1 || values.front() != static_cast<double>(whole))
-        throw UsageError(std::string(option) + ": must be one whole number (got '" + text + "')");
-    return whole;
-}
-
-const Regime& regime_named(const std::string& name) {
+const Regime& regime_named(std::string_view name) {
     if (const Regime* found = find_regime(name)) return *found;
     std::vector<std::string> names;
     for (const Regime& regime : regimes()) names.emplace_back(regime.name);
-    throw UsageError("--regime: there is no regime '" + name + "'" + did_you_mean(name, names) +
-                     " (see irido bench stability --help)");
+    throw UsageError("--regime: there is no regime '" + std::string(name) + "'" +
+                     did_you_mean(name, names) + " (see irido bench stability --help)");
 }
 
 /// The regimes of "a,b" in that order.
 std::vector<Regime> parse_regimes(const std::string& text) {
     if (text == "all") return {regimes().begin(), regimes().end()};
     std::vector<Regime> chosen;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        chosen.push_back(regime_named(text.substr(begin, end - begin)));
-        begin = end + 1;
-    }
+    for (const std::string_view name : comma_separated(text)) chosen.push_back(regime_named(name));
     return chosen;
 }
 
@@ -55,9 +42,7 @@ Records to_records(const std::vector<RegimeReport>& reports) {
     for (const RegimeReport& report : reports) names.emplace_back(report.regime);
     Records records{{{"regime", std::move(names)}}};
     const auto add = [&](std::string name, auto value) {
-        Column::Numbers numbers(reports.size());
-        std::ranges::transform(reports, numbers.begin(), value);
-        records.columns.push_back({std::move(name), std::move(numbers)});
+        add_numbers(records, std::move(name), reports, value);
     };
     const auto add_count = [&](std::string name, std::uint64_t RegimeReport::*count) {
         add(std::move(name), [=](const RegimeReport& r) { return static_cast<double>(r.*count); });
@@ -95,8 +80,9 @@ std::string violations(const std::vector<RegimeReport>& reports) {
 
 int run_stability(const StabilityOptions& options) {
     resolved_record_format(options.output);
-    const std::uint64_t count = whole_number("--count", options.count, 1, kLargestStabilityCount);
-    const std::uint64_t seed = whole_number("--seed", options.seed, 0, kLargestSeed);
+    const std::uint64_t count =
+        parse_whole_number("--count", options.count, 1, kLargestStabilityCount);
+    const std::uint64_t seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
     const Execution execution = execution_of(options.threads);
     std::vector<RegimeReport> reports;
     for (const Regime& regime : parse_regimes(options.regimes))

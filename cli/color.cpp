@@ -103,12 +103,11 @@ void check_choice(const std::string& option, const std::string& text,
 ColorRequest parse(const ColorOptions& options) {
     check_choice("--method", options.method, {"auto", "quadrature"});
     check_choice("--adaptation", options.adaptation, {"bradford", "none"});
-    const std::vector<double> tolerance = parse_list("--tolerance", options.tolerance, 1e-12, 1);
-    if (tolerance.size() != 1) throw UsageError("--tolerance: must be one number");
+    const double tolerance = parse_one_number("--tolerance", options.tolerance, 1e-12, 1);
     return {parse_list("--angles", options.angles, 0, kLargestAngle_deg),
             parse_sides(options.sides),
             parse_light(options.polarization),
-            {.tolerance = tolerance[0]},
+            {.tolerance = tolerance},
             parse_space(options.space),
             options.adaptation == "none" ? Adaptation::none : Adaptation::bradford};
 }

@@ -47,10 +47,7 @@ void add_threads_option(CLI::App& command, unsigned& threads) {
         .add_option_function<std::string>(
             "-j,--threads",
             [&threads](const std::string& text) {
-                const std::vector<double> values = parse_list("--threads", text, 1, 4096);
-                if (values.size() != 1 || values[0] != static_cast<unsigned>(values[0]))
-                    throw UsageError("--threads: must be one whole number (got '" + text + "')");
-                threads = static_cast<unsigned>(values[0]);
+                threads = static_cast<unsigned>(parse_whole_number("--threads", text, 1, 4096));
             },
             "threads [all cores]; the answer does not depend on it")
         ->type_name("N");
@@ -68,14 +65,6 @@ Execution execution_of(unsigned threads) {
         return {threads, level};
     }
     throw UsageError("IRIDO_SIMD: " + not_one_of(names, name));
-}
-
-double parse_one_number(std::string_view option, const std::string& text, double lowest,
-                        double highest) {
-    const std::vector<double> values = parse_list(option, text, lowest, highest);
-    if (values.size() != 1)
-        throw UsageError(std::string(option) + ": must be one number (got '" + text + "')");
-    return values.front();
 }
 
 void set_examples(CLI::App& command, const std::vector<std::string>& examples,

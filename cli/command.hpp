@@ -44,10 +44,6 @@ void add_threads_option(CLI::App& command, unsigned& threads);
 /// baseline, avx2, avx512) or the best one of the machine. Throws UsageError.
 Execution execution_of(unsigned threads = 0);
 
-/// One number in [lowest, highest]. Throws UsageError naming the option.
-double parse_one_number(std::string_view option, const std::string& text, double lowest,
-                        double highest);
-
 /// The last lines of a help page, after `notes` if there are any.
 void set_examples(CLI::App& command, const std::vector<std::string>& examples,
                   const std::string& notes = "");

@@ -100,15 +100,40 @@ private:
 
 }  // namespace
 
+std::vector<std::string_view> comma_separated(std::string_view text) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t comma = text.find(',');
+        parts.push_back(text.substr(0, comma));
+        if (comma == std::string_view::npos) return parts;
+        text.remove_prefix(comma + 1);
+    }
+}
+
 std::vector<double> parse_list(std::string_view option, std::string_view text, double lowest,
                                double highest) {
     ListParser parser(option, lowest, highest);
-    for (std::size_t begin = 0;;) {
-        const std::size_t comma = text.find(',', begin);
-        parser.add(text.substr(begin, comma == std::string_view::npos ? comma : comma - begin));
-        if (comma == std::string_view::npos) return std::move(parser.values);
-        begin = comma + 1;
-    }
+    for (const std::string_view item : comma_separated(text)) parser.add(item);
+    return std::move(parser.values);
+}
+
+double parse_one_number(std::string_view option, std::string_view text, double lowest,
+                        double highest) {
+    const std::vector<double> values = parse_list(option, text, lowest, highest);
+    if (values.size() != 1)
+        throw UsageError(std::string(option) + ": must be one number (got '" + std::string(text) +
+                         "')");
+    return values.front();
+}
+
+std::uint64_t parse_whole_number(std::string_view option, std::string_view text, double lowest,
+                                 double highest) {
+    const std::vector<double> values = parse_list(option, text, lowest, highest);
+    const auto whole = static_cast<std::uint64_t>(values.front());
+    if (values.size() != 1 || values.front() != static_cast<double>(whole))
+        throw UsageError(std::string(option) + ": must be one whole number (got '" +
+                         std::string(text) + "')");
+    return whole;
 }
 
 }  // namespace irido

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,11 +13,20 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The parts of "a,b": one more than there are commas, empty ones among them.
+std::vector<std::string_view> comma_separated(std::string_view text);
+
 /// LIST of the command line: v | start:stop:step | start:stop/count, joined by commas. The stop of
 /// start:stop:step is included when it lies on the grid; decimals stay what they look like
 /// (0:1:0.1 has 0.3, not 0.30000000000000004). `option` names the option in errors.
 /// lowest, highest  the closed range of every value. Throws UsageError.
 std::vector<double> parse_list(std::string_view option, std::string_view text, double lowest,
                                double highest);
+
+/// One number, or one whole number, in the closed range. Throws UsageError.
+double parse_one_number(std::string_view option, std::string_view text, double lowest,
+                        double highest);
+std::uint64_t parse_whole_number(std::string_view option, std::string_view text, double lowest,
+                                 double highest);
 
 }  // namespace irido

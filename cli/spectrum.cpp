@@ -28,15 +28,13 @@ struct SpectrumOptions {
 /// The letters of "s,p,u" in the order typed.
 std::string parse_polarizations(std::string_view text) {
     std::string letters;
-    for (std::string_view rest = text;; rest.remove_prefix(1)) {
-        const std::string_view item = rest.substr(0, rest.find(','));
+    for (const std::string_view item : comma_separated(text)) {
         if (item != "s" && item != "p" && item != "u")
             throw UsageError("--polarization: must be s, p, u or several with commas (got '" +
                              std::string(text) + "')");
         letters += item;
-        rest.remove_prefix(item.size());
-        if (rest.empty()) return letters;
     }
+    return letters;
 }
 
 /// The error of the first material that has no index at one of the wavelengths, with its place.

@@ -141,16 +141,13 @@ std::vector<std::string> letters(const std::string& polarizations) {
 
 std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text) {
     std::vector<SpectrumColumn> columns;
-    while (!text.empty()) {
-        const std::string_view name = text.substr(0, text.find(','));
+    if (text.empty()) return columns;
+    for (const std::string_view name : comma_separated(text)) {
         const SpectrumColumn column = column_of(name);
         if (std::ranges::find(columns, column) != columns.end())
             throw UsageError("--columns: each must be named once (got " + std::string(name) +
                              " twice)");
         columns.push_back(column);
-        text.remove_prefix(name.size());
-        if (text == ",") column_of("");
-        if (!text.empty()) text.remove_prefix(1);
     }
     return columns;
 }

@@ -2,6 +2,8 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -67,6 +69,16 @@ Outcome run_irido(const std::vector<std::string>& arguments, const std::string& 
     std::string command = "\"$IRIDO\"";
     for (const std::string& argument : arguments) command += " " + quoted(argument);
     return run_shell(command + " < " + quoted(stage / "in"), folder);
+}
+
+void check_refused(const Outcome& outcome, const std::string& error) {
+    using Catch::Matchers::Contains;
+    using Catch::Matchers::StartsWith;
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    CHECK_THAT(outcome.err, StartsWith("irido: error: ") && Contains(error));
+    CHECK(std::ranges::count(outcome.err, '\n') == 1);
 }
 
 std::vector<std::vector<std::string>> parse_csv(const std::string& text) {

@@ -18,6 +18,9 @@ Outcome run_irido(const std::vector<std::string>& arguments, const std::string& 
 /// Runs a shell command in `folder`; $IRIDO is the built program.
 Outcome run_shell(const std::string& command, const std::string& folder);
 
+/// Exit status 2, nothing on standard output, one line on standard error that contains `error`.
+void check_refused(const Outcome& outcome, const std::string& error);
+
 /// An empty folder that is removed with all it holds.
 class TemporaryFolder {
 public:

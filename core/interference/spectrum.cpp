@@ -310,7 +310,7 @@ Work work_of(const StackPower& stack, const IndexTable& table, std::span<const d
     work.media = media.size();
     work.constant_media = constant_media.size();
     const bool constant = work.constant_media == work.media;
-    work.one_film = work.passes == 1 && work.layers == 1 && work.transparent_layers == 1;
+    work.one_film = work.passes == 1 && program->down[0].is_one_film();
     const bool both = needs.s && needs.p && work.normal_angles < cos_theta.size();
     for (const auto* direction : {&program->down, &program->up})
         for (const Program& block : *direction)
@@ -343,7 +343,8 @@ void spectra(const StackPower& stack, const IndexTable& table, std::span<const d
     parallel_for(jobs.size(), work < kLittleWork ? 1 : execution.threads, [&](std::size_t j) {
         PlainRun plain(stack, table, needs, out);
         const Job& job = jobs[j];
-        if (program && !(cos_theta[job.fixed] == 0 && !job.along_angles))
+        const bool grazing = !job.along_angles && cos_theta[job.fixed] == 0;
+        if (program && !grazing)
             return VectorRun(*program, plain, table, cos_theta, needs, execution.simd, out)(job);
         for (std::size_t w = job.begin; w < job.end; ++w)
             plain(cos_theta[job.fixed], w, job.fixed * wavelengths + w);

@@ -26,6 +26,9 @@ struct Spectrum {
     std::vector<Complex> denominator;  ///< times exp(log_scale)
     std::vector<double> log_scale;
     std::vector<double> A_layers;  ///< [layer][angle][wavelength], layers with groups written out
+
+    /// Where R, T and A were asked for.
+    Power power(std::size_t point) const { return {R[point], T[point], A[point]}; }
 };
 
 struct Spectra {

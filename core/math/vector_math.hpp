@@ -12,6 +12,10 @@ namespace irido {
 void sin_cos(std::span<const double> x, std::span<double> sine, std::span<double> cosine,
              SimdLevel level);
 
+/// Floating-point operations that both take together, as counted by operations_per_point() of
+/// vector/program.hpp.
+inline constexpr double kSinCosOperations = 33;
+
 /// exp(x) - 1 of many x <= 0, within 2 ulp.
 void expm1(std::span<const double> x, std::span<double> out, SimdLevel level);
 

@@ -38,10 +38,7 @@ Powers powers_of(const StackCase& c, Random& random, SimdLevel simd) {
     const IndexTable table(c.stack, std::move(wavelengths_nm));
     const double cosine = cos_of_incidence(c.angle_deg);
     const Spectra at = spectra(StackPower(c.stack), table, std::span(&cosine, 1), {}, {1, simd});
-    const auto power = [&](const Spectrum& of) {
-        return Power{of.R[place], of.T[place], of.A[place]};
-    };
-    return {power(at.s), power(at.p)};
+    return {at.s.power(place), at.p.power(place)};
 }
 
 /// An error with the condition that it has to be seen with; nothing to compare if absent.

@@ -38,9 +38,8 @@ Worst compare_spectra(oracle::Kind kind, int count) {
         const IndexTable table(stack, {nm});
         const double cosine = cos_of_incidence(angle);
         const Spectra at = spectra(StackPower(stack), table, std::span(&cosine, 1), {});
-        const auto power = [](const Spectrum& of) { return Power{of.R[0], of.T[0], of.A[0]}; };
-        worst.take(power(at.s), oracle::coherent(stack, {nm, angle, Polarization::s}));
-        worst.take(power(at.p), oracle::coherent(stack, {nm, angle, Polarization::p}));
+        worst.take(at.s.power(0), oracle::coherent(stack, {nm, angle, Polarization::s}));
+        worst.take(at.p.power(0), oracle::coherent(stack, {nm, angle, Polarization::p}));
     }
     return worst;
 }

@@ -99,12 +99,7 @@ TEST_CASE("bench refuses what it does not know in one line", "[cli][bench][refus
     for (const auto& [arguments, error] : cases) {
         std::vector<std::string> all{"bench"};
         all.insert(all.end(), arguments.begin(), arguments.end());
-        const Outcome outcome = run_irido(all);
-        INFO(outcome.err);
-        CHECK(outcome.status == 2);
-        CHECK(outcome.out.empty());
-        CHECK_THAT(outcome.err, StartsWith("irido: error: ") && Contains(error));
-        CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+        check_refused(run_irido(all), error);
     }
 }
 

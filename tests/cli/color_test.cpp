@@ -137,10 +137,7 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
     for (const auto& [options, error] : cases) {
         std::vector<std::string> arguments{"color", "1 | 1.5@300 | 1"};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        const Outcome outcome = run_irido(arguments);
-        INFO(outcome.err);
-        CHECK(outcome.status == 2);
-        CHECK_THAT(outcome.err, Contains(error));
+        check_refused(run_irido(arguments), error);
     }
 }
 

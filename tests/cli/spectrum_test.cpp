@@ -273,12 +273,7 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
          "/no/such/folder/x.csv: cannot be written: No such file or directory"},
     };
     for (const auto& [arguments, error] : cases) {
-        const Outcome outcome = run_irido(arguments);
-        INFO(outcome.err);
-        CHECK(outcome.status == 2);
-        CHECK(outcome.out.empty());
-        CHECK_THAT(outcome.err, StartsWith("irido: error: ") && Contains(error));
-        CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+        check_refused(run_irido(arguments), error);
     }
 }
 

@@ -30,7 +30,6 @@ using hn::Load;
 using hn::Max;
 using hn::Mul;
 using hn::MulAdd;
-using hn::MulSub;
 using hn::NegMulAdd;
 using hn::Or;
 using hn::Store;
@@ -102,48 +101,38 @@ HWY_INLINE Cx upward_root(V x, V y) {
             IfThenElse(travels, v, u)};
 }
 
-// Slots of a medium's record, each a vector.
-enum TransparentSlot { kPhase, kSw, kSv, kPw, kPv, kSign, kTransparentSlots };
+/// Slots of a medium's record, each a vector; complex numbers take two, named by the first.
+/// Transparent: kz/k0, then w sd and v sd of the recursion over sin(delta), for s and for p, and
+/// the sign of kz^2.
+enum TransparentSlot { kPhase, kSw, kSv, kPw, kPv, kSign };
+/// Absorbing: kz/k0, then -i w sd and -i v sd over sin(delta). The rest is for depth integrals: kz
+/// again (of the substrate too, as eps), what divides by it, Im(eps), w of p and its Im.
 enum AbsorbingSlot {
-    kPhaseRe,
-    kPhaseIm,  // k0 kz
-    kSwRe,
-    kSwIm,
-    kSvRe,
-    kSvIm,  // -i/kz and -i kz
-    kPwRe,
-    kPwIm,
-    kPvRe,
-    kPvIm,  // -i kz/eps and -i eps/kz
-    kMatrixSlots,
-    kKzRe = kMatrixSlots,
-    kKzIm,
-    kInvKzRe,
+    kPhaseRe = 0,
+    kSwRe = 2,
+    kSvRe = 4,
+    kPwRe = 6,
+    kPvRe = 8,
+    kKzRe = 10,
+    kInvKzRe = 12,
     kInvKzIm,
-    kInvNorm,  // of kz, for the depth integrals
+    kInvNorm,
     kLoss,
-    kWRe,
-    kWIm,
-    kEpsRe,
-    kEpsIm,
-    kLossW,  // Im eps, w = kz^2/eps, Im w
+    kWRe = 16,
+    kEpsRe = 18,
+    kLossW = 20,
     kAbsorbingSlots
 };
 constexpr std::size_t kRecord = kAbsorbingSlots * kMostLanes;
-// Slots of a shared layer.
-enum SharedTransparent { kCos, kBetaS, kGammaS, kBetaP, kGammaP, kExponent, kSharedTransparent };
+/// Slots of a shared layer: its matrix for s and for p, and what belongs to it.
+enum SharedTransparent { kCos, kBetaS, kGammaS, kBetaP, kGammaP, kExponent };
 enum SharedAbsorbing {
-    kCRe,
-    kCIm,
-    kPsRe,
-    kPsIm,
-    kQsRe,
-    kQsIm,
-    kPpRe,
-    kPpIm,
-    kQpRe,
-    kQpIm,
-    kDecay,
+    kCRe = 0,
+    kPsRe = 2,
+    kQsRe = 4,
+    kPpRe = 6,
+    kQpRe = 8,
+    kDecay = 10,
     kTurn,
     kSharedAbsorbing
 };
@@ -205,6 +194,12 @@ HWY_INLINE void through_transparent(Fields& f, V c, V beta, V gamma) {
     const Cx b = f.b, q = f.c;
     f.b = {MulAdd(beta, q.im, Mul(c, b.re)), NegMulAdd(beta, q.re, Mul(c, b.im))};
     f.c = {MulAdd(gamma, b.im, Mul(c, q.re)), NegMulAdd(gamma, b.re, Mul(c, q.im))};
+}
+
+template <bool kIsP>
+HWY_INLINE void through_transparent(Fields& f, const double* medium, V cos, V sin) {
+    through_transparent(f, cos, Mul(slot(medium, kIsP ? kPw : kSw), sin),
+                        Mul(slot(medium, kIsP ? kPv : kSv), sin));
 }
 
 /// B' = c B + P C, C' = c C + Q B

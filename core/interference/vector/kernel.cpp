@@ -1,10 +1,7 @@
 // The recursion of coherent_response() for as many points at once as a vector has lanes. Compiled
 // once for every instruction set: this file includes itself through foreach_target.h.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <memory>
-#include <new>
 
 #include "core/interference/vector/kernel.hpp"
 
@@ -43,7 +40,7 @@ public:
                 varying.push_back(m);
             }
         }
-        const bool film = is_one_film();
+        const bool film = !run_.above && program_.is_one_film();
         for (std::size_t point = 0; point < run_.count; point += hn::Lanes(Lanes())) {
             for (const std::size_t m : varying) prepare(m, point);
             const bool changed = point == 0 || !varying.empty();
@@ -203,12 +200,8 @@ private:
         sin_cos<count>(phase, t);
         _Pragma("GCC unroll 4") for (std::size_t k = 0; k < count; ++k) {
             const double* medium = record(order[k]);
-            if (kS)
-                through_transparent(s, t[k].cos, Mul(slot(medium, kSw), t[k].sin),
-                                    Mul(slot(medium, kSv), t[k].sin));
-            if (kP)
-                through_transparent(p, t[k].cos, Mul(slot(medium, kPw), t[k].sin),
-                                    Mul(slot(medium, kPv), t[k].sin));
+            if (kS) through_transparent<false>(s, medium, t[k].cos, t[k].sin);
+            if (kP) through_transparent<true>(p, medium, t[k].cos, t[k].sin);
         }
     }
 
@@ -272,13 +265,11 @@ private:
             const double* medium = record(layer);
             const Turn t = transparent_turn(layer, vacuum_phase(layer, k0));
             if (kS) {
-                through_transparent(s, t.cos, Mul(slot(medium, kSw), t.sin),
-                                    Mul(slot(medium, kSv), t.sin));
+                through_transparent<false>(s, medium, t.cos, t.sin);
                 decay<kFlux>(s, t.exponent);
             }
             if (kP) {
-                through_transparent(p, t.cos, Mul(slot(medium, kPw), t.sin),
-                                    Mul(slot(medium, kPv), t.sin));
+                through_transparent<true>(p, medium, t.cos, t.sin);
                 decay<kFlux>(p, t.exponent);
             }
             const std::uint32_t done = i + 1 - step.first;
@@ -585,13 +576,9 @@ private:
         Mask balances;  ///< R + T + A is 1 and none of them is negative
     };
 
-    /// One transparent film: sum and difference of the fields at the top are cos(delta) and
-    /// sin(delta) times what depends on the media only, the Airy sum in other words.
-    bool is_one_film() const {
-        return !run_.above && program_.steps.size() == 1 && program_.steps[0].count == 1 &&
-               program_.steps[0].kind == Program::Kind::transparent;
-    }
-
+    /// One transparent film under the incident medium: sum and difference of the fields at the top
+    /// are cos(delta) and sin(delta) times what depends on the media only, the Airy sum in other
+    /// words.
     struct Film {
         Cx sum_cos, sum_sin, difference_cos, difference_sin;
         Incident in;
@@ -669,24 +656,26 @@ private:
     /// absorbs. Nothing is lost then, so that the three add to 1 by construction.
     HWY_INLINE void powers(Ends& e, Cx difference, const Incident& in, Cx out_b, V out_flux,
                            const RunOutput& out) const {
-        const V reflected = norm(difference), zero = constant(0);
+        const V reflected = norm(difference), zero = constant(0), one = constant(1);
         const V transmitted = Mul(Mul(in.unit, out_flux), exp_of_log_scale(e.log_scale, -2));
-        V incident = norm(e.sum);
+        const V incident = norm(e.sum);
         e.balances = And(hn::Ge(out_flux, zero), hn::Eq(in.mixed, zero));
         e.mixed = e.unit = zero;
         e.r = e.t = {zero, zero};
-        if (out.r || run_.above || program_.absorbs) {
-            const V inverse = Div(constant(1), incident);
+        V inverse = zero;
+        if (program_.absorbs || run_.above || out.r) inverse = Div(one, incident);
+        if (program_.absorbs) e.unit = Mul(in.unit, inverse);
+        if (run_.above || out.r) {
             const Cx over{Mul(e.sum.re, inverse), negative(Mul(e.sum.im, inverse))};
-            e.unit = Mul(in.unit, inverse);
             e.r = mul(difference, over);
             if (run_.above) e.mixed = Mul(in.mixed, e.r.im);
-            const V amplitude = Mul(constant(2), exp_of_log_scale(e.log_scale, -1));
-            e.t = scaled(mul(mul(out_b, in.c), over), amplitude);
+            if (out.t) {
+                const V amplitude = Mul(constant(2), exp_of_log_scale(e.log_scale, -1));
+                e.t = scaled(mul(mul(out_b, in.c), over), amplitude);
+            }
         }
         if (!program_.absorbs)
-            incident = IfThenElse(e.balances, Add(reflected, transmitted), incident);
-        const V inverse = Div(constant(1), incident);
+            inverse = Div(one, IfThenElse(e.balances, Add(reflected, transmitted), incident));
         e.R = Mul(reflected, inverse);
         e.T = Mul(transmitted, inverse);
         e.A = e.mixed;

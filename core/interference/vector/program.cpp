@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "core/math/vector_math.hpp"
+
 namespace irido {
 
 namespace {
@@ -116,28 +118,24 @@ private:
     std::map<std::pair<std::uint32_t, double>, std::uint32_t> layers_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Operations of the parts of kernel.cpp: once for both polarizations + for each of them.
 struct Operations {
     double once, each;
     double of(int polarizations) const { return once + each * polarizations; }
 };
 constexpr Operations kTransparentMedium{16, 0}, kAbsorbingMedium{42, 0};
-constexpr Operations kTravellingLayer{35, 10}, kSharedTravellingLayer{0, 8},
-    kTravellingMatrix{39, 0};
-constexpr Operations kAbsorbingLayer{66, 25}, kSharedAbsorbingLayer{0, 17}, kAbsorbingMatrix{82, 0};
-constexpr Operations kLayerOfPeriod{35, 30}, kPowerOfPeriod{0, 92};
-constexpr Operations kFilm{34, 18}, kEnds{3, 20};
+constexpr double kTurn = kSinCosOperations;
+constexpr Operations kTravellingLayer{kTurn + 2, 10}, kSharedTravellingLayer{0, 8},
+    kTravellingMatrix{kTurn + 6, 0};
+constexpr Operations kAbsorbingLayer{kTurn + 33, 25}, kSharedAbsorbingLayer{0, 17},
+    kAbsorbingMatrix{kTurn + 49, 0};
+constexpr Operations kLayerOfPeriod{kTurn + 2, 30}, kPowerOfPeriod{0, 92};
+constexpr Operations kFilm{kTurn + 1, 18}, kEnds{3, 20};
 
 }  // namespace
 
 double operations_per_point(const Program& program, int polarizations, bool constant) {
-    const bool one_film = constant && program.steps.size() == 1 && program.steps[0].count == 1 &&
-                          program.steps[0].kind == Program::Kind::transparent;
-    if (one_film) return kFilm.of(polarizations);
+    if (constant && program.is_one_film()) return kFilm.of(polarizations);
     double sum = kEnds.of(polarizations);
     const auto add = [&](const Operations& part, double count) {
         sum += count * part.of(polarizations);

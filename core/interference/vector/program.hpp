@@ -38,6 +38,10 @@ struct Program {
     bool shares_layers = false;  ///< layers occur often: their matrices are computed once a point
     bool absorbs = false;        ///< any layer
     double largest_thickness_nm = 0;
+
+    bool is_one_film() const {
+        return steps.size() == 1 && steps[0].count == 1 && steps[0].kind == Kind::transparent;
+    }
 };
 
 /// The program of coherent elements, or nothing if they are better left to the plain kernel: groups

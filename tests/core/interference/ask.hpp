@@ -17,8 +17,7 @@ inline Powers ask(const Stack& stack, double wavelength_nm, double angle_deg) {
     const IndexTable table(stack, {wavelength_nm});
     const double cosine = cos_of_incidence(angle_deg);
     const Spectra at = spectra(StackPower(stack), table, std::span(&cosine, 1), {});
-    const auto power = [](const Spectrum& of) { return Power{of.R[0], of.T[0], of.A[0]}; };
-    const Power s = power(at.s), p = power(at.p);
+    const Power s = at.s.power(0), p = at.p.power(0);
     return {s, p, {(s.R + p.R) / 2, (s.T + p.T) / 2, (s.A + p.A) / 2}};
 }
 
