@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/color/color_request.hpp"
 #include "core/color/integration.hpp"
 #include "core/math/simd_level.hpp"
 #include "core/stack/stack.hpp"
@@ -20,11 +21,6 @@ struct HeldRange {
 
 /// Materials of the stack that are not known over the sensitivity's support and do not say clamp.
 std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensitivity);
-
-enum class Side { reflected, transmitted };
-
-/// The light that falls on the stack.
-enum class Light { s, p, unpolarized };
 
 /// X, Y, Z of light reflected or transmitted by a stack, for every angle and side
 /// ([angle][side]). Materials hold their end values outside their range.

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/color/space.hpp"
+#include "core/math/simd_level.hpp"
+#include "core/stack/stack.hpp"
+
+namespace irido {
+
+enum class Side { reflected, transmitted };
+
+/// The light that falls on the stack.
+enum class Light { s, p, unpolarized };
+
+/// A way to compute the colour of a stack. Those after `fourier` are there to be compared with.
+struct ColorMethod {
+    enum class Kind {
+        automatic,   ///< the cheapest of the exact ones for the tolerance asked
+        quadrature,  ///< product quadrature; any stack
+        fourier,     ///< BB17's series with exact transforms; one real film over any base
+        fourier_constant,  ///< the same with BB17's constant indices where media have dispersion
+        naive,             ///< three wavelengths taken for R, G and B
+        equal,             ///< equally spaced wavelengths
+        gaussian,          ///< BB17's series with their Gaussian fits of the observer
+        gltf,              ///< the same with Schlick's Fresnel terms, as glTF has it
+        smits,             ///< a single bounce
+    };
+    Kind kind = Kind::automatic;
+    /// equal: wavelengths, [2, 1e6]. fourier: the last order of the series, 0: as many as the
+    /// tolerance needs.
+    std::size_t count = 0;
+};
+
+/// What is asked of a stack besides its angles.
+struct ColorRequest {
+    std::vector<Side> sides{Side::reflected};
+    Light light = Light::unpolarized;
+    double tolerance = 1e-6;              ///< largest error of X, Y, Z; [1e-12, 1]
+    std::size_t evaluations = 1U << 20;  ///< a colour; past it the best value is returned
+    SimdLevel simd = best_simd_level();
+};
+
+struct StackColor {
+    Triple xyz{};
+    /// Bound or honest estimate of the largest error of X, Y, Z; infinite where a method has none.
+    double error = std::numeric_limits<double>::infinity();
+    std::size_t evaluations = 0;  ///< wavelengths at which the stack was computed
+    ColorMethod::Kind method = ColorMethod::Kind::quadrature;
+};
+
+/// One method made ready for stacks of the same materials and structure that may differ in their
+/// thicknesses. Safe from many threads.
+class ColorAlgorithm {
+public:
+    virtual ~ColorAlgorithm() = default;
+
+    /// Colours [angle][side] of one such stack; angles in [0, 90] degrees.
+    virtual void operator()(const Stack& stack, std::span<const double> angles_deg,
+                            std::span<StackColor> colors) const = 0;
+};
+
+}  // namespace irido
