@@ -19,9 +19,9 @@ enum class Light { s, p, unpolarized };
 /// A way to compute the colour of a stack. Those after `fourier` are there to be compared with.
 struct ColorMethod {
     enum class Kind {
-        automatic,   ///< the cheapest of the exact ones for the tolerance asked
-        quadrature,  ///< product quadrature; any stack
-        fourier,     ///< BB17's series with exact transforms; one real film over any base
+        automatic,         ///< the cheapest of the exact ones for the tolerance asked
+        quadrature,        ///< product quadrature; any stack
+        fourier,           ///< BB17's series with exact transforms; one real film over any base
         fourier_constant,  ///< the same with BB17's constant indices where media have dispersion
         naive,             ///< three wavelengths taken for R, G and B
         equal,             ///< equally spaced wavelengths
@@ -39,7 +39,7 @@ struct ColorMethod {
 struct ColorRequest {
     std::vector<Side> sides{Side::reflected};
     Light light = Light::unpolarized;
-    double tolerance = 1e-6;              ///< largest error of X, Y, Z; [1e-12, 1]
+    double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
     std::size_t evaluations = 1U << 20;  ///< a colour; past it the best value is returned
     SimdLevel simd = best_simd_level();
 };

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
+#include <optional>
 
+#include "core/color/panel_sums.hpp"
+#include "core/complex.hpp"
 #include "core/error.hpp"
 #include "core/math/transform.hpp"
 
@@ -11,63 +14,49 @@ namespace irido {
 
 namespace {
 
-constexpr std::size_t kLowestDegree = 8, kHighestDegree = 128;
-
 /// Panels are not cut below this share of their wavelength.
 constexpr double kNarrowest = 1e-7;
 
-std::size_t first_degree(double half_turn) {
-    std::size_t degree = kLowestDegree;
-    while (degree < kHighestDegree && static_cast<double>(degree) < 1.2 * half_turn + 8)
-        degree *= 2;
-    return degree;
-}
-
-/// Largest |c_k| in the last eighth of the coefficients, at least the last three.
-double last_coefficients(std::span<const double> coefficients) {
-    const std::size_t degree = coefficients.size() - 1;
-    const std::size_t count = std::max<std::size_t>(3, degree / 8);
-    double largest = 0;
-    for (std::size_t k = degree + 1 - count; k <= degree; ++k)
-        largest = std::max(largest, std::abs(coefficients[k]));
-    return largest;
-}
-
-/// Error of an integral per unit of the last coefficients. The coefficient c_(n+j) that is left out
-/// misses its own moment and comes back on the points as T_(n-j). Poles that are not marked as
-/// hidden make it fall at least as exp(-2 j/n).
-double error_per_coefficient(const std::vector<double>& moment) {
-    const std::size_t degree = moment.size() - 1;
-    double high = 0;  // what the moments past the last one are taken to be
-    for (std::size_t k = degree / 2; k <= degree; ++k) high = std::max(high, std::abs(moment[k]));
-    const double fall = std::exp(-2 / static_cast<double>(degree));
-    double sum = 0, size = 1;
-    for (std::size_t j = 1; j <= degree; ++j) {
-        size *= fall;
-        sum += size * (std::abs(moment[degree - j]) + high);
+/// Degree, as an index, at which the coefficients of a fringe of this half turn are below the
+/// tolerance: those of cos(h x) are Bessel functions J_k(h) < (e h/2k)^k. Twice the turn, because
+/// light that bounces twice has fringes twice as fast.
+std::size_t first_degree(double half_turn, double tolerance) {
+    const double h = 2 * half_turn;
+    std::size_t degree = 0;
+    for (; degree + 1 < kDegrees.size(); ++degree) {
+        const auto k = static_cast<double>(kDegrees[degree]);
+        if (k * std::log(std::numbers::e * h / (2 * k)) < std::log(tolerance)) break;
     }
-    return 2 * sum;  // c_(3n - j) and later ones come back there too
+    return degree;
 }
 
 /// A denominator's zero within this many point spacings of a point is not resolved: poles further
 /// off make coefficients that fall steadily, and the tail sees them.
 constexpr double kFarFromZero = 1 / 1.5;
 
+/// A panel is halved where twice the degree promises more than this times the error allowed.
+constexpr double kHopeful = 10;
+
+/// Where the points are dense for a denominator, differences of neighbours are its slope.
+constexpr double kDense = 3.2;
+
+/// One denominator on the points of a panel.
+struct Denominator {
+    std::span<const double> re, im, log_scale;
+};
+
 /// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
 /// step from there, -D/D', is shorter than the way to the next point. D is interpolated after an
 /// exponential trend, which has no zeros, is taken out of it.
-void mark_hidden_zeros(std::span<const double> x, std::span<const SpectrumSample> samples,
-                       std::size_t which, std::vector<bool>& marked) {
-    const std::size_t degree = samples.size() - 1;
-    const double first = samples.front().denominator[which].log_scale;
-    const double last = samples.back().denominator[which].log_scale;
+void mark_hidden_zeros(std::span<const double> x, const Denominator& d, std::vector<bool>& marked) {
+    const std::size_t degree = x.size() - 1;
+    const double first = d.log_scale.front(), last = d.log_scale.back();
     std::array<std::vector<double>, 2> parts;  // real and imaginary
     for (std::size_t j = 0; j <= degree; ++j) {
-        const ScaledComplex& d = samples[j].denominator[which];
         const double trend = (first + last) / 2 + (first - last) / 2 * x[j];
-        const Complex plain = d.value * std::exp(std::clamp(d.log_scale - trend, -300.0, 300.0));
-        parts[0].push_back(plain.real());
-        parts[1].push_back(plain.imag());
+        const double scale = std::exp(std::clamp(d.log_scale[j] - trend, -300.0, 300.0));
+        parts[0].push_back(d.re[j] * scale);
+        parts[1].push_back(d.im[j] * scale);
     }
     const ChebyshevTransform& transform = chebyshev_transform(degree);
     std::array<std::vector<double>, 2> slopes;
@@ -88,162 +77,321 @@ void mark_hidden_zeros(std::span<const double> x, std::span<const SpectrumSample
 
 class Integration {
 public:
-    Integration(const Sensitivity& sensitivity, std::size_t items, const SpectraAt& spectra,
-                const IntegrationLimits& limits)
+    Integration(const Sensitivity& sensitivity, std::size_t denominators, const SampleAt& sample,
+                const IntegrationLimits& limits, IntegrationMemory& memory,
+                std::span<ColorIntegral> integrals)
         : sensitivity_(sensitivity),
-          spectra_(spectra),
+          sample_(sample),
           limits_(limits),
-          results_(items),
-          errors_(items),
-          reference_(items) {}
+          denominators_(denominators),
+          integrals_(integrals),
+          memory_(memory),
+          reference_(memory.reference),
+          errors_(memory.errors),
+          next_(memory.next),
+          spare_(memory.spare) {
+        reference_.resize(integrals.size());
+        memory.panel_errors.resize(integrals.size());
+        errors_.assign(integrals.size(), {});
+        next_.clear();
+    }
 
-    std::vector<ColorIntegral> over(const std::vector<SpectralPanel>& panels) {
-        std::vector<std::size_t> all(results_.size());
-        std::iota(all.begin(), all.end(), 0);
-        const Triple& white = sensitivity_.white();
-        spectra_(std::span(&panels.front().range.first_nm, 1), all, reference_);
-        for (std::size_t i = 0; i < results_.size(); ++i)
-            for (std::size_t c = 0; c < 3; ++c) results_[i].xyz[c] = reference_[i].value * white[c];
-        const double share = 1 / static_cast<double>(panels.size());
-        for (const SpectralPanel& panel : panels)
-            integrate(panel.range, first_degree(panel.half_turn), share, all);
-        for (std::size_t i = 0; i < results_.size(); ++i)
-            results_[i].error = *std::ranges::max_element(errors_[i]);
-        return std::move(results_);
+    void over(const PanelTree::Start& start) {
+        Samples samples = room();
+        const SpectralPoints* points = &start.points;
+        sample({&points, 1}, samples);
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            reference_[k] = *samples.row(k);
+            for (std::size_t c = 0; c < 3; ++c)
+                integrals_[k].xyz[c] = reference_[k] * sensitivity_.white()[c];
+        }
+        const double share = 1 / static_cast<double>(start.panels.size());
+        for (const PanelTree::Start::Panel& panel : start.panels)
+            settle_or_refine({panel.node, panel.degree, panel.half_turn, share}, samples,
+                             panel.first);
+        while (!next_.empty()) {
+            std::swap(memory_.now, next_);
+            next_.clear();
+            work_on(memory_.now, samples);
+        }
+        leave(std::move(samples));
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            integrals_[k].error = *std::ranges::max_element(errors_[k]);
+            integrals_[k].evaluations = evaluations_;
+        }
     }
 
 private:
-    using Samples = std::vector<SpectrumSample>;  ///< [item][point]
+    using Job = IntegrationMemory::Job;
 
-    /// Half of the tolerance is shared out by the light in a panel, half by its rank.
-    Triple budget(const PanelRule& rule, double share) const {
-        Triple result{};
-        for (std::size_t c = 0; c < 3; ++c)
-            result[c] =
-                limits_.tolerance / 2 * (rule.moment[c][0] / sensitivity_.white()[c] + share);
-        return result;
+    /// Memory that is used again.
+    Samples room() {
+        if (spare_.empty()) return {};
+        Samples samples = std::move(spare_.back());
+        spare_.pop_back();
+        return samples;
+    }
+    void leave(Samples samples) { spare_.push_back(std::move(samples)); }
+
+    void sample(std::span<const SpectralPoints* const> parts, Samples& samples) {
+        std::size_t count = 0;
+        for (const SpectralPoints* part : parts) count += part->wavelength_nm.size();
+        samples.resize(integrals_.size(), denominators_, count);
+        sample_(parts, samples);
+        evaluations_ += count;
     }
 
-    void integrate(WavelengthRange range, std::size_t degree, double share,
-                   std::vector<std::size_t> items) {
-        Samples samples;  // of the degree before
-        for (;; degree *= 2) {
-            const PanelRule rule = panel_rule(sensitivity_, range, degree);
-            samples = sample(rule, std::move(samples), items);
-            settle(rule, budget(rule, share), degree == kHighestDegree && is_narrow(range), items,
-                   samples);
-            if (items.empty()) return;
-            if (degree == kHighestDegree) break;
+    /// All panels that are left, computed together.
+    void work_on(std::vector<Job>& jobs, Samples& samples) {
+        std::vector<const SpectralPoints*>& parts = memory_.parts;
+        parts.clear();
+        for (const Job& job : jobs)
+            parts.push_back(job.coarse ? &job.node->added_points(job.degree)
+                                       : &job.node->all_points(job.degree));
+        sample(parts, samples);
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+            Job& job = jobs[i];
+            const std::size_t count = parts[i]->wavelength_nm.size();
+            if (job.coarse) {
+                Samples merged = room();
+                merge(*job.coarse, samples, first, count, merged);
+                leave(std::move(*job.coarse));
+                settle_or_refine({job.node, job.degree, job.half_turn, job.share}, merged, 0);
+                leave(std::move(merged));
+            } else {
+                settle_or_refine({job.node, job.degree, job.half_turn, job.share}, samples, first);
+            }
+            first += count;
         }
-        const double middle = 2 / (1 / range.first_nm + 1 / range.last_nm);
-        integrate({range.first_nm, middle}, kHighestDegree / 2, share / 2, items);
-        integrate({middle, range.last_nm}, kHighestDegree / 2, share / 2, items);
+    }
+
+    /// The panel's samples begin at the point `first`.
+    void settle_or_refine(Job job, const Samples& samples, std::size_t first) {
+        switch (settle(job, samples, first)) {
+            case Outcome::settled:
+                return;
+            case Outcome::twice_the_degree: {
+                const std::size_t points = kDegrees[job.degree] + 1;
+                job.coarse = room();
+                job.coarse->resize(integrals_.size(), denominators_, points);
+                for (std::size_t row = 0; row < samples.rows(); ++row)
+                    std::copy_n(samples.row(row) + first, points, job.coarse->row(row));
+                ++job.degree;
+                next_.push_back(std::move(job));
+                return;
+            }
+            case Outcome::halves:
+                for (std::size_t half = 0; half < 2; ++half)
+                    next_.push_back(
+                        {&job.node->half(half), job.degree - 1, job.half_turn / 2, job.share / 2});
+        }
+    }
+
+    /// Every second point from each.
+    void merge(const Samples& coarse, const Samples& fresh, std::size_t first, std::size_t count,
+               Samples& merged) const {
+        merged.resize(integrals_.size(), denominators_, coarse.points() + count);
+        for (std::size_t row = 0; row < merged.rows(); ++row) {
+            const double *even = coarse.row(row), *odd = fresh.row(row) + first;
+            double* all = merged.row(row);
+            for (std::size_t j = 0; j < count; ++j) {
+                all[2 * j] = even[j];
+                all[2 * j + 1] = odd[j];
+            }
+            all[2 * count] = even[count];
+        }
     }
 
     static bool is_narrow(WavelengthRange range) {
         return range.last_nm - range.first_nm < kNarrowest * range.first_nm;
     }
 
-    /// Spectra at the rule's points; where `coarse` has every second of them, only the others are
-    /// computed.
-    Samples sample(const PanelRule& rule, Samples coarse, const std::vector<std::size_t>& items) {
-        const std::size_t points = rule.wavelength_nm.size();
-        const bool refine = !coarse.empty();
-        std::vector<double> wavelengths = rule.wavelength_nm;
-        if (refine) {
-            wavelengths.clear();
-            for (std::size_t j = 1; j < points; j += 2)
-                wavelengths.push_back(rule.wavelength_nm[j]);
-        }
-        Samples fresh(items.size() * wavelengths.size());
-        spectra_(wavelengths, items, fresh);
-        for (const std::size_t item : items) results_[item].evaluations += wavelengths.size();
-        if (!refine) return fresh;
-        Samples samples(items.size() * points);
-        const std::size_t kept = points / 2 + 1;
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            for (std::size_t j = 0; j < kept; ++j)
-                samples[i * points + 2 * j] = coarse[i * kept + j];
-            for (std::size_t j = 0; j + 1 < kept; ++j)
-                samples[i * points + 2 * j + 1] = fresh[i * (kept - 1) + j];
-        }
-        return samples;
+    /// Half of the tolerance is shared out by the light in a panel, half by its rank.
+    Triple budget(const QuadratureRule& rule, double share) const {
+        Triple result{};
+        for (std::size_t c = 0; c < 3; ++c)
+            result[c] = limits_.tolerance / 2 * (rule.light[c] + share);
+        return result;
     }
 
-    /// Adds the panel's integral for every item that meets its budget (or for all that must end
-    /// here) and keeps the others.
-    void settle(const PanelRule& rule, const Triple& budget, bool last,
-                std::vector<std::size_t>& items, Samples& samples) {
-        const std::size_t points = rule.wavelength_nm.size();
-        Triple per_coefficient{};
-        for (std::size_t c = 0; c < 3; ++c)
-            per_coefficient[c] = error_per_coefficient(rule.moment[c]);
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            const std::span<const SpectrumSample> f(samples.data() + i * points, points);
-            const Triple error = estimate(rule, per_coefficient, f);
-            bool met = true;
-            for (std::size_t c = 0; c < 3; ++c) met = met && error[c] <= budget[c];
-            const std::size_t item = items[i];
-            if (met || last || results_[item].evaluations >= limits_.evaluations) {
-                add(rule, f, error, item);
-            } else {
-                std::copy(f.begin(), f.end(), samples.begin() + static_cast<long>(left * points));
-                items[left++] = item;
+    enum class Outcome { settled, twice_the_degree, halves };
+
+    /// Adds the panel's integrals if they meet its budget or it must end here.
+    Outcome settle(const Job& job, const Samples& samples, std::size_t first) {
+        const QuadratureRule& rule = job.rule();
+        const Triple allowed = budget(rule, job.share);
+        const bool last_degree = job.degree + 1 == kDegrees.size();
+        const bool must_end =
+            evaluations_ >= limits_.evaluations || (last_degree && is_narrow(job.node->range()));
+        const Poles poles = poles_of(job, samples, first);
+        const std::size_t width = rule.row_count();
+        memory_.sums.resize(integrals_.size() * width);
+        std::vector<Triple>& panel_errors = memory_.panel_errors;
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            double* sums = memory_.sums.data() + k * width;
+            row_sums(rule.rows.data(), width, rule.stride, samples.row(k) + first, reference_[k],
+                     sums, limits_.simd);
+            panel_errors[k] = rule.error({sums, width}, poles.rate);
+            if (must_end || is_below(panel_errors[k], allowed)) continue;
+            return last_degree || !doubling_helps(rule, {sums, width}, panel_errors[k], allowed)
+                       ? Outcome::halves
+                       : Outcome::twice_the_degree;
+        }
+        if (!poles.all_far && denominators_ > 0) {
+            const Triple hidden = hidden_weight(rule, samples, first);
+            for (Triple& error : panel_errors) {
+                for (std::size_t c = 0; c < 3; ++c) error[c] += hidden[c];
+                if (!must_end && !is_below(error, allowed))
+                    return last_degree ? Outcome::halves : Outcome::twice_the_degree;
             }
         }
-        items.resize(left);
-        samples.resize(left * points);
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                integrals_[k].xyz[c] += memory_.sums[k * width + c];
+                errors_[k][c] += panel_errors[k][c];
+            }
+        }
+        return Outcome::settled;
     }
 
-    /// Error of the panel's X, Y, Z.
-    static Triple estimate(const PanelRule& rule, const Triple& per_coefficient,
-                           std::span<const SpectrumSample> f) {
-        const std::size_t points = f.size();
-        std::vector<double> values(points), coefficients(points);
-        for (std::size_t j = 0; j < points; ++j) values[j] = f[j].value;
-        chebyshev_transform(points - 1)(values, coefficients);
-        const double last = last_coefficients(coefficients);
-        std::vector<bool> marked(points, false);
-        for (std::size_t which = 0; which < 2; ++which) mark_hidden_zeros(rule.x, f, which, marked);
-        Triple error{};
-        for (std::size_t c = 0; c < 3; ++c) {
-            error[c] = per_coefficient[c] * last;
-            for (std::size_t j = 0; j < points; ++j)
-                if (marked[j]) error[c] += std::abs(rule.weight[c][j]);
-        }
-        return error;
+    static bool is_below(const Triple& error, const Triple& allowed) {
+        return error[0] <= allowed[0] && error[1] <= allowed[1] && error[2] <= allowed[2];
     }
 
-    /// The reference value's own integral is the exact white, so only differences are summed.
-    void add(const PanelRule& rule, std::span<const SpectrumSample> f, const Triple& error,
-             std::size_t item) {
-        const double reference = reference_[item].value;
-        for (std::size_t c = 0; c < 3; ++c) {
-            double sum = 0;
-            for (std::size_t j = 0; j < f.size(); ++j)
-                sum += rule.weight[c][j] * (f[j].value - reference);
-            results_[item].xyz[c] += sum;
-            errors_[item][c] += error[c];
+    /// Whether twice the degree promises an error that is allowed.
+    static bool doubling_helps(const QuadratureRule& rule, std::span<const double> sums,
+                               const Triple& error, const Triple& allowed) {
+        if (rule.middle == 0) return true;
+        // coefficients fall as much again in the next half of the degree, and in the one after it
+        const double fall = std::pow(rule.fall_seen(sums), 2);
+        for (std::size_t c = 0; c < 3; ++c)
+            if (error[c] > kHopeful * fall * allowed[c]) return false;
+        return true;
+    }
+
+    struct Poles {
+        bool all_far;      ///< none is closer to a point than the next one, for certain
+        std::size_t rate;  ///< at which coefficients fall, an index into kFallRates
+    };
+    /// What differences of the denominators say at once.
+    Poles poles_of(const Job& job, const Samples& samples, std::size_t first) const {
+        const QuadratureRule& rule = job.rule();
+        const auto degree = static_cast<double>(kDegrees[job.degree]);
+        if (denominators_ == 0 || degree < kDense * job.half_turn) return {false, 0};
+        double largest = 0;
+        for (std::size_t d = 0; d < denominators_; ++d) {
+            const std::size_t row = integrals_.size() + 3 * d;
+            largest = std::max(largest,
+                               steepness(samples.row(row) + first, samples.row(row + 1) + first,
+                                         samples.row(row + 2) + first, rule.inverse_spacing.data(),
+                                         rule.points, rule.stride, limits_.simd));
         }
+        if (!(largest < degree / std::numbers::pi)) return {false, 0};
+        std::size_t rate = 0;
+        while (rate + 1 < kFallRates.size() && largest <= rule.steepest[rate + 1]) ++rate;
+        return {true, rate};
+    }
+
+    /// Weight of the points that have a zero of a denominator next to them.
+    Triple hidden_weight(const QuadratureRule& rule, const Samples& samples,
+                         std::size_t first) const {
+        std::vector<bool> marked(rule.points, false);
+        for (std::size_t d = 0; d < denominators_; ++d) {
+            const auto row = [&](std::size_t r) {
+                return std::span(samples.row(integrals_.size() + 3 * d + r) + first, rule.points);
+            };
+            mark_hidden_zeros(rule.panel.x, {row(0), row(1), row(2)}, marked);
+        }
+        Triple weight{};
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t j = 0; j < rule.points; ++j)
+                if (marked[j]) weight[c] += std::abs(rule.panel.weight[c][j]);
+        return weight;
     }
 
     const Sensitivity& sensitivity_;
-    const SpectraAt& spectra_;
+    const SampleAt& sample_;
     IntegrationLimits limits_;
-    std::vector<ColorIntegral> results_;
-    std::vector<Triple> errors_;             ///< of each channel
-    std::vector<SpectrumSample> reference_;  ///< each item at the short end
+    std::size_t denominators_;
+    std::span<ColorIntegral> integrals_;
+    IntegrationMemory& memory_;
+    std::vector<double>& reference_;  ///< each spectrum at the short end
+    std::vector<Triple>& errors_;     ///< of each channel
+    std::vector<Job>& next_;          ///< panels that are not settled
+    std::vector<Samples>& spare_;
+    std::size_t evaluations_ = 0;
 };
 
 }  // namespace
 
-std::vector<ColorIntegral> integrate_color(const Sensitivity& sensitivity,
-                                           const std::vector<SpectralPanel>& panels,
-                                           std::size_t items, const SpectraAt& spectra,
-                                           const IntegrationLimits& limits) {
+void Samples::resize(std::size_t spectra, std::size_t denominators, std::size_t points) {
+    rows_ = spectra + 3 * denominators;
+    points_ = points;
+    stride_ = (points + 2 * kMostLanes) / kMostLanes * kMostLanes;
+    numbers_.resize(std::max(numbers_.size(), rows_ * stride_));
+    for (std::size_t row = 0; row < rows_; ++row)
+        std::fill_n(numbers_.begin() + static_cast<std::ptrdiff_t>(row * stride_ + points),
+                    stride_ - points, 0.0);
+}
+
+const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
+    return rules_[degree].get([&] {
+        return std::make_unique<QuadratureRule>(tree_.sensitivity_, range_, kDegrees[degree]);
+    });
+}
+
+const SpectralPoints& PanelTree::Node::all_points(std::size_t degree) {
+    return all_[degree].get([&] {
+        return std::make_unique<SpectralPoints>(
+            tree_.make_points_(rule(degree).panel.wavelength_nm));
+    });
+}
+
+const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
+    return added_[degree].get([&] {
+        const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+        std::vector<double> odd;
+        for (std::size_t j = 1; j < every.size(); j += 2) odd.push_back(every[j]);
+        return std::make_unique<SpectralPoints>(tree_.make_points_(std::move(odd)));
+    });
+}
+
+PanelTree::Node& PanelTree::Node::half(std::size_t which) {
+    return halves_[which].get([&] {
+        const double middle = 2 / (1 / range_.first_nm + 1 / range_.last_nm);
+        return std::make_unique<Node>(tree_, which == 0 ? WavelengthRange{range_.first_nm, middle}
+                                                        : WavelengthRange{middle, range_.last_nm});
+    });
+}
+
+PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, double tolerance) {
+    Start start;
+    std::vector<double> wavelengths;
+    for (const SpectralPanel& panel : panels) {
+        Node* node = nullptr;
+        {
+            const std::scoped_lock guard(lock_);
+            const std::pair key{panel.range.first_nm, panel.range.last_nm};
+            node = &roots_.try_emplace(key, *this, panel.range).first->second;
+        }
+        const std::size_t degree = first_degree(panel.half_turn, tolerance);
+        const std::vector<double>& points = node->rule(degree).panel.wavelength_nm;
+        const std::size_t shared = wavelengths.empty() ? 0 : 1;
+        start.panels.push_back({node, degree, panel.half_turn, wavelengths.size() - shared});
+        wavelengths.insert(wavelengths.end(), points.begin() + static_cast<std::ptrdiff_t>(shared),
+                           points.end());
+    }
+    start.points = make_points_(std::move(wavelengths));
+    return start;
+}
+
+void integrate_color(const Sensitivity& sensitivity, const PanelTree::Start& start,
+                     std::size_t denominators, const SampleAt& sample,
+                     const IntegrationLimits& limits, IntegrationMemory& memory,
+                     std::span<ColorIntegral> integrals) {
     require_in_range("tolerance", limits.tolerance, 1e-12, 1);
-    return Integration(sensitivity, items, spectra, limits).over(panels);
+    Integration(sensitivity, denominators, sample, limits, memory, integrals).over(start);
 }
 
 }  // namespace irido

@@ -3,11 +3,18 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/color/quadrature_rule.hpp"
 #include "core/color/sensitivity.hpp"
-#include "core/complex.hpp"
+#include "core/interference/index_table.hpp"
+#include "core/math/lazy.hpp"
+#include "core/math/simd_level.hpp"
 
 namespace irido {
 
@@ -19,25 +26,106 @@ struct SpectralPanel {
     double half_turn = 0;
 };
 
-/// A complex number exp(log_scale) value.
-struct ScaledComplex {
-    Complex value{1};
-    double log_scale = 0;
+/// Wavelengths at which spectra are wanted, with what the spectra need there once.
+struct SpectralPoints {
+    std::vector<double> wavelength_nm;
+    std::unique_ptr<const IndexTable> indices;  ///< of stacks
+};
+using PointsMaker = std::function<SpectralPoints(std::vector<double> wavelength_nm)>;
+
+/// Panels, their halves and the halves of these, with their rules and points, which are made when
+/// first asked for. Safe from many threads.
+class PanelTree {
+public:
+    /// Refers to the sensitivity.
+    PanelTree(const Sensitivity& sensitivity, PointsMaker make_points)
+        : sensitivity_(sensitivity), make_points_(std::move(make_points)) {}
+
+    class Node {
+    public:
+        Node(const PanelTree& tree, WavelengthRange range) : tree_(tree), range_(range) {}
+        WavelengthRange range() const { return range_; }
+        // of a degree, as an index into kDegrees
+        const QuadratureRule& rule(std::size_t degree);
+        const SpectralPoints& all_points(std::size_t degree);
+        const SpectralPoints& added_points(std::size_t degree);  ///< to those of the one before
+        Node& half(std::size_t which);
+
+    private:
+        const PanelTree& tree_;
+        WavelengthRange range_;
+        std::array<Lazy<QuadratureRule>, kDegrees.size()> rules_;
+        std::array<Lazy<SpectralPoints>, kDegrees.size()> all_, added_;
+        std::array<Lazy<Node>, 2> halves_;
+    };
+
+    /// Panels to begin with.
+    struct Start {
+        struct Panel {
+            Node* node;
+            std::size_t degree;  ///< index into kDegrees
+            double half_turn;
+            std::size_t first;  ///< of its points; neighbours share one
+        };
+        std::vector<Panel> panels;
+        SpectralPoints points;
+    };
+    /// Adjoining panels, short wavelengths first, that cover the sensitivity's support.
+    ///   tolerance  of X, Y, Z: it decides with which degrees to begin
+    Start start(const std::vector<SpectralPanel>& panels, double tolerance);
+
+    const Sensitivity& sensitivity() const { return sensitivity_; }
+
+private:
+    const Sensitivity& sensitivity_;
+    PointsMaker make_points_;
+    std::mutex lock_;
+    std::map<std::pair<double, double>, Node> roots_;  ///< by the ends of their ranges
 };
 
-/// A spectrum at one wavelength.
-struct SpectrumSample {
-    double value = 0;  ///< in [0, 1]
-    /// Of functions without poles whose zeros are the poles of the spectrum (one a polarization):
-    /// they betray a resonance that falls between two samples. Constant where nothing is known.
-    std::array<ScaledComplex, 2> denominator{};
+/// Spectra at the same points, in rows that can be read kMostLanes + 1 past their last point.
+class Samples {
+public:
+    /// Makes room, keeping memory from before.
+    ///   spectra       such as R and T
+    ///   denominators  complex functions without poles whose zeros are the poles of the spectra
+    ///   (one
+    ///                 a polarization); they betray a resonance between two points
+    void resize(std::size_t spectra, std::size_t denominators, std::size_t points);
+    std::size_t points() const { return points_; }
+    std::size_t rows() const { return rows_; }
+
+    /// The spectra, values in [0, 1], then for each denominator its real and imaginary part and the
+    /// logarithm of a factor of both.
+    double* row(std::size_t row) { return numbers_.data() + row * stride_; }
+    const double* row(std::size_t row) const { return numbers_.data() + row * stride_; }
+
+private:
+    std::size_t rows_ = 0, points_ = 0, stride_ = 0;
+    std::vector<double> numbers_;
 };
 
-/// Several spectra that are wanted at the same wavelengths, such as R and T at every angle.
-/// Fills samples[item * wavelengths + w] for each of the asked items, in order.
-using SpectraAt =
-    std::function<void(std::span<const double> wavelength_nm, std::span<const std::size_t> items,
-                       std::span<SpectrumSample> samples)>;
+/// Fills the samples, which have the right size, at the points of all parts, one after the other.
+using SampleAt =
+    std::function<void(std::span<const SpectralPoints* const> parts, Samples& samples)>;
+
+/// Scratch memory of calls that follow each other; its content means nothing.
+struct IntegrationMemory {
+    /// A panel at one degree, an index into kDegrees.
+    struct Job {
+        PanelTree::Node* node = nullptr;
+        std::size_t degree = 0;
+        double half_turn = 0;
+        double share = 0;                              ///< of the tolerance
+        std::optional<Samples> coarse = std::nullopt;  ///< at the points of the degree before
+        const QuadratureRule& rule() const { return node->rule(degree); }
+    };
+    std::vector<Job> now, next;
+    std::vector<const SpectralPoints*> parts;
+    std::vector<double> reference, sums;
+    std::vector<Triple> errors, panel_errors;
+    std::vector<Samples> spare;
+};
 
 /// X, Y, Z of one spectrum.
 struct ColorIntegral {
@@ -49,17 +137,20 @@ struct ColorIntegral {
 struct IntegrationLimits {
     double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
     std::size_t evaluations = 1U << 20;  ///< a spectrum; past it the best value is returned
+    SimdLevel simd = best_simd_level();
 };
 
-/// Integrals of `items` spectra times the sensitivity over adjoining panels that cover its support.
-/// Each panel starts at the degree that its half_turn asks for, doubles it and then bisects until
-/// the estimate is below the panel's share of the tolerance: the tail of the Chebyshev coefficients
-/// against the moments, and the whole weight of every point near which a denominator has a zero
-/// closer than the next point. A spectrum equal to 1 at every point gives exactly the white.
-/// Spectra that run out of evaluations have error > tolerance.
-std::vector<ColorIntegral> integrate_color(const Sensitivity& sensitivity,
-                                           const std::vector<SpectralPanel>& panels,
-                                           std::size_t items, const SpectraAt& spectra,
-                                           const IntegrationLimits& limits);
+/// Integrals of spectra that are computed together times the sensitivity over adjoining panels that
+/// cover its support. Each panel doubles its degree or is halved, whichever promises more, until
+/// the estimate is below its share of the tolerance: the last Chebyshev coefficients against the
+/// moments, and the whole weight of every point near which a denominator has a zero closer than the
+/// next point. A spectrum equal to 1 at every point gives exactly the white. If the evaluations run
+/// out, error > tolerance.
+///   denominators  of the samples, 0 to 2
+///   integrals     one a spectrum
+void integrate_color(const Sensitivity& sensitivity, const PanelTree::Start& start,
+                     std::size_t denominators, const SampleAt& sample,
+                     const IntegrationLimits& limits, IntegrationMemory& memory,
+                     std::span<ColorIntegral> integrals);
 
 }  // namespace irido

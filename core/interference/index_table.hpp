@@ -15,6 +15,9 @@ public:
     /// smaller k is left out).
     IndexTable(const Stack& stack, std::vector<double> wavelength_nm);
 
+    /// Becomes the parts, tables of the same stack, one after the other; memory is used again.
+    void assign(std::span<const IndexTable* const> parts);
+
     const std::vector<double>& wavelength_nm() const { return wavelength_nm_; }
     std::size_t materials() const { return materials_; }
     /// Real and imaginary part of one material's index at all wavelengths.
@@ -26,6 +29,8 @@ public:
     std::size_t incident() const { return incident_; }
     /// 2 pi / wavelength, 1/nm.
     const std::vector<double>& k0() const { return k0_; }
+    /// Largest k0 |n + ik| of any material, 1/nm, or somewhat more.
+    double largest_wavenumber() const { return largest_wavenumber_; }
     /// Whether the material has one index at all wavelengths.
     bool is_constant(std::size_t material) const { return constant_[material]; }
     /// Per material: whether its index has an imaginary part at any wavelength.
@@ -40,6 +45,7 @@ private:
 
     std::vector<double> wavelength_nm_;
     std::size_t materials_, incident_;
+    double largest_wavenumber_ = 0;
     // n_ and k_ are [material][wavelength]; all three can be read kMostLanes past their end
     std::vector<double> n_, k_, k0_;
     std::vector<bool> constant_, absorbs_, amplifies_;

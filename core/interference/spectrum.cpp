@@ -5,7 +5,6 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/interference/vector/chain_program.hpp"
 #include "core/math/parallel.hpp"
 
 namespace irido {
@@ -24,13 +23,6 @@ constexpr double kLargestPhase = 0x1p40;
 /// Less work than this is not worth a second thread; its unit is about 0.1 us.
 constexpr double kLittleWork = 1000, kPlainWork = 5, kVectorWork = 0.01;
 
-/// Points that differ in their wavelength or in their angle only.
-struct Job {
-    bool along_angles;
-    std::size_t fixed;  ///< index of the angle, or of the wavelength
-    std::size_t begin, end;
-};
-
 /// Makes room for what is needed, keeping memory from before.
 void allocate(Spectrum& spectrum, const Needs& needs, std::size_t points, std::size_t layers) {
     spectrum.R.resize(needs.R ? points : 0);
@@ -38,8 +30,9 @@ void allocate(Spectrum& spectrum, const Needs& needs, std::size_t points, std::s
     spectrum.A.resize(needs.A ? points : 0);
     spectrum.r.resize(needs.amplitudes ? points : 0);
     spectrum.t.resize(needs.amplitudes ? points : 0);
-    spectrum.denominator.resize(needs.denominators ? points : 0);
-    spectrum.log_scale.resize(needs.denominators ? points : 0);
+    for (const auto values :
+         {&Spectrum::denominator_re, &Spectrum::denominator_im, &Spectrum::log_scale})
+        (spectrum.*values).resize(needs.denominators ? points : 0);
     spectrum.A_layers.resize(needs.layers ? layers * points : 0);
 }
 
@@ -51,8 +44,9 @@ void store(Spectrum& to, std::size_t point, const Response& response) {
         to.r[point] = response.r;
         to.t[point] = response.t;
     }
-    if (!to.denominator.empty()) {
-        to.denominator[point] = response.denominator;
+    if (!to.log_scale.empty()) {
+        to.denominator_re[point] = response.denominator.real();
+        to.denominator_im[point] = response.denominator.imag();
         to.log_scale[point] = response.log_scale;
     }
 }
@@ -68,15 +62,12 @@ void store_layers(Spectrum& to, std::size_t point, std::span<const double> absor
 class PlainRun {
 public:
     PlainRun(const StackPower& stack, const IndexTable& table, const Needs& needs, Spectra& out)
-        : stack_(stack),
-          table_(table),
-          needs_(needs),
-          out_(out),
-          media_(table.materials() + 1),
-          absorbed_(needs.layers ? stack.layer_count() : 0) {}
+        : stack_(stack), table_(table), needs_(needs), out_(out) {}
 
     void operator()(double cos_theta, std::size_t wavelength, std::size_t point) {
         const double n0 = table_.n(table_.incident())[wavelength];
+        media_.resize(table_.materials() + 1);
+        absorbed_.resize(needs_.layers ? stack_.layer_count() : 0);
         for (std::size_t m = 0; m < table_.materials(); ++m)
             media_[m] = medium(table_.index(m, wavelength), n0, cos_theta);
         media_.back() = medium(n0, n0, cos_theta);
@@ -84,7 +75,7 @@ public:
         Spectrum* const s = needs_.s ? &out_.s : nullptr;
         Spectrum* const p = needs_.p ? &out_.p : nullptr;
         if (cos_theta == 1) {
-            compute(Polarization::s, k0, point, s, p);
+            compute(Polarization::s, k0, point, s ? s : p, s && needs_.p_at_normal ? p : nullptr);
         } else {
             if (s) compute(Polarization::s, k0, point, s, nullptr);
             if (p) compute(Polarization::p, k0, point, p, nullptr);
@@ -131,7 +122,8 @@ RunOutput output_at(Spectrum& spectrum, std::size_t point, std::size_t stride) {
             .A = place(spectrum.A, point),
             .r = place(spectrum.r, point),
             .t = place(spectrum.t, point),
-            .denominator = place(spectrum.denominator, point),
+            .denominator_re = place(spectrum.denominator_re, point),
+            .denominator_im = place(spectrum.denominator_im, point),
             .log_scale = place(spectrum.log_scale, point),
             .stride = stride};
 }
@@ -146,9 +138,10 @@ void copy_some(const std::vector<T>& from, std::vector<T>& to, std::size_t begin
 
 /// Points [begin, end) of one polarization are those of the other.
 void copy_points(const Spectrum& from, Spectrum& to, std::size_t begin, std::size_t end) {
-    for (const auto values : {&Spectrum::R, &Spectrum::T, &Spectrum::A, &Spectrum::log_scale})
+    for (const auto values : {&Spectrum::R, &Spectrum::T, &Spectrum::A, &Spectrum::denominator_re,
+                              &Spectrum::denominator_im, &Spectrum::log_scale})
         copy_some(from.*values, to.*values, begin, end);
-    for (const auto values : {&Spectrum::r, &Spectrum::t, &Spectrum::denominator})
+    for (const auto values : {&Spectrum::r, &Spectrum::t})
         copy_some(from.*values, to.*values, begin, end);
 }
 
@@ -162,16 +155,24 @@ bool is_special(double cos_theta) {
 class VectorRun {
 public:
     VectorRun(const ChainProgram& program, PlainRun& plain, const IndexTable& table,
-              std::span<const double> cos_theta, const Needs& needs, SimdLevel simd, Spectra& out)
+              std::span<const double> cos_theta, const Needs& needs, SimdLevel simd, Spectra& out,
+              SpectrumMemory& memory)
         : program_(program),
           plain_(plain),
           table_(table),
           cos_theta_(cos_theta),
           needs_(needs),
           simd_(simd),
-          out_(out) {}
+          out_(out),
+          run_(memory.run),
+          cosines_(memory.cosines),
+          redo_(memory.redo),
+          memory_(memory.kernel) {
+        run_.n.resize(table.materials());
+        run_.k.resize(table.materials());
+    }
 
-    void operator()(const Job& job) {
+    void operator()(const SpectrumJob& job) {
         const std::size_t wavelengths = table_.wavelength_nm().size();
         const bool across = job.along_angles;
         const std::size_t angle = across ? job.begin : job.fixed;
@@ -179,34 +180,31 @@ public:
         const std::size_t first = angle * wavelengths + wavelength;
         const std::size_t stride = across ? wavelengths : 1;
         const bool normal = !across && cos_theta_[angle] == 1;
-        PointRun run{.count = job.end - job.begin,
-                     .k0 = {table_.k0().data() + wavelength, !across},
-                     .incident = stream(table_.n(table_.incident()), wavelength,
-                                        !across && !table_.is_constant(table_.incident())),
-                     .cos_theta = {cos_theta_.data() + angle, across},
-                     .n = {},
-                     .k = {},
-                     .above = {}};
-        std::vector<double> cosines;
+        run_.count = job.end - job.begin;
+        run_.k0 = {table_.k0().data() + wavelength, !across};
+        run_.incident = stream(table_.n(table_.incident()), wavelength,
+                               !across && !table_.is_constant(table_.incident()));
+        run_.cos_theta = {cos_theta_.data() + angle, across};
         if (across) {
-            cosines.assign(cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.begin),
-                           cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.end));
-            cosines.resize(cosines.size() + kMostLanes, 1);
-            run.cos_theta.values = cosines.data();
+            cosines_.assign(cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.begin),
+                            cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.end));
+            cosines_.resize(cosines_.size() + kMostLanes, 1);
+            run_.cos_theta.values = cosines_.data();
         }
         for (std::size_t m = 0; m < table_.materials(); ++m) {
             const bool varies = !across && !table_.is_constant(m);
-            run.n.push_back(stream(table_.n(m), wavelength, varies));
-            run.k.push_back(stream(table_.k(m), wavelength, varies));
+            run_.n[m] = stream(table_.n(m), wavelength, varies);
+            run_.k[m] = stream(table_.k(m), wavelength, varies);
         }
         // at normal incidence s stands for p
         const bool only_p = normal && !needs_.s;
         const RunOutput s = output_at(only_p ? out_.p : out_.s, first, stride);
         const RunOutput p = output_at(out_.p, first, stride);
         redo_.clear();
-        run_chain(program_, run, needs_.s || normal ? &s : nullptr,
-                  needs_.p && !normal ? &p : nullptr, redo_, simd_);
-        if (normal && needs_.s && needs_.p) copy_points(out_.s, out_.p, first, first + run.count);
+        run_chain(program_, run_, needs_.s || normal ? &s : nullptr,
+                  needs_.p && !normal ? &p : nullptr, redo_, memory_, simd_);
+        if (normal && needs_.s && needs_.p && needs_.p_at_normal)
+            copy_points(out_.s, out_.p, first, first + run_.count);
         for (const std::size_t i : redo_)
             plain_(cos_theta_[across ? angle + i : angle], across ? wavelength : wavelength + i,
                    first + i * stride);
@@ -224,28 +222,11 @@ private:
     const Needs& needs_;
     SimdLevel simd_;
     Spectra& out_;
-    std::vector<std::size_t> redo_;
+    PointRun& run_;
+    std::vector<double>& cosines_;
+    std::vector<std::size_t>& redo_;
+    RunMemory& memory_;
 };
-
-/// The program of a stack that the vector kernel can take.
-std::optional<ChainProgram> vector_program(const StackPower& stack, const IndexTable& table,
-                                           const Needs& needs, SimdLevel simd) {
-    const Chain* chain = stack.chain();
-    if (!chain || needs.layers || simd == SimdLevel::plain) return std::nullopt;
-    std::optional<ChainProgram> program = compile(*chain, table.absorbs(), table.amplifies());
-    if (!program) return program;
-    double largest_index = 0;
-    for (std::size_t m = 0; m < table.materials(); ++m)
-        for (std::size_t w = 0; w < table.wavelength_nm().size(); ++w)
-            largest_index =
-                std::max(largest_index, std::abs(table.n(m)[w]) + std::abs(table.k(m)[w]));
-    const double largest_k0 =
-        *std::ranges::max_element(std::span(table.k0()).first(table.wavelength_nm().size()));
-    for (const Program& block : program->down)
-        if (block.largest_thickness_nm * largest_k0 * largest_index > kLargestPhase)
-            return std::nullopt;
-    return program;
-}
 
 /// Layers and periods' layers that one point takes.
 std::size_t layers_of(const ChainProgram& program) {
@@ -255,19 +236,19 @@ std::size_t layers_of(const ChainProgram& program) {
     return layers;
 }
 
-void add_jobs(std::vector<Job>& jobs, Job whole, std::size_t block) {
+void add_jobs(std::vector<SpectrumJob>& jobs, SpectrumJob whole, std::size_t block) {
     for (std::size_t begin = whole.begin; begin < whole.end; begin += block)
         jobs.push_back(
             {whole.along_angles, whole.fixed, begin, std::min(begin + block, whole.end)});
 }
 
 /// All points, in jobs that do not depend on the number of threads.
-std::vector<Job> jobs_of(const IndexTable& table, std::span<const double> cos_theta,
-                         bool by_vectors) {
+void list_jobs(const IndexTable& table, std::span<const double> cos_theta, bool by_vectors,
+               std::vector<SpectrumJob>& jobs) {
     const std::size_t wavelengths = table.wavelength_nm().size(), angles = cos_theta.size();
     const std::size_t block = by_vectors ? kVectorBlock : kPlainBlock;
     const bool across = by_vectors && wavelengths < kFewWavelengths && angles > wavelengths;
-    std::vector<Job> jobs;
+    jobs.clear();
     for (std::size_t a = 0; a < angles;) {
         if (!across || is_special(cos_theta[a])) {
             add_jobs(jobs, {false, a, 0, wavelengths}, block);
@@ -278,22 +259,87 @@ std::vector<Job> jobs_of(const IndexTable& table, std::span<const double> cos_th
         while (a < angles && !is_special(cos_theta[a])) ++a;
         for (std::size_t w = 0; w < wavelengths; ++w) add_jobs(jobs, {true, w, begin, a}, block);
     }
-    return jobs;
 }
 
 }  // namespace
 
-Work work_of(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
-             const Needs& needs, const Execution& execution) {
+SpectrumKernel::SpectrumKernel(const StackPower& stack, const std::vector<bool>& absorbs,
+                               const std::vector<bool>& amplifies, const Needs& needs,
+                               SimdLevel simd)
+    : stack_(stack), needs_(needs), simd_(simd) {
+    if (needs.amplitudes && !stack.has_amplitudes())
+        throw DomainError("amplitudes exist for coherent layers of fixed thicknesses only");
+    const Chain* chain = stack.chain();
+    if (chain && !needs.layers && simd != SimdLevel::plain)
+        program_ = compile(*chain, absorbs, amplifies);
+}
+
+bool SpectrumKernel::by_vectors(const IndexTable& table) const {
+    if (!program_) return false;
+    for (const Program& block : program_->down)
+        if (block.largest_thickness_nm * table.largest_wavenumber() > kLargestPhase) return false;
+    return true;
+}
+
+void SpectrumKernel::prepare(const IndexTable& table, std::span<const double> cos_theta,
+                             Spectra& out, std::vector<SpectrumJob>& jobs) const {
+    const std::size_t points = cos_theta.size() * table.wavelength_nm().size();
+    const std::size_t layers = needs_.layers ? stack_.layer_count() : 0;
+    allocate(out.s, needs_, needs_.s ? points : 0, layers);
+    allocate(out.p, needs_, needs_.p ? points : 0, layers);
+    list_jobs(table, cos_theta, by_vectors(table), jobs);
+}
+
+void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& table,
+                         std::span<const double> cos_theta, Spectra& out,
+                         SpectrumMemory& memory) const {
+    const std::size_t wavelengths = table.wavelength_nm().size();
+    PlainRun plain(stack_, table, needs_, out);
+    std::optional<VectorRun> vector;
+    if (by_vectors(table))
+        vector.emplace(*program_, plain, table, cos_theta, needs_, simd_, out, memory);
+    for (const SpectrumJob& job : jobs) {
+        const bool grazing = !job.along_angles && cos_theta[job.fixed] == 0;
+        if (vector && !grazing) {
+            (*vector)(job);
+            continue;
+        }
+        for (std::size_t w = job.begin; w < job.end; ++w)
+            plain(cos_theta[job.fixed], w, job.fixed * wavelengths + w);
+    }
+}
+
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
+                                Spectra& out, SpectrumMemory& memory) const {
+    prepare(table, cos_theta, out, memory.jobs);
+    run(memory.jobs, table, cos_theta, out, memory);
+}
+
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
+                                unsigned threads, Spectra& out) const {
+    SpectrumMemory memory;
+    prepare(table, cos_theta, out, memory.jobs);
+    const double unit = by_vectors(table)
+                            ? kVectorWork * static_cast<double>(layers_of(*program_) + 2)
+                            : kPlainWork;
+    const auto points = static_cast<double>(cos_theta.size() * table.wavelength_nm().size());
+    if (threads == 1 || points * unit < kLittleWork)
+        return run(memory.jobs, table, cos_theta, out, memory);
+    parallel_for(memory.jobs.size(), threads, [&](std::size_t j) {
+        SpectrumMemory own;
+        run(std::span(memory.jobs).subspan(j, 1), table, cos_theta, out, own);
+    });
+}
+
+Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_theta) const {
     Work work{.points = cos_theta.size() * table.wavelength_nm().size()};
     work.normal_angles = static_cast<std::size_t>(std::ranges::count(cos_theta, 1.0));
-    const std::optional<ChainProgram> program = vector_program(stack, table, needs, execution.simd);
-    if (!program) return work;
-    work.kernel = execution.simd;
-    work.passes = program->down.size() + program->up.size();
+    if (!by_vectors(table)) return work;
+    work.kernel = simd_;
+    work.passes = program_->down.size() + program_->up.size();
     const bool incident_is_constant = table.is_constant(table.incident());
     std::set<std::size_t> media, constant_media;
-    for (const Program& block : program->down) {
+    for (const Program& block : program_->down) {
         work.layers += block.order.size();
         for (const std::uint32_t layer : block.order)
             if (!block.media[block.layers[layer].medium].absorbs) ++work.transparent_layers;
@@ -310,9 +356,9 @@ Work work_of(const StackPower& stack, const IndexTable& table, std::span<const d
     work.media = media.size();
     work.constant_media = constant_media.size();
     const bool constant = work.constant_media == work.media;
-    work.one_film = work.passes == 1 && program->down[0].is_one_film();
-    const bool both = needs.s && needs.p && work.normal_angles < cos_theta.size();
-    for (const auto* direction : {&program->down, &program->up})
+    work.one_film = work.passes == 1 && program_->down[0].is_one_film();
+    const bool both = needs_.s && needs_.p && work.normal_angles < cos_theta.size();
+    for (const auto* direction : {&program_->down, &program_->up})
         for (const Program& block : *direction)
             work.operations_per_point += operations_per_point(block, both ? 2 : 1, constant);
     return work;
@@ -327,28 +373,14 @@ Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<cons
 
 void spectra(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
              const Needs& needs, const Execution& execution, Spectra& out) {
-    const std::size_t wavelengths = table.wavelength_nm().size();
-    const std::size_t points = cos_theta.size() * wavelengths;
-    if (needs.amplitudes && !stack.has_amplitudes())
-        throw DomainError("amplitudes exist for coherent layers of fixed thicknesses only");
-    const std::size_t layers = needs.layers ? stack.layer_count() : 0;
-    allocate(out.s, needs, needs.s ? points : 0, layers);
-    allocate(out.p, needs, needs.p ? points : 0, layers);
-    if (points == 0) return;
-    const std::optional<ChainProgram> program = vector_program(stack, table, needs, execution.simd);
-    const std::vector<Job> jobs = jobs_of(table, cos_theta, program.has_value());
-    const double work =
-        static_cast<double>(points) *
-        (program ? kVectorWork * static_cast<double>(layers_of(*program) + 2) : kPlainWork);
-    parallel_for(jobs.size(), work < kLittleWork ? 1 : execution.threads, [&](std::size_t j) {
-        PlainRun plain(stack, table, needs, out);
-        const Job& job = jobs[j];
-        const bool grazing = !job.along_angles && cos_theta[job.fixed] == 0;
-        if (program && !grazing)
-            return VectorRun(*program, plain, table, cos_theta, needs, execution.simd, out)(job);
-        for (std::size_t w = job.begin; w < job.end; ++w)
-            plain(cos_theta[job.fixed], w, job.fixed * wavelengths + w);
-    });
+    SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)(
+        table, cos_theta, execution.threads, out);
+}
+
+Work work_of(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
+             const Needs& needs, const Execution& execution) {
+    return SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)
+        .work(table, cos_theta);
 }
 
 }  // namespace irido

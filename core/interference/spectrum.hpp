@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/interference/index_table.hpp"
 #include "core/interference/stack_power.hpp"
+#include "core/interference/vector/chain_program.hpp"
 #include "core/math/simd_level.hpp"
 
 namespace irido {
@@ -12,7 +14,8 @@ namespace irido {
 /// What a request needs. What is false is not computed, except that quantities may come along with
 /// another one that is needed.
 struct Needs {
-    bool s = true, p = true;
+    bool s = true, p = true;  ///< if both, p is left open at normal incidence unless:
+    bool p_at_normal = true;
     bool R = true, T = true, A = true;
     bool amplitudes = false;    ///< r and t; of coherent stacks without spread thicknesses only
     bool denominators = false;  ///< of Response
@@ -23,8 +26,7 @@ struct Needs {
 struct Spectrum {
     std::vector<double> R, T, A;
     std::vector<Complex> r, t;
-    std::vector<Complex> denominator;  ///< times exp(log_scale)
-    std::vector<double> log_scale;
+    std::vector<double> denominator_re, denominator_im, log_scale;  ///< of Response
     std::vector<double> A_layers;  ///< [layer][angle][wavelength], layers with groups written out
 
     /// Where R, T and A were asked for.
@@ -54,6 +56,54 @@ struct Work {
 };
 Work work_of(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
              const Needs& needs, const Execution& execution = {1});
+
+/// Points that differ in their wavelength or in their angle only.
+struct SpectrumJob {
+    bool along_angles;
+    std::size_t fixed;  ///< index of the angle, or of the wavelength
+    std::size_t begin, end;
+};
+
+/// Scratch memory of calls that follow each other on one thread; its content means nothing.
+struct SpectrumMemory {
+    std::vector<SpectrumJob> jobs;
+    PointRun run;
+    std::vector<double> cosines;
+    std::vector<std::size_t> redo;
+    RunMemory kernel;
+};
+
+/// A stack made ready for many calls with tables of the same materials, whose absorption and
+/// amplification is nowhere more than stated. Refers to the StackPower. Safe from many threads.
+class SpectrumKernel {
+public:
+    ///   absorbs, amplifies  as of the IndexTables to come, one per material
+    /// Throws DomainError if amplitudes are needed of a stack that has none.
+    SpectrumKernel(const StackPower& stack, const std::vector<bool>& absorbs,
+                   const std::vector<bool>& amplifies, const Needs& needs, SimdLevel simd);
+
+    /// As spectra(), into memory that is used again; threads as in Execution.
+    void operator()(const IndexTable& table, std::span<const double> cos_theta, unsigned threads,
+                    Spectra& out) const;
+    /// The same on this thread.
+    void operator()(const IndexTable& table, std::span<const double> cos_theta, Spectra& out,
+                    SpectrumMemory& memory) const;
+
+    /// How the call above goes about it.
+    Work work(const IndexTable& table, std::span<const double> cos_theta) const;
+
+private:
+    bool by_vectors(const IndexTable& table) const;
+    void prepare(const IndexTable& table, std::span<const double> cos_theta, Spectra& out,
+                 std::vector<SpectrumJob>& jobs) const;
+    void run(std::span<const SpectrumJob> jobs, const IndexTable& table,
+             std::span<const double> cos_theta, Spectra& out, SpectrumMemory& memory) const;
+
+    const StackPower& stack_;
+    Needs needs_;
+    SimdLevel simd_;
+    std::optional<ChainProgram> program_;  ///< nothing for the plain kernel
+};
 
 /// The batch form of the kernel: a stack at all wavelengths of the table and all angles.
 ///   cos_theta  of the angles of incidence, [0, 1]; at 1 both polarizations are one computation

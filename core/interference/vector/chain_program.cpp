@@ -15,22 +15,24 @@ double value_at(const Stream& stream, std::size_t point) {
 
 /// Powers of all points of a run in one polarization.
 struct BlockRun {
-    std::vector<double> R, T, A, log_scale;
-    std::vector<Complex> denominator;
+    std::vector<double> R, T, A, denominator_re, denominator_im, log_scale;
 
     BlockRun(std::size_t points, bool with_denominators) : R(points), T(points), A(points) {
         if (!with_denominators) return;
-        log_scale.resize(points);
-        denominator.resize(points);
+        for (auto* values : {&denominator_re, &denominator_im, &log_scale}) values->resize(points);
     }
     RunOutput output() {
         RunOutput out{.R = R.data(), .T = T.data(), .A = A.data()};
-        if (denominator.empty()) return out;
-        out.denominator = denominator.data();
+        if (log_scale.empty()) return out;
+        out.denominator_re = denominator_re.data();
+        out.denominator_im = denominator_im.data();
         out.log_scale = log_scale.data();
         return out;
     }
     Power power(std::size_t point) const { return {R[point], T[point], A[point]}; }
+    Complex denominator(std::size_t point) const {
+        return {denominator_re[point], denominator_im[point]};
+    }
 };
 
 /// Both polarizations of one direction through one block.
@@ -38,12 +40,13 @@ struct BothRuns {
     BlockRun s, p;
 
     BothRuns(const Program& program, const PointRun& run, bool with_s, bool with_p,
-             bool with_denominators, std::vector<std::size_t>& redo, SimdLevel level)
+             bool with_denominators, std::vector<std::size_t>& redo, RunMemory& memory,
+             SimdLevel level)
         : s(with_s ? run.count : 0, with_denominators),
           p(with_p ? run.count : 0, with_denominators) {
         const RunOutput out_s = s.output(), out_p = p.output();
         run_program(program, run, with_s ? &out_s : nullptr, with_p ? &out_p : nullptr, redo,
-                    level);
+                    memory, level);
     }
 };
 
@@ -53,9 +56,10 @@ struct Below {
     std::vector<Complex> denominator;
     std::vector<double> log_scale;
 
-    explicit Below(const BlockRun& last)
-        : power(last.R.size()), denominator(last.denominator), log_scale(last.log_scale) {
+    explicit Below(const BlockRun& last) : power(last.R.size()), log_scale(last.log_scale) {
         for (std::size_t i = 0; i < power.size(); ++i) power[i] = last.power(i);
+        for (std::size_t i = 0; i < log_scale.size(); ++i)
+            denominator.push_back(last.denominator(i));
     }
 
     void add(const BlockRun& down, const BlockRun& up, const std::vector<Attenuation>& gap,
@@ -63,8 +67,8 @@ struct Below {
         for (std::size_t i = 0; i < power.size(); ++i)
             if (!lost[i]) power[i] = over_gap({down.power(i), up.power(i)}, gap[i], power[i]);
         for (std::size_t i = 0; i < denominator.size(); ++i) {
-            const double size = std::abs(down.denominator[i]);
-            denominator[i] *= down.denominator[i] / size;
+            const double size = std::abs(down.denominator(i));
+            denominator[i] *= down.denominator(i) / size;
             log_scale[i] += down.log_scale[i] + std::log(size);
         }
     }
@@ -75,8 +79,9 @@ struct Below {
             if (out.R) out.R[at] = power[i].R;
             if (out.T) out.T[at] = power[i].T;
             if (out.A) out.A[at] = power[i].A;
-            if (out.denominator) {
-                out.denominator[at] = denominator[i];
+            if (out.log_scale) {
+                out.denominator_re[at] = denominator[i].real();
+                out.denominator_im[at] = denominator[i].imag();
                 out.log_scale[at] = log_scale[i];
             }
         }
@@ -117,13 +122,14 @@ std::optional<ChainProgram> compile(const Chain& chain, const std::vector<bool>&
 }
 
 void run_chain(const ChainProgram& chain, const PointRun& run, const RunOutput* s,
-               const RunOutput* p, std::vector<std::size_t>& redo, SimdLevel level) {
+               const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
+               SimdLevel level) {
     const std::size_t last = chain.gaps.size();
-    if (last == 0) return run_program(chain.down[0], run, s, p, redo, level);
-    const bool with_denominators = (s && s->denominator) || (p && p->denominator);
+    if (last == 0) return run_program(chain.down[0], run, s, p, redo, memory, level);
+    const bool with_denominators = (s && s->log_scale) || (p && p->log_scale);
     PointRun from_gap = run;
     const auto pass = [&](const Program& program, const PointRun& points) {
-        return BothRuns(program, points, s, p, with_denominators, redo, level);
+        return BothRuns(program, points, s, p, with_denominators, redo, memory, level);
     };
     const auto above = [&](std::size_t block) -> const PointRun& {
         if (block == 0) return run;

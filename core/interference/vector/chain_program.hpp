@@ -21,6 +21,7 @@ std::optional<ChainProgram> compile(const Chain& chain, const std::vector<bool>&
 
 /// As run_program(), with the bounces between blocks summed as powers.
 void run_chain(const ChainProgram& chain, const PointRun& run, const RunOutput* s,
-               const RunOutput* p, std::vector<std::size_t>& redo, SimdLevel level);
+               const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
+               SimdLevel level);
 
 }  // namespace irido

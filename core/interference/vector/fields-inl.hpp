@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <new>
 
 #include "core/interference/slab_response.hpp"
 #include "core/interference/vector/kernel.hpp"
@@ -156,13 +154,11 @@ HWY_INLINE V at(const Stream& stream, std::size_t point) {
     return stream.varies ? hn::LoadU(Lanes(), stream.values + point) : constant(*stream.values);
 }
 
-struct AlignedDelete {
-    void operator()(double* p) const { ::operator delete[](p, std::align_val_t(64)); }
-};
-using Buffer = std::unique_ptr<double[], AlignedDelete>;
-Buffer buffer(std::size_t count) {
-    return Buffer(static_cast<double*>(
-        ::operator new[](std::max<std::size_t>(count, 1) * sizeof(double), std::align_val_t(64))));
+/// Room for `count` numbers that starts where a vector may start.
+double* aligned_room(std::vector<double>& memory, std::size_t count) {
+    memory.resize(count + kMostLanes);
+    const auto past = reinterpret_cast<std::uintptr_t>(memory.data()) % (8 * kMostLanes);
+    return memory.data() + (past == 0 ? 0 : kMostLanes - past / 8);
 }
 
 /// cos, and sin with what belongs to a transparent layer, which may be evanescent.

@@ -21,29 +21,34 @@ namespace {
 class Runner {
 public:
     Runner(const Program& program, const PointRun& run, const RunOutput* s, const RunOutput* p,
-           std::vector<std::size_t>& redo)
+           std::vector<std::size_t>& redo, RunMemory& memory)
         : program_(program),
           run_(run),
           s_(s),
           p_(p),
           redo_(redo),
-          records_(buffer(program.media.size() * kRecord)),
-          shared_(buffer(program.shares_layers ? program.layers.size() * kShared : 0)),
-          evanescent_(program.media.size() - 1) {}
+          records_(aligned_room(memory.records,
+                                program.media.size() * kRecord +
+                                    (program.shares_layers ? program.layers.size() * kShared : 0))),
+          shared_(records_ + program.media.size() * kRecord),
+          evanescent_(memory.evanescent),
+          varying_(memory.varying) {
+        evanescent_.assign(program.media.size() - 1, 0);
+        varying_.clear();
+    }
 
     void operator()() {
-        std::vector<std::size_t> varying;
         for (std::size_t m = 0; m < program_.media.size(); ++m) {
             if (is_constant(m)) {
                 prepare(m, 0);
             } else {
-                varying.push_back(m);
+                varying_.push_back(m);
             }
         }
         const bool film = !run_.above && program_.is_one_film();
         for (std::size_t point = 0; point < run_.count; point += hn::Lanes(Lanes())) {
-            for (const std::size_t m : varying) prepare(m, point);
-            const bool changed = point == 0 || !varying.empty();
+            for (const std::size_t m : varying_) prepare(m, point);
+            const bool changed = point == 0 || !varying_.empty();
             if (changed) any_evanescent_ = std::ranges::find(evanescent_, 1) != evanescent_.end();
             if (film) {
                 if (changed) prepare_film(point);
@@ -84,7 +89,7 @@ private:
     }
 
     void prepare(std::size_t m, std::size_t point) {
-        double* record = records_.get() + m * kRecord;
+        double* record = records_ + m * kRecord;
         Cx eps, q2;
         permittivity(program_.media[m].material, point, eps, q2);
         if (m + 1 == program_.media.size()) {
@@ -128,7 +133,7 @@ private:
     }
 
     const double* record(std::uint32_t layer) const {
-        return records_.get() + program_.layers[layer].medium * kRecord;
+        return records_ + program_.layers[layer].medium * kRecord;
     }
 
     /// cos and sin of a transparent layer of k0 d, half of it for groups.
@@ -165,7 +170,7 @@ private:
     /// The matrices of all layers at one vector of points.
     void share_layers(V k0) {
         for (std::uint32_t layer = 0; layer < program_.layers.size(); ++layer) {
-            double* shared = shared_.get() + layer * kShared;
+            double* shared = shared_ + layer * kShared;
             const double* medium = record(layer);
             const V k0_d = vacuum_phase(layer, k0);
             if (!program_.media[program_.layers[layer].medium].absorbs) {
@@ -247,7 +252,7 @@ private:
     template <bool kS, bool kP>
     HWY_NOINLINE void shared_travelling_step(const Program::Step& step, Fields& s_out,
                                              Fields& p_out) const {
-        const double* all = shared_.get();
+        const double* all = shared_;
         layer_by_layer<kS, kP>(
             step, s_out, p_out, [all](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
                 const double* shared = all + layer * kShared;
@@ -345,7 +350,7 @@ private:
                                             V& dying_out) const {
         V dying = dying_out;
         const auto through = [&](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
-            const double* shared = shared_.get() + layer * kShared;
+            const double* shared = shared_ + layer * kShared;
             const Cx c = slots(shared, kCRe);
             const V b = slot(shared, kDecay);
             if (kS) {
@@ -486,7 +491,7 @@ private:
         const V k0 = at(run_.k0, point), zero = constant(0);
         if (program_.shares_layers) share_layers(k0);
         // the substrate's outgoing wave
-        const double* below = records_.get() + (program_.media.size() - 1) * kRecord;
+        const double* below = records_ + (program_.media.size() - 1) * kRecord;
         const Cx kz = slots(below, kKzRe), eps = slots(below, kEpsRe);
         const Fields start_s{{constant(1), zero}, kz, zero, zero}, start_p{kz, eps, zero, zero};
         Fields s = start_s, p = start_p;
@@ -606,7 +611,7 @@ private:
 
     void prepare_film(std::size_t point) {
         const double* medium = record(program_.order[0]);
-        const double* below = records_.get() + (program_.media.size() - 1) * kRecord;
+        const double* below = records_ + (program_.media.size() - 1) * kRecord;
         const Cx kz = slots(below, kKzRe), eps = slots(below, kEpsRe);
         const V one = constant(1), zero = constant(0);
         Incident in_s, in_p;
@@ -724,7 +729,8 @@ private:
         store(e.A, out.A, point, lanes, out.stride);
         store(e.r, out.r, point, lanes, out.stride);
         store(e.t, out.t, point, lanes, out.stride);
-        store(e.sum, out.denominator, point, lanes, out.stride);
+        store(e.sum.re, out.denominator_re, point, lanes, out.stride);
+        store(e.sum.im, out.denominator_im, point, lanes, out.stride);
         store(e.log_scale, out.log_scale, point, lanes, out.stride);
         const V total = Add(Add(e.R, e.T), e.A);
         const Mask finite = hn::Le(Abs(total), constant(1e300));
@@ -742,19 +748,20 @@ private:
     const PointRun& run_;
     const RunOutput *s_, *p_;
     std::vector<std::size_t>& redo_;
-    Buffer records_, shared_;
-    std::vector<char> evanescent_;  ///< per medium of layers: some lane is
+    double *records_, *shared_;
+    std::vector<char>& evanescent_;      ///< per medium of layers: some lane is
+    std::vector<std::size_t>& varying_;  ///< media that differ from point to point
     Film film_s_, film_p_;
     bool any_evanescent_ = false;
     bool needs_flux_ = false;
-    bool wants_denominators_ = (s_ && s_->denominator) || (p_ && p_->denominator);
+    bool wants_denominators_ = (s_ && s_->log_scale) || (p_ && p_->log_scale);
 };
 
 }  // namespace
 
 void run(const Program& program, const PointRun& points, const RunOutput* s, const RunOutput* p,
-         std::vector<std::size_t>& redo) {
-    Runner(program, points, s, p, redo)();
+         std::vector<std::size_t>& redo, RunMemory& memory) {
+    Runner(program, points, s, p, redo, memory)();
 }
 
 }  // namespace irido::HWY_NAMESPACE
@@ -765,8 +772,9 @@ HWY_AFTER_NAMESPACE();
 namespace irido {
 
 void run_program(const Program& program, const PointRun& points, const RunOutput* s,
-                 const RunOutput* p, std::vector<std::size_t>& redo, SimdLevel level) {
-    IRIDO_DISPATCH(level, run)(program, points, s, p, redo);
+                 const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
+                 SimdLevel level) {
+    IRIDO_DISPATCH(level, run)(program, points, s, p, redo, memory);
 }
 
 }  // namespace irido

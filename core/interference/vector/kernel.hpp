@@ -31,9 +31,16 @@ struct PointRun {
 /// point i is stored at i * stride.
 struct RunOutput {
     double *R = nullptr, *T = nullptr, *A = nullptr;
-    Complex *r = nullptr, *t = nullptr, *denominator = nullptr;
-    double* log_scale = nullptr;
+    Complex *r = nullptr, *t = nullptr;
+    double *denominator_re = nullptr, *denominator_im = nullptr, *log_scale = nullptr;
     std::size_t stride = 1;
+};
+
+/// Memory that runs use one after another; what is in it means nothing between them.
+struct RunMemory {
+    std::vector<double> records;
+    std::vector<char> evanescent;
+    std::vector<std::size_t> varying;
 };
 
 /// What coherent_response() computes, for many points at once.
@@ -43,6 +50,7 @@ struct RunOutput {
 /// A lane's result does not depend on what is in the other lanes. R, T and A agree with
 /// coherent_response() to the last digits that the question determines.
 void run_program(const Program& program, const PointRun& run, const RunOutput* s,
-                 const RunOutput* p, std::vector<std::size_t>& redo, SimdLevel level);
+                 const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
+                 SimdLevel level);
 
 }  // namespace irido

@@ -1,0 +1,297 @@
+#include "core/color/quadrature_color.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/color/integration.hpp"
+#include "core/interference/spectrum.hpp"
+#include "core/math/pool.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Past this exponent of attenuation nothing below returns a fringe.
+constexpr double kOpaqueExponent = 35;
+
+constexpr double kLargestHalfTurn = 16;
+
+/// Layers computed for one spectrum before it is given up, and points that any stack may have.
+constexpr double kMostWork = 2e7, kFewestPoints = 4096;
+
+/// Points of a panel that is not cut any further.
+constexpr double kPanelPoints = 129;
+
+/// Optical paths are rounded up to kShortestPath_nm 2^(k/2), k < kPathClasses.
+constexpr double kShortestPath_nm = 125;
+constexpr std::size_t kPathClasses = 128;
+
+std::size_t path_class(double path_nm) {
+    const double k = std::ceil(2 * std::log2(path_nm / kShortestPath_nm));
+    return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(kPathClasses - 1)));
+}
+
+double path_of_class(std::size_t k) {
+    return kShortestPath_nm * std::exp2(static_cast<double>(k) / 2);
+}
+
+/// Twice the optical thickness that light passes before it is lost, nm, and the exponent of its
+/// loss.
+struct Path {
+    double length_nm = 0;
+    double exponent = 0;
+};
+
+void add_path(std::span<const Element> elements, std::span<const Medium> media, double k0,
+              Path& path) {
+    for (const Element& element : elements) {
+        if (path.exponent >= kOpaqueExponent) return;
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            const Complex normal = std::sqrt(media[layer->material].q2);
+            const double loss = 2 * k0 * std::abs(normal.imag());  // a nm
+            double depth = layer->thickness_nm;
+            if (loss * depth > kOpaqueExponent) depth = kOpaqueExponent / loss;
+            if (layer->coherent) path.length_nm += 2 * depth * std::abs(normal.real());
+            path.exponent += loss * depth;
+        } else {
+            const Group& group = std::get<Group>(element.value);
+            Path period;
+            add_path(group.elements, media, k0, period);
+            double repeat = static_cast<double>(group.repeat);
+            if (period.exponent > 0)
+                repeat = std::min(repeat, kOpaqueExponent / period.exponent + 1);
+            path.length_nm += repeat * period.length_nm;
+            path.exponent += repeat * period.exponent;
+        }
+    }
+}
+
+/// Layers whose matrices one evaluation takes, a doubling of an absorbing group among them.
+double work_of(std::span<const Element> elements) {
+    double work = 1;
+    for (const Element& element : elements) {
+        const Group* group = std::get_if<Group>(&element.value);
+        const double doublings = group ? std::log2(static_cast<double>(group->repeat)) : 0;
+        work += group ? work_of(group->elements) + 4 * doublings : 1;
+    }
+    return work;
+}
+
+/// The ends of the support and every kink of the materials between them.
+std::vector<double> smooth_pieces(const std::vector<Material>& materials, WavelengthRange support) {
+    std::vector<double> ends{support.first_nm, support.last_nm};
+    const auto add = [&](double wavelength) {
+        if (wavelength > support.first_nm && wavelength < support.last_nm)
+            ends.push_back(wavelength);
+    };
+    for (const Material& material : materials) {
+        for (const double kink : kinks(material, support)) add(kink);
+        const WavelengthRange range = range_of(material);
+        add(range.first_nm);
+        add(range.last_nm);
+    }
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+}
+
+/// The pieces cut so that no panel has more fringes than its rule can take.
+std::vector<SpectralPanel> first_panels(const std::vector<double>& ends, double path_nm,
+                                        std::size_t evaluations) {
+    const double half_turns = std::numbers::pi * path_nm;  // a unit of 1/lambda
+    // more panels than can be afforded do not help: the fringes stay unresolved
+    const double wanted = half_turns * (1 / ends.front() - 1 / ends.back()) / kLargestHalfTurn;
+    const double affordable = static_cast<double>(evaluations) / kPanelPoints / 4;
+    const double scale = std::min(1.0, affordable / wanted);
+    std::vector<SpectralPanel> panels;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const double nu_first = 1 / ends[i], nu_last = 1 / ends[i + 1];
+        const double half_turn = half_turns * (nu_first - nu_last);
+        const auto count = static_cast<std::size_t>(
+            std::max(1.0, std::ceil(scale * half_turn / kLargestHalfTurn)));
+        double from = ends[i];
+        for (std::size_t k = 1; k <= count; ++k) {
+            const double part = static_cast<double>(k) / static_cast<double>(count);
+            const double to =
+                k == count ? ends[i + 1] : 1 / (nu_first + (nu_last - nu_first) * part);
+            panels.push_back({{from, to}, half_turn / static_cast<double>(count)});
+            from = to;
+        }
+    }
+    return panels;
+}
+
+/// Wavelengths at which paths are as long as anywhere, more or less.
+std::vector<double> path_wavelengths(const std::vector<Material>& materials,
+                                     WavelengthRange support) {
+    if (std::ranges::all_of(materials, [](const Material& m) { return is_constant(m); }))
+        return {support.first_nm};
+    std::vector<double> wavelengths;
+    for (int i = 0; i <= 4; ++i)
+        wavelengths.push_back(support.first_nm + (support.last_nm - support.first_nm) * i / 4);
+    return wavelengths;
+}
+
+/// Whether a material's k is known between the wavelengths of the survey from what it is there.
+bool is_surveyed(const Material& material) {
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    return index != nullptr && !std::holds_alternative<Formula>(index->k);
+}
+
+class QuadratureColor : public ColorAlgorithm {
+public:
+    QuadratureColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request)
+        : sensitivity_(tables.sensitivity()),
+          request_(request),
+          held_(held(stack)),
+          pieces_(smooth_pieces(held_.materials, sensitivity_.support())),
+          on_path_(held_, path_wavelengths(held_.materials, sensitivity_.support())),
+          tree_(sensitivity_, [this](std::vector<double> wavelength_nm) {
+              SpectralPoints points{std::move(wavelength_nm), nullptr};
+              points.indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
+              return points;
+          }) {
+        const IndexTable survey(held_, pieces_);
+        absorbs_ = survey.absorbs();
+        amplifies_ = survey.amplifies();
+        for (std::size_t m = 0; m < held_.materials.size(); ++m) {
+            if (is_surveyed(held_.materials[m])) continue;
+            absorbs_[m] = true;
+            amplifies_[m] = true;
+        }
+        limits_.tolerance = request.tolerance;
+        limits_.simd = request.simd;
+        limits_.evaluations = std::min(
+            request.evaluations,
+            static_cast<std::size_t>(std::max(kFewestPoints, kMostWork / work_of(stack.elements))));
+        reflected_ = std::ranges::find(request.sides, Side::reflected) != request.sides.end();
+        transmitted_ = std::ranges::find(request.sides, Side::transmitted) != request.sides.end();
+    }
+
+    void operator()(const Stack& stack, std::span<const double> angles_deg,
+                    std::span<StackColor> colors) const override {
+        const StackPower power(stack);
+        const Needs needs{.s = request_.light != Light::p,
+                          .p = request_.light != Light::s,
+                          .p_at_normal = false,
+                          .R = reflected_,
+                          .T = transmitted_,
+                          .A = false,
+                          .denominators = true};
+        const SpectrumKernel kernel(power, absorbs_, amplifies_, needs, request_.simd);
+        const std::size_t sides = request_.sides.size();
+        const Pool<Scratch>::Loan scratch = scratch_.borrow();
+        for (std::size_t i = 0; i < angles_deg.size(); ++i)
+            integrate(kernel, stack, cos_of_incidence(angles_deg[i]),
+                      colors.subspan(i * sides, sides), *scratch);
+    }
+
+private:
+    struct Scratch {
+        Spectra spectra;
+        SpectrumMemory memory;
+        std::vector<Medium> media;
+        std::vector<const IndexTable*> parts;
+        std::optional<IndexTable> indices;  ///< of several parts
+        IntegrationMemory integration;
+        std::vector<ColorIntegral> integrals;
+    };
+
+    static Stack held(Stack stack) {
+        for (Material& material : stack.materials) material.outside = Outside::clamp;
+        return stack;
+    }
+
+    double optical_path_nm(const Stack& stack, double cos_theta, std::vector<Medium>& media) const {
+        double longest = 0;
+        media.resize(on_path_.materials());
+        for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
+            for (std::size_t m = 0; m < media.size(); ++m)
+                media[m] =
+                    medium(on_path_.index(m, w), on_path_.n(on_path_.incident())[w], cos_theta);
+            Path path;
+            add_path(stack.elements, media, on_path_.k0()[w], path);
+            longest = std::max(longest, path.length_nm);
+        }
+        return longest;
+    }
+
+    void integrate(const SpectrumKernel& kernel, const Stack& stack, double cos_theta,
+                   std::span<StackColor> colors, Scratch& scratch) const {
+        const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.media));
+        const PanelTree::Start& start = starts_[path].get([&] {
+            return std::make_unique<PanelTree::Start>(
+                tree_.start(first_panels(pieces_, path_of_class(path), limits_.evaluations),
+                            request_.tolerance));
+        });
+        // at normal incidence one polarization stands for both
+        const bool with_s = request_.light != Light::p;
+        const bool with_p = request_.light != Light::s && !(with_s && cos_theta == 1);
+        const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
+                                    Samples& samples) {
+            kernel(indices_at(parts, scratch), {&cos_theta, 1}, scratch.spectra, scratch.memory);
+            const Spectra& at = scratch.spectra;
+            fill(with_s ? at.s : at.p, with_s && with_p ? &at.p : nullptr, samples);
+        };
+        scratch.integrals.resize(colors.size());
+        integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, limits_,
+                        scratch.integration, scratch.integrals);
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = {scratch.integrals[i].xyz, scratch.integrals[i].error,
+                         scratch.integrals[i].evaluations, ColorMethod::Kind::quadrature};
+    }
+
+    static const IndexTable& indices_at(std::span<const SpectralPoints* const> parts,
+                                        Scratch& scratch) {
+        if (parts.size() == 1) return *parts[0]->indices;
+        scratch.parts.clear();
+        for (const SpectralPoints* part : parts) scratch.parts.push_back(part->indices.get());
+        if (!scratch.indices) scratch.indices = *scratch.parts[0];
+        scratch.indices->assign(scratch.parts);
+        return *scratch.indices;
+    }
+
+    /// Rows from one polarization, or the mean of two.
+    void fill(const Spectrum& first, const Spectrum* second, Samples& samples) const {
+        const std::size_t points = samples.points(), sides = request_.sides.size();
+        for (std::size_t side = 0; side < sides; ++side) {
+            const auto values =
+                request_.sides[side] == Side::reflected ? &Spectrum::R : &Spectrum::T;
+            const double* a = (first.*values).data();
+            double* row = samples.row(side);
+            std::copy_n(a, points, row);
+            if (!second) continue;
+            const double* b = (second->*values).data();
+            for (std::size_t j = 0; j < points; ++j) row[j] = (a[j] + b[j]) / 2;
+        }
+        std::size_t row = sides;
+        for (const Spectrum* spectrum : {&first, second}) {
+            if (!spectrum) break;
+            for (const auto values :
+                 {&Spectrum::denominator_re, &Spectrum::denominator_im, &Spectrum::log_scale})
+                std::copy_n((spectrum->*values).data(), points, samples.row(row++));
+        }
+    }
+
+    const Sensitivity& sensitivity_;
+    ColorRequest request_;
+    Stack held_;
+    std::vector<double> pieces_;  ///< ends of what is smooth
+    IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
+    std::vector<bool> absorbs_, amplifies_;
+    IntegrationLimits limits_;
+    bool reflected_ = false, transmitted_ = false;
+    mutable PanelTree tree_;
+    mutable Pool<Scratch> scratch_;
+    mutable std::array<Lazy<PanelTree::Start>, kPathClasses> starts_;
+};
+
+}  // namespace
+
+std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
+                                                 const ColorRequest& request) {
+    return std::make_unique<QuadratureColor>(tables, stack, request);
+}
+
+}  // namespace irido
