@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "cli/bench.hpp"
+#include "cli/stopwatch.hpp"
 #include "core/interference/spectrum.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/vector_math.hpp"
 #include "core/stability/reference.hpp"
-#include "schemas/nearest.hpp"
 
 namespace irido {
 
@@ -96,23 +96,6 @@ constexpr std::array kCases{
 };
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_of(const auto& work) {
-    const Clock::time_point start = Clock::now();
-    work();
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Shortest of repeated runs over `budget` seconds; the first one warms up.
-double best_seconds(double budget, const auto& work) {
-    double best = seconds_of(work);
-    for (double spent = 0; spent < budget;) {
-        const double once = seconds_of(work);
-        best = std::min(best, once);
-        spent += once;
-    }
-    return best;
-}
 
 /// Multiply-adds of doubles a second.
 double machine_limit(SimdLevel level, unsigned threads) {
@@ -274,25 +257,6 @@ Row sine_row(SimdLevel level, double budget) {
     return row;
 }
 
-std::vector<std::string> case_names() {
-    std::vector<std::string> names;
-    for (const SpeedCase& one : kCases) names.emplace_back(one.name);
-    return names;
-}
-
-std::vector<SpeedCase> chosen_cases(const std::string& text) {
-    if (text == "all") return {kCases.begin(), kCases.end()};
-    std::vector<SpeedCase> chosen;
-    for (const std::string_view name : comma_separated(text)) {
-        const auto found = std::ranges::find(kCases, name, &SpeedCase::name);
-        if (found == kCases.end())
-            throw UsageError("--cases: there is no case '" + std::string(name) + "'" +
-                             did_you_mean(name, case_names()) + " (see irido bench speed --help)");
-        chosen.push_back(*found);
-    }
-    return chosen;
-}
-
 Records to_records(const std::vector<Row>& rows) {
     Column::Texts names, methods;
     for (const Row& row : rows) {
@@ -318,7 +282,7 @@ Records to_records(const std::vector<Row>& rows) {
 int run_speed(const SpeedOptions& options) {
     resolved_record_format(options.output);
     const double budget = parse_one_number("--time", options.time, 0.001, 60);
-    const std::vector<SpeedCase> cases = chosen_cases(options.cases);
+    const std::vector<SpeedCase> cases = chosen_cases<SpeedCase>(options.cases, kCases, "speed");
     const unsigned all_threads =
         options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
     const SimdLevel widest = execution_of(all_threads).simd;
@@ -346,13 +310,6 @@ int run_speed(const SpeedOptions& options) {
     return 0;
 }
 
-std::string cases_help() {
-    std::string text = "all, or some of these with commas [all]:";
-    for (const SpeedCase& one : kCases)
-        text += "\n" + std::string(one.name) + ": " + std::string(one.summary);
-    return text;
-}
-
 }  // namespace
 
 void add_bench_speed(CLI::App& bench, Run& run) {
@@ -362,7 +319,8 @@ void add_bench_speed(CLI::App& bench, Run& run) {
     const auto options = std::make_shared<SpeedOptions>();
     command->add_option("-t,--time", options->time, "seconds spent on each row, [0.001, 60] [0.1]")
         ->type_name("S");
-    command->add_option("-c,--cases", options->cases, cases_help())->type_name("NAMES");
+    command->add_option("-c,--cases", options->cases, cases_help<SpeedCase>(kCases))
+        ->type_name("NAMES");
     add_output_options(*command, options->output, "csv, json or npy [csv]");
     add_threads_option(*command, options->threads);
     set_examples(

@@ -18,6 +18,7 @@ using Run = std::function<int()>;
 /// Each command adds itself to the program and sets `run` when it is the one that was typed.
 void add_spectrum_command(CLI::App& program, Run& run);
 void add_color_command(CLI::App& program, Run& run);
+void add_cm_command(CLI::App& program, Run& run);
 void add_materials_command(CLI::App& program, Run& run);
 void add_validate_command(CLI::App& program, Run& run);
 void add_bench_command(CLI::App& program, Run& run);

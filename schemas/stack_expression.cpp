@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/error.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido {
@@ -173,6 +174,39 @@ json parse_index(std::string_view text) {
 
 json parse_stack_expression(std::string_view text) {
     return Parser(text).stack();
+}
+
+namespace {
+
+std::string medium_text(const Material& material) {
+    if (!material.name.empty()) return material.name;
+    const auto index = index_at(material, 550);
+    const std::string n = to_text(index.real()), k = to_text(std::abs(index.imag()));
+    return index.imag() == 0 ? n : n + (index.imag() < 0 ? "-" : "+") + k + "i";
+}
+
+/// The elements with "|" between them.
+std::string items_text(const Stack& stack, const std::vector<Element>& elements) {
+    std::string text;
+    for (const Element& element : elements) {
+        if (!text.empty()) text += " | ";
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            text +=
+                medium_text(stack.materials[layer->material]) + "@" + to_text(layer->thickness_nm);
+        } else {
+            const Group& group = std::get<Group>(element.value);
+            text += "(" + items_text(stack, group.elements) + ")^" + std::to_string(group.repeat);
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string stack_expression(const Stack& stack) {
+    const std::string items = items_text(stack, stack.elements);
+    return medium_text(stack.materials[stack.incident]) + " | " +
+           (items.empty() ? "" : items + " | ") + medium_text(stack.materials[stack.substrate]);
 }
 
 }  // namespace irido

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <string_view>
+
+#include "core/stack/stack.hpp"
 
 namespace irido {
 
@@ -15,5 +18,9 @@ nlohmann::json parse_stack_expression(std::string_view text);
 
 /// The material that "1.5", "1.9+1.5i" or "2i" stands for; null for any other text.
 nlohmann::json parse_index(std::string_view text);
+
+/// The expression of a stack: names of materials that have one, else their index at 550 nm. What an
+/// expression cannot say (spread and incoherent layers) is left out.
+std::string stack_expression(const Stack& stack);
 
 }  // namespace irido

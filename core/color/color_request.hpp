@@ -41,6 +41,7 @@ struct ColorRequest {
     Light light = Light::unpolarized;
     double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
     std::size_t evaluations = 1U << 20;  ///< a colour; past it the best value is returned
+    std::size_t colors = 1;  ///< about as many will be asked for: it decides what to prepare
     SimdLevel simd = best_simd_level();
 };
 

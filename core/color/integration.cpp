@@ -336,8 +336,9 @@ void Samples::resize(std::size_t spectra, std::size_t denominators, std::size_t 
 }
 
 const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
-    return rules_[degree].get([&] {
-        return std::make_unique<QuadratureRule>(tree_.sensitivity_, range_, kDegrees[degree]);
+    return *rules_[degree].get([&] {
+        return std::make_unique<std::shared_ptr<const QuadratureRule>>(
+            tree_.tables_.rule(range_, kDegrees[degree]));
     });
 }
 

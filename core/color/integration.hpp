@@ -10,8 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/color/quadrature_rule.hpp"
-#include "core/color/sensitivity.hpp"
+#include "core/color/color_tables.hpp"
 #include "core/interference/index_table.hpp"
 #include "core/math/lazy.hpp"
 #include "core/math/simd_level.hpp"
@@ -37,9 +36,9 @@ using PointsMaker = std::function<SpectralPoints(std::vector<double> wavelength_
 /// first asked for. Safe from many threads.
 class PanelTree {
 public:
-    /// Refers to the sensitivity.
-    PanelTree(const Sensitivity& sensitivity, PointsMaker make_points)
-        : sensitivity_(sensitivity), make_points_(std::move(make_points)) {}
+    /// Refers to the tables.
+    PanelTree(const ColorTables& tables, PointsMaker make_points)
+        : tables_(tables), make_points_(std::move(make_points)) {}
 
     class Node {
     public:
@@ -54,7 +53,7 @@ public:
     private:
         const PanelTree& tree_;
         WavelengthRange range_;
-        std::array<Lazy<QuadratureRule>, kDegrees.size()> rules_;
+        std::array<Lazy<std::shared_ptr<const QuadratureRule>>, kDegrees.size()> rules_;
         std::array<Lazy<SpectralPoints>, kDegrees.size()> all_, added_;
         std::array<Lazy<Node>, 2> halves_;
     };
@@ -74,10 +73,8 @@ public:
     ///   tolerance  of X, Y, Z: it decides with which degrees to begin
     Start start(const std::vector<SpectralPanel>& panels, double tolerance);
 
-    const Sensitivity& sensitivity() const { return sensitivity_; }
-
 private:
-    const Sensitivity& sensitivity_;
+    const ColorTables& tables_;
     PointsMaker make_points_;
     std::mutex lock_;
     std::map<std::pair<double, double>, Node> roots_;  ///< by the ends of their ranges

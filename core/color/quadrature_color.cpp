@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/color/held_stack.hpp"
 #include "core/color/integration.hpp"
 #include "core/interference/spectrum.hpp"
 #include "core/math/pool.hpp"
@@ -78,24 +79,6 @@ double work_of(std::span<const Element> elements) {
     return work;
 }
 
-/// The ends of the support and every kink of the materials between them.
-std::vector<double> smooth_pieces(const std::vector<Material>& materials, WavelengthRange support) {
-    std::vector<double> ends{support.first_nm, support.last_nm};
-    const auto add = [&](double wavelength) {
-        if (wavelength > support.first_nm && wavelength < support.last_nm)
-            ends.push_back(wavelength);
-    };
-    for (const Material& material : materials) {
-        for (const double kink : kinks(material, support)) add(kink);
-        const WavelengthRange range = range_of(material);
-        add(range.first_nm);
-        add(range.last_nm);
-    }
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    return ends;
-}
-
 /// The pieces cut so that no panel has more fringes than its rule can take.
 std::vector<SpectralPanel> first_panels(const std::vector<double>& ends, double path_nm,
                                         std::size_t evaluations) {
@@ -144,10 +127,10 @@ public:
     QuadratureColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request)
         : sensitivity_(tables.sensitivity()),
           request_(request),
-          held_(held(stack)),
-          pieces_(smooth_pieces(held_.materials, sensitivity_.support())),
+          held_(held_stack(stack, sensitivity_)),
+          pieces_(smooth_pieces(held_, sensitivity_.support())),
           on_path_(held_, path_wavelengths(held_.materials, sensitivity_.support())),
-          tree_(sensitivity_, [this](std::vector<double> wavelength_nm) {
+          tree_(tables, [this](std::vector<double> wavelength_nm) {
               SpectralPoints points{std::move(wavelength_nm), nullptr};
               points.indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
               return points;
@@ -197,11 +180,6 @@ private:
         IntegrationMemory integration;
         std::vector<ColorIntegral> integrals;
     };
-
-    static Stack held(Stack stack) {
-        for (Material& material : stack.materials) material.outside = Outside::clamp;
-        return stack;
-    }
 
     double optical_path_nm(const Stack& stack, double cos_theta, std::vector<Medium>& media) const {
         double longest = 0;

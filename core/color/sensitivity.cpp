@@ -190,4 +190,24 @@ PanelRule panel_rule(const Sensitivity& sensitivity, WavelengthRange panel, std:
     return rule;
 }
 
+SampleRule equal_rule(const Sensitivity& sensitivity, std::size_t count) {
+    require_in_range("equal wavelengths", static_cast<double>(count), 2, 1e6);
+    const auto [first, last] = sensitivity.support();
+    SampleRule rule;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double wavelength = i + 1 == count ? last
+                                                 : first + (last - first) * static_cast<double>(i) /
+                                                               static_cast<double>(count - 1);
+        const bool is_end = i == 0 || i + 1 == count;
+        const Triple s = sensitivity.at(wavelength);
+        rule.wavelength_nm.push_back(wavelength);
+        for (std::size_t c = 0; c < 3; ++c) rule.weight[c].push_back(is_end ? s[c] / 2 : s[c]);
+    }
+    for (const std::vector<double>& weight : rule.weight)
+        if (!(*std::ranges::max_element(weight) > 0))
+            throw DomainError("equal wavelengths must be more for this light (got " +
+                              std::to_string(count) + ")");
+    return rule;
+}
+
 }  // namespace irido

@@ -53,4 +53,15 @@ struct PanelRule {
 /// `panel` inside the sensitivity's support; degree one of 8, 16, 32, 64, 128.
 PanelRule panel_rule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree);
 
+/// A plain sum over samples: X = white X sum_i weight[0][i] f_i / sum_i weight[0][i] and so on, so
+/// that f = 1 is exactly the white.
+struct SampleRule {
+    std::vector<double> wavelength_nm;
+    std::array<std::vector<double>, 3> weight;
+};
+
+/// Equally spaced wavelengths from one end of the support to the other, with the weights of the
+/// trapezoid rule. count in [2, 1e6], else DomainError; the same if they give a channel no light.
+SampleRule equal_rule(const Sensitivity& sensitivity, std::size_t count);
+
 }  // namespace irido

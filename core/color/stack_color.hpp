@@ -1,37 +1,36 @@
 #pragma once
 
+#include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/color/color_request.hpp"
-#include "core/color/integration.hpp"
-#include "core/math/simd_level.hpp"
-#include "core/stack/stack.hpp"
+#include "core/color/color_tables.hpp"
 
 namespace irido {
 
-/// A material that is not known over the whole visible range and holds its end values there.
-struct HeldRange {
-    std::size_t material = 0;  ///< index into Stack::materials
-    WavelengthRange range;     ///< where it is known
-    bool usable = true;        ///< false if it is not known over 400 to 700 nm, which colour needs
-    Triple weight{};           ///< fraction of the X, Y, Z weight outside its range
-};
+/// Makes a method ready for stacks of the materials and structure of `stack`, whose materials hold
+/// their end values outside their range. `tables` must outlive the result.
+///
+/// automatic: the series where the stack is one film of constant indices, if there are enough
+/// colours for its table to pay (or the film's thickness is spread, which takes quadrature very
+/// long); quadrature for all others, and where the series cannot promise the tolerance.
+///
+/// Throws DomainError if the method does not take the stack or the request, if a held range is not
+/// usable, and as StackPower and IndexTable do.
+std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const Stack& stack,
+                                                const ColorMethod& method,
+                                                const ColorRequest& request);
 
-/// Materials of the stack that are not known over the sensitivity's support and do not say clamp.
-std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensitivity);
+/// Colours [angle][side] of one stack; angles in [0, 90] degrees. Throws as color_algorithm() does.
+std::vector<StackColor> stack_color(const ColorTables& tables, const Stack& stack,
+                                    const ColorMethod& method, const ColorRequest& request,
+                                    std::span<const double> angles_deg, unsigned threads = 1);
 
-/// X, Y, Z of light reflected or transmitted by a stack, for every angle and side
-/// ([angle][side]). Materials hold their end values outside their range.
-///   angles_deg  [0, 90]
-///   limits      stacks of many layers are given up earlier, after about 2e7 layers' worth of work
-/// Throws DomainError if a held range is not usable, and as StackPower, IndexTable and
-/// integrate_color do.
-std::vector<ColorIntegral> stack_color(const Stack& stack, const Sensitivity& sensitivity,
-                                       std::span<const double> angles_deg,
-                                       std::span<const Side> sides, const IntegrationLimits& limits,
-                                       const Execution& execution = {},
-                                       Light light = Light::unpolarized);
+/// Gives colours of stack_color() with an infinite error their distance from quadrature's colour,
+/// and its own error; returns whether there were any.
+bool measure_errors(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
+                    std::span<const double> angles_deg, unsigned threads,
+                    std::span<StackColor> colors);
 
 }  // namespace irido

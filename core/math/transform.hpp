@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/complex.hpp"
+
 namespace irido {
 
 /// Chebyshev coefficients of the polynomial through values on the Chebyshev points of the second
@@ -37,5 +39,17 @@ std::vector<double> chebyshev_derivative(std::span<const double> coefficients);
 
 /// The transform of one degree, made once. Safe from many threads.
 const ChebyshevTransform& chebyshev_transform(std::size_t degree);
+
+/// Fourier sums of weights at points that lie anywhere, for several weights of the same points,
+///     F[c][k] = sum_i weights[c][i] exp(2 pi i turns[i] k),   k = 0 .. count - 1,
+/// each within 1e-13 of sum_i |weights[c][i]|: the weights are spread over an equally spaced grid
+/// by a kernel exp(b sqrt(1 - z^2)), one fast Fourier transform follows, and the transform of the
+/// kernel is divided out.
+///   turns  [-1/2, 1/2], else DomainError;  count >= 1
+/// Source: A. H. Barnett, J. Magland, L. af Klinteberg, SIAM J. Sci. Comput. 41, C479 (2019),
+/// section 3, type 1.
+std::vector<std::vector<Complex>> transform_of_points(std::span<const double> turns,
+                                                      std::span<const std::vector<double>> weights,
+                                                      std::size_t count);
 
 }  // namespace irido

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numeric>
+#include <mutex>
 #include <string>
 
 #include "core/color/illuminant.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/interference/spectrum.hpp"
+#include "core/math/parallel.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
 #include "tests/oracle/stack_oracle.hpp"
@@ -45,36 +46,42 @@ Worst compare_spectra(oracle::Kind kind, int count) {
 }
 
 struct ColorErrors {
-    std::vector<double> errors;
+    double worst = 0;
     std::size_t violations = 0, evaluations = 0;
 };
 
-ColorErrors compare_colors(oracle::Kind kind, int count, double tolerance) {
+/// One random stack in one light by auto against the independent integration.
+void compare_color(oracle::Kind kind, std::uint64_t seed, double tolerance, ColorErrors& result,
+                   std::mutex& lock) {
+    oracle::Random random(seed);
+    const Stack stack = oracle::random_stack(kind, random);
+    const double angle = oracle::random_angle(random);
+    const Side side = random.below(3) == 0 ? Side::transmitted : Side::reflected;
+    const Observer& eye = observer(random.below(2) == 0 ? 2 : 10);
+    const Table light = illuminant(illuminant_names()[random.below(illuminant_names().size())]);
+    const ColorTables tables(Sensitivity(eye, light));
+    const ColorRequest request{.sides = {side}, .tolerance = tolerance};
+    const StackColor color = stack_color(tables, stack, {}, request, std::span(&angle, 1)).front();
+    const Triple exact =
+        oracle::stack_xyz(stack, eye, light, angle, side == Side::transmitted, tolerance / 1000);
+    double error = 0;
+    for (std::size_t c = 0; c < 3; ++c) error = std::max(error, std::abs(color.xyz[c] - exact[c]));
+    const std::scoped_lock guard(lock);
+    result.worst = std::max(result.worst, error);
+    result.evaluations += color.evaluations;
+    if (error <= tolerance) return;
+    ++result.violations;
+    std::printf("# error %.3g, estimate %.3g at %.17g degrees: %s\n", error, color.error, angle,
+                oracle::text_of(stack).c_str());
+}
+
+ColorErrors compare_colors(oracle::Kind kind, std::size_t count, double tolerance) {
     ColorErrors result;
-    oracle::Random random(1000 + static_cast<std::uint64_t>(kind));
-    for (int i = 0; i < count; ++i) {
-        const Stack stack = oracle::random_stack(kind, random);
-        const double angle = oracle::random_angle(random);
-        const Side side = random.below(3) == 0 ? Side::transmitted : Side::reflected;
-        const Observer& eye = observer(random.below(2) == 0 ? 2 : 10);
-        const Table light = illuminant(illuminant_names()[random.below(illuminant_names().size())]);
-        const Sensitivity sensitivity(eye, light);
-        const ColorIntegral color = stack_color(stack, sensitivity, std::span(&angle, 1),
-                                                std::span(&side, 1), {.tolerance = tolerance}, 1)
-                                        .front();
-        const Triple exact = oracle::stack_xyz(stack, eye, light, angle, side == Side::transmitted,
-                                               tolerance / 1000);
-        double error = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-            error = std::max(error, std::abs(color.xyz[c] - exact[c]));
-        result.errors.push_back(error);
-        result.evaluations += color.evaluations;
-        if (error > tolerance) {
-            ++result.violations;
-            std::printf("# error %.3g, estimate %.3g at %.17g degrees: %s\n", error, color.error,
-                        angle, oracle::text_of(stack).c_str());
-        }
-    }
+    std::mutex lock;
+    parallel_for(count, 0, [&](std::size_t i) {
+        compare_color(kind, i * oracle::kKinds + static_cast<std::size_t>(kind), tolerance, result,
+                      lock);
+    });
     return result;
 }
 
@@ -82,8 +89,11 @@ ColorErrors compare_colors(oracle::Kind kind, int count, double tolerance) {
 
 int main(int argc, char** argv) {
     const int count = argc > 1 ? std::atoi(argv[1]) : 200;
-    if (count < 1) {
-        std::fputs("usage: irido_accuracy [COUNT]: random stacks of each kind\n", stderr);
+    std::vector<double> tolerances{1e-3, 1e-6, 1e-9};
+    if (argc > 2) tolerances = {std::atof(argv[2])};
+    if (count < 1 || !(tolerances.front() >= 1e-12 && tolerances.front() <= 1)) {
+        std::fputs("usage: irido_accuracy [COUNT [TOLERANCE]]: random stacks of each kind\n",
+                   stderr);
         return 2;
     }
     std::puts("what,kind,stacks,tolerance,worst,worst_T_relative,worst_sum,violations,evaluations");
@@ -93,11 +103,12 @@ int main(int argc, char** argv) {
         const Worst worst = compare_spectra(kind, count);
         std::printf("spectrum,%s,%d,,%.2g,%.2g,%.2g,,\n", name.c_str(), count, worst.R, worst.T,
                     worst.sum);
-        for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
-            const ColorErrors colors = compare_colors(kind, count, tolerance);
+        for (const double tolerance : tolerances) {
+            const ColorErrors colors =
+                compare_colors(kind, static_cast<std::size_t>(count), tolerance);
             std::printf("color,%s,%d,%.0e,%.2g,,,%zu,%zu\n", name.c_str(), count, tolerance,
-                        *std::max_element(colors.errors.begin(), colors.errors.end()),
-                        colors.violations, colors.evaluations / colors.errors.size());
+                        colors.worst, colors.violations,
+                        colors.evaluations / static_cast<std::size_t>(count));
             std::fflush(stdout);
         }
     }

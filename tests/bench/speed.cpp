@@ -22,14 +22,15 @@ Stack stack_of(const std::string& expression) {
     return read_stack({expression, {}}).stack;
 }
 
-/// Items are colours: 81 angles at once, weights and indices shared.
+/// Items are colours: 81 angles at once, with all that is computed once for them.
 void color(benchmark::State& state, const Stack& stack) {
     const Sensitivity sensitivity(observer(2), illuminant("D65"));
     std::vector<double> angles(81);
     std::iota(angles.begin(), angles.end(), 0.0);
-    const std::vector<Side> sides{Side::reflected};
-    for (auto _ : state)
-        benchmark::DoNotOptimize(stack_color(stack, sensitivity, angles, sides, {}, 1));
+    for (auto _ : state) {
+        const ColorTables tables(sensitivity);
+        benchmark::DoNotOptimize(stack_color(tables, stack, {}, {}, angles));
+    }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(angles.size()));
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("a material that does not reach the ends of the visible range", "[cli]
 }
 
 TEST_CASE("a tolerance that cannot be met is exit status 1 with the best value", "[cli][color]") {
-    const Outcome outcome = run_irido({"color", "1 | 1.5@1e9 | 1"});
+    const Outcome outcome = run_irido({"color", "1 | 1.5@1e9 | 1", "--method", "quadrature"});
     CHECK(outcome.status == 1);
     CHECK(outcome.out.empty());
     CHECK_THAT(outcome.err, StartsWith("irido: error: ") &&
@@ -128,7 +128,10 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
         {{"--observer", "4"}, "--observer: must be 2 or 10 (got '4')"},
         {{"--space", "lab"}, "--space: must be one of srgb"},
         {{"--side", "R,R"}, "--side: must be R, T or both"},
-        {{"--method", "guess"}, "--method: must be one of auto, quadrature"},
+        {{"--method", "guess"}, "--method: must be one of auto, quadrature, fourier"},
+        {{"--method", "naive/3"}, "--method: naive takes no number (got naive/3)"},
+        {{"--method", "equal/1"}, "--method: must be in [2, 1e+06] (got 1)"},
+        {{"--method", "equal/x"}, "--method: "},
         {{"--adaptation", "cat02"}, "--adaptation: must be one of bradford, none"},
         {{"--tolerance", "0"}, "--tolerance: must be in [1e-12, 1] (got 0)"},
         {{"--tolerance", "1e-6,1"}, "--tolerance: must be one number"},
@@ -139,6 +142,40 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
         arguments.insert(arguments.end(), options.begin(), options.end());
         check_refused(run_irido(arguments), error);
     }
+}
+
+TEST_CASE("methods that are not exact say how far they are off", "[cli][color]") {
+    const std::string film = "1 | 1.5@525 | 1.09";
+    const auto exact = row_of({"color", film, "--tolerance", "1e-10", "-a", "40"});
+    const std::vector<std::string> methods{"fourier/1", "naive", "equal/8", "equal",
+                                           "gaussian",  "gltf",  "smits"};
+    for (const std::string& method : methods) {
+        INFO(method);
+        const Outcome outcome =
+            run_irido({"color", film, "-a", "40", "--method", method, "--stats"});
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.err, StartsWith("irido: note: ") && Contains(" is off by up to "));
+        const auto row = parse_csv(outcome.out).at(1);
+        CHECK(row[12] == (method == "equal" ? "equal/32" : method));
+        double distance = 0;
+        for (std::size_t c = 2; c < 5; ++c)
+            distance = std::max(distance, std::abs(std::stod(row[c]) - std::stod(exact[c])));
+        CHECK(distance <= std::stod(row[14]));
+        CHECK(distance > 1e-9);
+        const Outcome held =
+            run_irido({"color", film, "-a", "40", "--method", method, "--tolerance", "1e-9"});
+        CHECK(held.status == 1);
+        CHECK(held.out.empty());
+        CHECK_THAT(held.err, Contains("the tolerance 1e-09 cannot be met"));
+    }
+    const auto series = row_of({"color", film, "--method", "fourier", "-a", "40", "--stats"});
+    CHECK(series[12] == "fourier");
+    for (std::size_t c = 2; c < 5; ++c)
+        CHECK(std::abs(std::stod(series[c]) - std::stod(exact[c])) < 1e-6);
+    CHECK(row_of({"color", film, "--stats"})[12] == "quadrature");
+    CHECK(row_of({"color", "1 | 1.5@1e9 | 1", "--stats"})[12] == "fourier");
+    for (const std::string method : {"fourier", "fourier-constant", "gaussian", "gltf", "smits"})
+        check_refused(run_irido({"color", "1 | 1.5@525 | 1.3@70 | 1", "--method", method}), "film");
 }
 
 TEST_CASE("a strip of colours", "[cli][color]") {

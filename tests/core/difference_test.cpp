@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "core/color/difference.hpp"
+#include "core/color/illuminant.hpp"
+#include "core/color/sensitivity.hpp"
 #include "core/error.hpp"
 
 using Catch::WithinAbs;
@@ -122,6 +124,17 @@ TEST_CASE("CIELAB of white, black and the mid grey", "[color]") {
     CHECK_THAT(lab({0, 0.001, 0}, white)[0], WithinAbs(24.389 / 27, 1e-14));
     CHECK_THAT(lab({0, 216.0 / 24389 + 1e-9, 0}, white)[0] - 8,
                WithinAbs(1e-9 * 24389 / 27, 1e-12));
+}
+
+TEST_CASE("CIELAB under an illuminant's own white has neutral greys", "[color]") {
+    for (const std::string_view name : illuminant_names()) {
+        const Triple white = Sensitivity(observer(2), illuminant(name)).white();
+        CHECK(lab(white, white) == Triple{100, 0, 0});
+        const Triple grey = lab({white[0] / 4, white[1] / 4, white[2] / 4}, white);
+        CHECK_THAT(grey[0], WithinAbs(116 * std::cbrt(0.25) - 16, 1e-13));
+        CHECK_THAT(grey[1], WithinAbs(0, 1e-13));
+        CHECK_THAT(grey[2], WithinAbs(0, 1e-13));
+    }
 }
 
 TEST_CASE("CIELAB of single stimuli", "[color]") {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "schemas/input_error.hpp"
+#include "schemas/stack_document.hpp"
 
 using irido::parse_index;
 using irido::parse_stack_expression;
@@ -102,4 +103,13 @@ TEST_CASE("Errors of expressions tell the column, what was expected and what is 
           "column 7: expected an index such as 1.5 or 1.9+1.5i, or the name of a material, "
           "found \"1.5x\"");
     CHECK(error_of("\xC3\xA9t\xC3\xA9 @ 5") == "column 5: expected \"|\", found \"@\"");
+}
+
+TEST_CASE("A stack's expression reads back to the same stack") {
+    for (const char* text : {"1 | 1.33", "air | 1.33@380 | BK7", "1.2 | 1.9+1.5i@0 | 0.05-2i",
+                             "air | (TiO2@58.5 | (1.46@1e-07 | 2@3)^2)^1000000000 | SiO@7 | Cu"}) {
+        const irido::Stack stack = irido::read_stack({text, {}}).stack;
+        CHECK(irido::stack_expression(stack) == text);
+        CHECK(irido::read_stack({irido::stack_expression(stack), {}}).stack == stack);
+    }
 }

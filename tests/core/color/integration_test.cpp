@@ -15,15 +15,19 @@ namespace {
 
 constexpr WavelengthRange kVisible{360, 830};
 
+const ColorTables& tables() {
+    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
+    return tables;
+}
+
 const Sensitivity& d65() {
-    static const Sensitivity sensitivity(observer(2), illuminant("D65"));
-    return sensitivity;
+    return tables().sensitivity();
 }
 
 ColorIntegral integrate(const IntegrationLimits& limits,
                         const std::function<double(double wavelength_nm)>& f,
                         const std::vector<SpectralPanel>& panels = {{kVisible, 4}}) {
-    PanelTree tree(d65(), [](std::vector<double> wavelength_nm) {
+    PanelTree tree(tables(), [](std::vector<double> wavelength_nm) {
         return SpectralPoints{std::move(wavelength_nm), nullptr};
     });
     const SampleAt sample = [&](std::span<const SpectralPoints* const> parts, Samples& samples) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/color/held_stack.hpp"
 #include "core/color/illuminant.hpp"
 #include "core/error.hpp"
 #include "tests/oracle/color_oracle.hpp"
@@ -20,10 +21,12 @@ const Sensitivity& d65() {
     return sensitivity;
 }
 
-ColorIntegral color(const Stack& stack, double angle_deg, Side side, double tolerance,
-                    const Sensitivity& sensitivity = d65()) {
-    return stack_color(stack, sensitivity, std::span(&angle_deg, 1), std::span(&side, 1),
-                       {.tolerance = tolerance}, 1)
+const ColorMethod kQuadrature{ColorMethod::Kind::quadrature};
+
+StackColor color(const Stack& stack, double angle_deg, Side side, double tolerance,
+                 const Sensitivity& sensitivity = d65()) {
+    return stack_color(ColorTables(sensitivity), stack, kQuadrature,
+                       {.sides = {side}, .tolerance = tolerance}, std::span(&angle_deg, 1))
         .front();
 }
 
@@ -121,7 +124,7 @@ TEST_CASE("the error stays below the tolerance") {
         const Table light = illuminant(illuminant_names()[random.below(illuminant_names().size())]);
         const Sensitivity sensitivity(eye, light);
         const Side side = transmitted ? Side::transmitted : Side::reflected;
-        const ColorIntegral result = color(stack, angle, side, tolerance, sensitivity);
+        const StackColor result = color(stack, angle, side, tolerance, sensitivity);
         const Triple exact =
             oracle::stack_xyz(stack, eye, light, angle, transmitted, tolerance / 1000);
         const double error = largest_error(result.xyz, exact);
@@ -148,7 +151,7 @@ TEST_CASE("a cavity's narrow line is not missed") {
             const Triple exact = oracle::stack_xyz(cavity(repeat), observer(2), illuminant("D65"),
                                                    0, side == Side::transmitted, 1e-9, around);
             for (const double tolerance : {1e-3, 1e-5, 1e-6}) {
-                const ColorIntegral result = color(cavity(repeat), 0, side, tolerance);
+                const StackColor result = color(cavity(repeat), 0, side, tolerance);
                 CAPTURE(repeat, tolerance, result.error, result.evaluations);
                 CHECK(largest_error(result.xyz, exact) <= tolerance);
             }
@@ -163,7 +166,8 @@ TEST_CASE("the result does not depend on the number of threads") {
         const std::vector<double> angles{0, 10, 20.5, 33, 47, 60, 75, 85, 89, 90};
         const std::vector<Side> sides{Side::reflected, Side::transmitted};
         const auto with = [&](unsigned threads) {
-            return stack_color(stack, d65(), angles, sides, {}, threads);
+            return stack_color(ColorTables(d65()), stack, kQuadrature, {.sides = sides}, angles,
+                               threads);
         };
         const auto one = with(1);
         REQUIRE(one.size() == angles.size() * sides.size());
@@ -175,22 +179,81 @@ TEST_CASE("the result does not depend on the number of threads") {
                 CHECK(many[i].evaluations == one[i].evaluations);
             }
         }
-        // [angle][side], and close to what each angle gives alone
-        for (std::size_t a = 0; a < angles.size(); ++a)
-            for (std::size_t s = 0; s < 2; ++s)
-                CHECK(largest_error(one[2 * a + s].xyz,
-                                    color(stack, angles[a], sides[s], 1e-6).xyz) < 2e-6);
+        // [angle][side], each as it is alone
+        for (std::size_t a = 0; a < angles.size(); ++a) {
+            const std::vector<StackColor> alone =
+                stack_color(ColorTables(d65()), stack, kQuadrature, {.sides = sides},
+                            std::span(angles).subspan(a, 1));
+            CHECK(alone[0].xyz == one[2 * a].xyz);
+            CHECK(alone[1].xyz == one[2 * a + 1].xyz);
+        }
     }
 }
 
+TEST_CASE("a method made ready once serves every thickness") {
+    const ColorTables tables(d65());
+    oracle::Random random(70);
+    for (const Kind kind : {Kind::film, Kind::tabulated_metal, Kind::multilayer, Kind::bragg}) {
+        Stack stack = oracle::random_stack(kind, random);
+        const std::unique_ptr<ColorAlgorithm> algorithm =
+            color_algorithm(tables, stack, kQuadrature, {});
+        const std::vector<double> angles{0, 40, 85};
+        for (const double factor : {1.0, 0.3, 2.7, 0.0}) {
+            Element* element = &stack.elements.front();
+            if (Group* group = std::get_if<Group>(&element->value)) element = &group->elements[0];
+            std::get<Layer>(element->value).thickness_nm *= factor;
+            std::vector<StackColor> again(angles.size());
+            (*algorithm)(stack, angles, again);
+            const std::vector<StackColor> fresh =
+                stack_color(ColorTables(d65()), stack, kQuadrature, {}, angles);
+            for (std::size_t i = 0; i < angles.size(); ++i) {
+                CHECK(again[i].xyz == fresh[i].xyz);
+                CHECK(again[i].evaluations == fresh[i].evaluations);
+            }
+        }
+    }
+}
+
+TEST_CASE("the errors of methods that have none of their own are measured") {
+    const ColorTables tables(d65());
+    const Stack stack = one_film(1.5, 400, 1.2);
+    const std::vector<double> angles{0, 70};
+    const ColorMethod equal{ColorMethod::Kind::equal, 12};
+    std::vector<StackColor> colors = stack_color(tables, stack, equal, {}, angles);
+    CHECK(measure_errors(tables, stack, {}, angles, 1, colors));
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const double distance =
+            largest_error(colors[i].xyz, color(stack, angles[i], Side::reflected, 1e-10).xyz);
+        CHECK(std::abs(colors[i].error - distance) < 3e-9);
+        CHECK(distance > 1e-6);
+    }
+    CHECK_FALSE(measure_errors(tables, stack, {}, angles, 1, colors));
+}
+
+TEST_CASE("auto sums the series where quadrature would take long") {
+    const ColorTables tables(d65());
+    const double angle = 30;
+    const auto method_of = [&](const Stack& stack, std::size_t colors) {
+        return stack_color(tables, stack, {}, {.colors = colors}, std::span(&angle, 1))[0].method;
+    };
+    using enum ColorMethod::Kind;
+    CHECK(method_of(one_film(1.5, 400, 1.2), 1) == quadrature);
+    CHECK(method_of(one_film(1.5, 400, 1.2), 1000000) == fourier);
+    CHECK(method_of(one_film(1.5, 1e9, 2.5), 1) == fourier);
+    CHECK(method_of(mirror(3), 1000000) == quadrature);
+    Stack spread = one_film(1.5, 400, 1.2);
+    std::get<Layer>(spread.elements[0].value).thickness_sigma_nm = 5;
+    CHECK(method_of(spread, 1) == fourier);
+}
+
 TEST_CASE("fringes past all resolution are an honest failure") {
-    const ColorIntegral result = color(one_film(1.5, 1e9, 2.5), 0, Side::reflected, 1e-6);
+    const StackColor result = color(one_film(1.5, 1e9, 2.5), 0, Side::reflected, 1e-6);
     CHECK(result.error > 1e-6);
     CHECK(result.evaluations < (1U << 20) + 2048U * 129U + 129U * 64U);
 }
 
 TEST_CASE("an opaque thick layer is as cheap as its surface") {
-    const ColorIntegral result = color(one_film({1.5, 0.5}, 1e9, 2.5), 30, Side::reflected, 1e-6);
+    const StackColor result = color(one_film({1.5, 0.5}, 1e9, 2.5), 30, Side::reflected, 1e-6);
     CHECK(result.evaluations < 300);
     const Triple bare = color(StackBuilder().over({1.5, 0.5}), 30, Side::reflected, 1e-6).xyz;
     CHECK(largest_error(result.xyz, bare) < 2e-6);

@@ -1,0 +1,159 @@
+#include "cli/color_options.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/color/illuminant.hpp"
+#include "core/error.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/spectrum_csv.hpp"
+#include "schemas/text_file.hpp"
+
+namespace irido {
+
+namespace {
+
+struct NamedMethod {
+    std::string_view name;
+    ColorMethod::Kind kind;
+    double fewest, most;    ///< of the number after a slash; 0, 0: it takes none
+    std::size_t by_itself;  ///< the number where none is typed
+};
+
+using enum ColorMethod::Kind;
+
+constexpr std::array kMethods{
+    NamedMethod{"auto", automatic, 0, 0, 0},
+    NamedMethod{"quadrature", quadrature, 0, 0, 0},
+    NamedMethod{"fourier", fourier, 1, 1000, 0},
+    NamedMethod{"fourier-constant", fourier_constant, 1, 1000, 0},
+    NamedMethod{"naive", naive, 0, 0, 0},
+    NamedMethod{"equal", equal, 2, 1e6, 32},
+    NamedMethod{"gaussian", gaussian, 0, 0, 0},
+    NamedMethod{"gltf", gltf, 0, 0, 0},
+    NamedMethod{"smits", smits, 0, 0, 0},
+};
+
+std::vector<std::string_view> method_names() {
+    std::vector<std::string_view> names;
+    for (const NamedMethod& method : kMethods) names.push_back(method.name);
+    return names;
+}
+
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+}  // namespace
+
+std::vector<Side> parse_sides(const std::string& text) {
+    if (text == "R") return {Side::reflected};
+    if (text == "T") return {Side::transmitted};
+    if (text == "R,T") return {Side::reflected, Side::transmitted};
+    if (text == "T,R") return {Side::transmitted, Side::reflected};
+    throw UsageError("--side: must be R, T or both with a comma (got '" + text + "')");
+}
+
+Light parse_light(const std::string& text) {
+    if (text == "s") return Light::s;
+    if (text == "p") return Light::p;
+    if (text == "u") return Light::unpolarized;
+    throw UsageError("--polarization: must be one of s, p, u for a colour (got '" + text + "')");
+}
+
+const RgbSpace& parse_space(const std::string& text) {
+    if (contains(rgb_space_names(), text)) return rgb_space(text);
+    throw UsageError("--space: " + not_one_of(rgb_space_names(), text));
+}
+
+Adaptation parse_adaptation(const std::string& text) {
+    constexpr std::array<std::string_view, 2> names{"bradford", "none"};
+    if (!contains(names, text)) throw UsageError("--adaptation: " + not_one_of(names, text));
+    return text == "none" ? Adaptation::none : Adaptation::bradford;
+}
+
+const Observer& parse_observer(const std::string& text) {
+    if (text == "2") return observer(2);
+    if (text == "10") return observer(10);
+    throw UsageError("--observer: must be 2 or 10 (got '" + text + "')");
+}
+
+double parse_tolerance(const std::string& text) {
+    return text.empty() ? kDefaultTolerance : parse_one_number("--tolerance", text, 1e-12, 1);
+}
+
+ColorMethod parse_method(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const std::string name = text.substr(0, slash);
+    const auto method = std::ranges::find(kMethods, name, &NamedMethod::name);
+    if (method == kMethods.end()) throw UsageError("--method: " + not_one_of(method_names(), name));
+    if (slash == std::string::npos) return {method->kind, method->by_itself};
+    if (method->most == 0)
+        throw UsageError("--method: " + name + " takes no number (got " + text + ")");
+    return {method->kind, static_cast<std::size_t>(parse_whole_number(
+                              "--method", text.substr(slash + 1), method->fewest, method->most))};
+}
+
+Table parse_illuminant(const std::string& text) {
+    if (contains(illuminant_names(), text)) return illuminant(text);
+    try {
+        return read_spectrum_csv(read_text(text), text);
+    } catch (const InputError& error) {
+        if (text.find_first_of("./") != std::string::npos || text == "-") throw;
+        throw UsageError("--illuminant: " + not_one_of(illuminant_names(), text) + ", or a file");
+    }
+}
+
+std::string name_of(const ColorMethod& method) {
+    const auto named = std::ranges::find(kMethods, method.kind, &NamedMethod::kind);
+    const std::string name(named->name);
+    return method.count == 0 ? name : name + "/" + std::to_string(method.count);
+}
+
+std::string_view letter(Side side) {
+    return side == Side::reflected ? "R" : "T";
+}
+
+void add_color_options(CLI::App& command, ColorOptions& options) {
+    command.add_option("--side", options.sides, "R (reflected), T (transmitted) or R,T [R]")
+        ->type_name("SIDES");
+    command
+        .add_option("-p,--polarization", options.polarization,
+                    "s, p or u (unpolarized: the mean of both) [u]")
+        ->type_name("LETTER");
+    command
+        .add_option("--illuminant", options.illuminant,
+                    "D65, D50, A, E, FL2, FL11 or a CSV file of rows nm,power\n"
+                    "(relative, linear in between, zero outside) [D65]")
+        ->type_name("NAME");
+    command.add_option("--observer", options.observer, "2 (CIE 1931) or 10 (CIE 1964) degrees [2]")
+        ->type_name("DEGREES");
+    command
+        .add_option("--space", options.space,
+                    "of r, g, b, hex: srgb, rec2020, display-p3, acescg, xyz [srgb]")
+        ->type_name("NAME");
+    command
+        .add_option("--adaptation", options.adaptation,
+                    "bradford (a perfect mirror is r = g = b = 1) or none [bradford]")
+        ->type_name("NAME");
+    command
+        .add_option("--method", options.method,
+                    "auto: the cheaper of the two exact ones (--stats says which) [auto]\n"
+                    "quadrature: product quadrature of the spectrum, any stack\n"
+                    "fourier: series over the orders of interference, one real film over\n"
+                    "any base; exact for constant indices; fourier/M ends it at order M;\n"
+                    "fourier-constant takes constant indices where media have dispersion\n"
+                    "to be compared with, none of them exact:\n"
+                    "equal/N: N equally spaced wavelengths; naive: 650, 510, 475 nm as\n"
+                    "R, G, B; gaussian: Gaussians for the observer; gltf: the formulas of\n"
+                    "KHR_materials_iridescence; smits: a single bounce")
+        ->type_name("METHOD");
+    command
+        .add_option("--tolerance", options.tolerance,
+                    "largest error of X, Y, Z (white Y = 1), [1e-12, 1] [1e-6];\n"
+                    "exit status 1 if it cannot be met. Methods that are not exact are\n"
+                    "held to a tolerance only if one is given")
+        ->type_name("T");
+}
+
+}  // namespace irido

@@ -1,0 +1,66 @@
+#include "core/color/held_stack.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Every material must be known here, or say what it does outside its range.
+constexpr WavelengthRange kEssential{400, 700};
+
+}  // namespace
+
+std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensitivity) {
+    const WavelengthRange support = sensitivity.support();
+    std::vector<HeldRange> held;
+    for (std::size_t m = 0; m < stack.materials.size(); ++m) {
+        const Material& material = stack.materials[m];
+        const WavelengthRange range = range_of(material);
+        if (material.outside == Outside::clamp ||
+            (range.first_nm <= support.first_nm && range.last_nm >= support.last_nm))
+            continue;
+        HeldRange entry{m, range, true, {}};
+        entry.usable = range.first_nm <= kEssential.first_nm && range.last_nm >= kEssential.last_nm;
+        const WavelengthRange inside{std::max(range.first_nm, support.first_nm),
+                                     std::min(range.last_nm, support.last_nm)};
+        const Triple known =
+            inside.first_nm < inside.last_nm ? sensitivity.integral(inside) : Triple{};
+        for (std::size_t c = 0; c < 3; ++c)
+            entry.weight[c] = std::max(0.0, 1 - known[c] / sensitivity.white()[c]);
+        held.push_back(entry);
+    }
+    return held;
+}
+
+Stack held_stack(const Stack& stack, const Sensitivity& sensitivity) {
+    for (const HeldRange& entry : held_ranges(stack, sensitivity))
+        if (!entry.usable)
+            throw DomainError(
+                stack.materials[entry.material].name + " must be known from 400 to 700 nm (got " +
+                to_text(entry.range.first_nm) + " to " + to_text(entry.range.last_nm) + " nm)");
+    Stack held = stack;
+    for (Material& material : held.materials) material.outside = Outside::clamp;
+    return held;
+}
+
+std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support) {
+    std::vector<double> ends{support.first_nm, support.last_nm};
+    const auto add = [&](double wavelength) {
+        if (wavelength > support.first_nm && wavelength < support.last_nm)
+            ends.push_back(wavelength);
+    };
+    for (const Material& material : stack.materials) {
+        for (const double kink : kinks(material, support)) add(kink);
+        const WavelengthRange range = range_of(material);
+        add(range.first_nm);
+        add(range.last_nm);
+    }
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+}
+
+}  // namespace irido

@@ -1,0 +1,48 @@
+#include "core/color/one_film.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/interference/index_table.hpp"
+
+namespace irido {
+
+void require_film(std::string_view method_name, const Stack& stack, const ColorRequest& request) {
+    const std::string method(method_name);
+    const Layer* film =
+        stack.elements.size() == 1 ? std::get_if<Layer>(&stack.elements.front().value) : nullptr;
+    if (!film || !film->coherent || film->thickness_sigma_nm != 0)
+        throw DomainError("method " + method +
+                          " must have one coherent film of one thickness over a substrate");
+    if (std::ranges::count(request.sides, Side::transmitted) > 0)
+        throw DomainError("method " + method + " must have reflected light only");
+}
+
+const Layer& film_of(const Stack& stack) {
+    return std::get<Layer>(stack.elements.front().value);
+}
+
+FilmIndex film_index(const Stack& stack, double wavelength_nm) {
+    const IndexTable table(stack, {wavelength_nm});
+    return {table.n(stack.incident)[0], table.index(film_of(stack).material, 0),
+            table.index(stack.substrate, 0)};
+}
+
+Complex face_amplitude(const Medium& above, const Medium& below, Polarization polarization) {
+    const Complex q1 = std::sqrt(above.q2), q2 = std::sqrt(below.q2);
+    const bool is_s = polarization == Polarization::s;
+    const Complex a = is_s ? q1 : above.eps * q2, b = is_s ? q2 : below.eps * q1;
+    return a + b == Complex(0) ? 0 : (a - b) / (a + b);
+}
+
+std::span<const Polarization> polarizations(Light light) {
+    static constexpr std::array both{Polarization::s, Polarization::p};
+    return light == Light::s   ? std::span(both).first(1)
+           : light == Light::p ? std::span(both).last(1)
+                               : std::span(both);
+}
+
+}  // namespace irido

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace irido {
+
+/// Shortest text of a number.
+std::string svg_number(double value);
+
+/// Text as it stands between tags or in quotes.
+std::string svg_escaped(const std::string& text);
+
+/// A line of text; anchor start, middle or end.
+std::string svg_text(double x, double y, const std::string& anchor, const std::string& text);
+
+}  // namespace irido
