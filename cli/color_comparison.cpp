@@ -45,6 +45,7 @@ ColorComparison::ColorComparison(const ColorTables& tables, std::vector<ColorFam
 ColorRequest ColorComparison::request(double tolerance) const {
     ColorRequest result;
     result.tolerance = tolerance;
+    result.colors = std::size_t{1} << 30;
     result.simd = simd_;
     return result;
 }

@@ -28,7 +28,8 @@ struct EqualMatch {
     double wavelengths = 0, ns_per_color = 0;
 };
 
-/// The colours of a case by one method after another, reflected unpolarized light, one thread.
+/// The colours of a case by one method after another, reflected unpolarized light, one thread, as
+/// if in a run of very many.
 /// Exact are those of quadrature at 1e-11. Times are the shortest of repeated runs: of a set with
 /// each stack's algorithm made anew, else of the calls alone.
 class ColorComparison {

@@ -11,9 +11,15 @@ constexpr double kLongestPath_nm = 5e5;
 
 const SensitivityTransform& ColorTables::transform(double accuracy) const {
     const std::size_t which = accuracy >= kAccuracies[0] ? 0 : 1;
-    return transforms_[which].get([&] {
+    return transforms_[which].get(making_, [&] {
         return std::make_unique<SensitivityTransform>(sensitivity_, kLongestPath_nm,
                                                       kAccuracies[which]);
+    });
+}
+
+const std::array<ChannelPoints, 3>& ColorTables::channel_points() const {
+    return channel_points_.get(making_, [&] {
+        return std::make_unique<std::array<ChannelPoints, 3>>(irido::channel_points(sensitivity_));
     });
 }
 
@@ -26,7 +32,8 @@ std::shared_ptr<const QuadratureRule> ColorTables::rule(WavelengthRange panel,
     }
     auto rule = std::make_shared<const QuadratureRule>(sensitivity_, panel, degree);
     const std::scoped_lock guard(lock_);
-    if (rules_.size() < kMostRules) rules_.emplace(key, rule);
+    const std::size_t numbers = 2 * rule->rows.size();
+    if (numbers_ + numbers <= kMostNumbers && rules_.emplace(key, rule).second) numbers_ += numbers;
     return rule;
 }
 

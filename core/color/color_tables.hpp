@@ -26,20 +26,25 @@ public:
     /// smaller, 1e-13: tables of 1e-8 and of 1e-13 serve all.
     const SensitivityTransform& transform(double accuracy) const;
 
-    /// The quadrature rule of a panel; kMostRules of them are kept.
+    /// channel_points() of the sensitivity.
+    const std::array<ChannelPoints, 3>& channel_points() const;
+
+    /// The quadrature rule of a panel; rules of up to kMostNumbers numbers in all are kept.
     std::shared_ptr<const QuadratureRule> rule(WavelengthRange panel, std::size_t degree) const;
 
     /// equal_rule() of the sensitivity.
     std::shared_ptr<const SampleRule> equal(std::size_t count) const;
 
-    static constexpr std::size_t kMostRules = 1024;
+    static constexpr std::size_t kMostNumbers = 1U << 22;
 
 private:
     Sensitivity sensitivity_;
     mutable std::array<Lazy<SensitivityTransform>, 2> transforms_;
-    mutable std::mutex lock_;
+    mutable Lazy<std::array<ChannelPoints, 3>> channel_points_;
+    mutable std::mutex making_, lock_;
     mutable std::map<std::tuple<double, double, std::size_t>, std::shared_ptr<const QuadratureRule>>
         rules_;
+    mutable std::size_t numbers_ = 0;  ///< in the rules
     mutable std::map<std::size_t, std::shared_ptr<const SampleRule>> equal_;
 };
 

@@ -107,7 +107,7 @@ public:
                  const ColorRequest& request)
         : sensitivity_(tables.sensitivity()),
           transform_(tables.transform(request.tolerance / 8)),
-          limits_{request.tolerance / 2, method.count},
+          limits_{request.tolerance / 20, method.count},
           method_(method.kind),
           request_(request) {
         film_ = film_at(IndexTable(stack, {kPeaks_nm[1]}), stack, 0);
@@ -137,7 +137,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kTogether = 64;
+    static constexpr std::size_t kTogether = 8;
 
     struct Start {
         double T = 0;      ///< without fringes
@@ -240,33 +240,6 @@ private:
     Film film_;
 };
 
-/// One channel's part of the spectrum as two points, those of its Gauss rule: they have its first
-/// four moments. One point stands for both where nothing may vary.
-struct ChannelPoints {
-    std::array<double, 2> nu{}, weight{};
-    double centroid() const { return weight[0] * nu[0] + weight[1] * nu[1]; }
-};
-
-std::array<ChannelPoints, 3> gauss_points(const Sensitivity& sensitivity) {
-    const SensitivityPoints points = sensitivity_points(sensitivity, 0);
-    std::array<ChannelPoints, 3> result;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const auto moment = [&](double centre, int power) {
-            double sum = 0;
-            for (std::size_t i = 0; i < points.wavenumber.size(); ++i)
-                sum += points.weight[c][i] * std::pow(points.wavenumber[i] - centre, power);
-            return sum / sensitivity.white()[c];
-        };
-        const double mean = moment(0, 1), variance = moment(mean, 2);
-        const double sigma = std::sqrt(variance), skew = moment(mean, 3) / (variance * sigma);
-        const double half = std::sqrt(1 + skew * skew / 4), low = skew / 2 - half,
-                     high = skew / 2 + half;
-        result[c] = {{mean + sigma * low, mean + sigma * high},
-                     {high / (high - low), -low / (high - low)}};
-    }
-    return result;
-}
-
 /// The nearest path that SensitivityTransform takes.
 Complex admitted(Complex path_nm) {
     constexpr double steepest = SensitivityTransform::kSteepest_nm;
@@ -289,7 +262,7 @@ public:
             for (std::size_t c = 0; c < 3; ++c)
                 points_[c] = {{1 / kPeaks_nm[c], 1 / kPeaks_nm[c]}, {0.5, 0.5}};
         } else {
-            points_ = gauss_points(tables.sensitivity());
+            points_ = tables.channel_points();
         }
         std::vector<double> wavelengths;
         for (const ChannelPoints& points : points_)

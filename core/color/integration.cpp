@@ -34,6 +34,9 @@ std::size_t first_degree(double half_turn, double tolerance) {
 /// off make coefficients that fall steadily, and the tail sees them.
 constexpr double kFarFromZero = 1 / 1.5;
 
+/// Panels with more fringes are halved before they are sampled.
+constexpr double kLargestHalfTurn = 16;
+
 /// A panel is halved where twice the degree promises more than this times the error allowed.
 constexpr double kHopeful = 10;
 
@@ -336,22 +339,21 @@ void Samples::resize(std::size_t spectra, std::size_t denominators, std::size_t 
 }
 
 const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
-    return *rules_[degree].get([&] {
+    return *rules_[degree].get(lock_, [&] {
         return std::make_unique<std::shared_ptr<const QuadratureRule>>(
             tree_.tables_.rule(range_, kDegrees[degree]));
     });
 }
 
 const SpectralPoints& PanelTree::Node::all_points(std::size_t degree) {
-    return all_[degree].get([&] {
-        return std::make_unique<SpectralPoints>(
-            tree_.make_points_(rule(degree).panel.wavelength_nm));
-    });
+    const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    return all_[degree].get(
+        lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points_(every)); });
 }
 
 const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
-    return added_[degree].get([&] {
-        const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    return added_[degree].get(lock_, [&] {
         std::vector<double> odd;
         for (std::size_t j = 1; j < every.size(); j += 2) odd.push_back(every[j]);
         return std::make_unique<SpectralPoints>(tree_.make_points_(std::move(odd)));
@@ -359,32 +361,49 @@ const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
 }
 
 PanelTree::Node& PanelTree::Node::half(std::size_t which) {
-    return halves_[which].get([&] {
+    return halves_[which].get(lock_, [&] {
         const double middle = 2 / (1 / range_.first_nm + 1 / range_.last_nm);
         return std::make_unique<Node>(tree_, which == 0 ? WavelengthRange{range_.first_nm, middle}
                                                         : WavelengthRange{middle, range_.last_nm});
     });
 }
 
-PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, double tolerance) {
+PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, double tolerance,
+                                  std::size_t most_panels) {
+    double half_turns = 0;
+    for (const SpectralPanel& panel : panels) half_turns += panel.half_turn;
+    // more panels than can be afforded do not help: the fringes stay unresolved
+    const double largest =
+        std::max(kLargestHalfTurn, 2 * half_turns / static_cast<double>(most_panels));
     Start start;
     std::vector<double> wavelengths;
     for (const SpectralPanel& panel : panels) {
-        Node* node = nullptr;
+        Node* root = nullptr;
         {
             const std::scoped_lock guard(lock_);
             const std::pair key{panel.range.first_nm, panel.range.last_nm};
-            node = &roots_.try_emplace(key, *this, panel.range).first->second;
+            root = &roots_.try_emplace(key, *this, panel.range).first->second;
         }
-        const std::size_t degree = first_degree(panel.half_turn, tolerance);
-        const std::vector<double>& points = node->rule(degree).panel.wavelength_nm;
-        const std::size_t shared = wavelengths.empty() ? 0 : 1;
-        start.panels.push_back({node, degree, panel.half_turn, wavelengths.size() - shared});
-        wavelengths.insert(wavelengths.end(), points.begin() + static_cast<std::ptrdiff_t>(shared),
-                           points.end());
+        begin_with(*root, panel.half_turn, largest, tolerance, start, wavelengths);
     }
     start.points = make_points_(std::move(wavelengths));
     return start;
+}
+
+void PanelTree::begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,
+                           Start& start, std::vector<double>& wavelengths) {
+    if (half_turn > largest_half_turn) {
+        for (std::size_t half = 0; half < 2; ++half)
+            begin_with(node.half(half), half_turn / 2, largest_half_turn, tolerance, start,
+                       wavelengths);
+        return;
+    }
+    const std::size_t degree = first_degree(half_turn, tolerance);
+    const std::vector<double>& points = node.rule(degree).panel.wavelength_nm;
+    const std::size_t shared = wavelengths.empty() ? 0 : 1;
+    start.panels.push_back({&node, degree, half_turn, wavelengths.size() - shared});
+    wavelengths.insert(wavelengths.end(), points.begin() + static_cast<std::ptrdiff_t>(shared),
+                       points.end());
 }
 
 void integrate_color(const Sensitivity& sensitivity, const PanelTree::Start& start,

@@ -53,6 +53,7 @@ public:
     private:
         const PanelTree& tree_;
         WavelengthRange range_;
+        std::mutex lock_;
         std::array<Lazy<std::shared_ptr<const QuadratureRule>>, kDegrees.size()> rules_;
         std::array<Lazy<SpectralPoints>, kDegrees.size()> all_, added_;
         std::array<Lazy<Node>, 2> halves_;
@@ -69,11 +70,18 @@ public:
         std::vector<Panel> panels;
         SpectralPoints points;
     };
-    /// Adjoining panels, short wavelengths first, that cover the sensitivity's support.
-    ///   tolerance  of X, Y, Z: it decides with which degrees to begin
-    Start start(const std::vector<SpectralPanel>& panels, double tolerance);
+    /// Begins with adjoining panels, short wavelengths first, that cover the sensitivity's support,
+    /// each halved until it has no more fringes than a rule should take.
+    ///   tolerance    of X, Y, Z: it decides with which degrees to begin
+    ///   most_panels  more panels than that are not made by halving
+    Start start(const std::vector<SpectralPanel>& panels, double tolerance,
+                std::size_t most_panels = kMostPanels);
+    static constexpr std::size_t kMostPanels = 1024;
 
 private:
+    void begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,
+                    Start& start, std::vector<double>& wavelengths);
+
     const ColorTables& tables_;
     PointsMaker make_points_;
     std::mutex lock_;

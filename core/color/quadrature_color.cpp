@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include "core/color/held_stack.hpp"
@@ -16,13 +18,11 @@ namespace {
 /// Past this exponent of attenuation nothing below returns a fringe.
 constexpr double kOpaqueExponent = 35;
 
-constexpr double kLargestHalfTurn = 16;
-
 /// Layers computed for one spectrum before it is given up, and points that any stack may have.
 constexpr double kMostWork = 2e7, kFewestPoints = 4096;
 
 /// Points of a panel that is not cut any further.
-constexpr double kPanelPoints = 129;
+constexpr std::size_t kPanelPoints = 129;
 
 /// Optical paths are rounded up to kShortestPath_nm 2^(k/2), k < kPathClasses.
 constexpr double kShortestPath_nm = 125;
@@ -79,29 +79,11 @@ double work_of(std::span<const Element> elements) {
     return work;
 }
 
-/// The pieces cut so that no panel has more fringes than its rule can take.
-std::vector<SpectralPanel> first_panels(const std::vector<double>& ends, double path_nm,
-                                        std::size_t evaluations) {
-    const double half_turns = std::numbers::pi * path_nm;  // a unit of 1/lambda
-    // more panels than can be afforded do not help: the fringes stay unresolved
-    const double wanted = half_turns * (1 / ends.front() - 1 / ends.back()) / kLargestHalfTurn;
-    const double affordable = static_cast<double>(evaluations) / kPanelPoints / 4;
-    const double scale = std::min(1.0, affordable / wanted);
+std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double path_nm) {
     std::vector<SpectralPanel> panels;
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const double nu_first = 1 / ends[i], nu_last = 1 / ends[i + 1];
-        const double half_turn = half_turns * (nu_first - nu_last);
-        const auto count = static_cast<std::size_t>(
-            std::max(1.0, std::ceil(scale * half_turn / kLargestHalfTurn)));
-        double from = ends[i];
-        for (std::size_t k = 1; k <= count; ++k) {
-            const double part = static_cast<double>(k) / static_cast<double>(count);
-            const double to =
-                k == count ? ends[i + 1] : 1 / (nu_first + (nu_last - nu_first) * part);
-            panels.push_back({{from, to}, half_turn / static_cast<double>(count)});
-            from = to;
-        }
-    }
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        panels.push_back(
+            {{ends[i], ends[i + 1]}, std::numbers::pi * path_nm * (1 / ends[i] - 1 / ends[i + 1])});
     return panels;
 }
 
@@ -130,9 +112,12 @@ public:
           held_(held_stack(stack, sensitivity_)),
           pieces_(smooth_pieces(held_, sensitivity_.support())),
           on_path_(held_, path_wavelengths(held_.materials, sensitivity_.support())),
+          constant_(std::ranges::all_of(held_.materials,
+                                        [](const Material& m) { return is_constant(m); })),
           tree_(tables, [this](std::vector<double> wavelength_nm) {
               SpectralPoints points{std::move(wavelength_nm), nullptr};
-              points.indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
+              if (!constant_)
+                  points.indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
               return points;
           }) {
         const IndexTable survey(held_, pieces_);
@@ -176,6 +161,7 @@ private:
         SpectrumMemory memory;
         std::vector<Medium> media;
         std::vector<const IndexTable*> parts;
+        std::vector<const std::vector<double>*> wavelengths;
         std::optional<IndexTable> indices;  ///< of several parts
         IntegrationMemory integration;
         std::vector<ColorIntegral> integrals;
@@ -198,11 +184,7 @@ private:
     void integrate(const SpectrumKernel& kernel, const Stack& stack, double cos_theta,
                    std::span<StackColor> colors, Scratch& scratch) const {
         const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.media));
-        const PanelTree::Start& start = starts_[path].get([&] {
-            return std::make_unique<PanelTree::Start>(
-                tree_.start(first_panels(pieces_, path_of_class(path), limits_.evaluations),
-                            request_.tolerance));
-        });
+        const PanelTree::Start& start = start_of(path);
         // at normal incidence one polarization stands for both
         const bool with_s = request_.light != Light::p;
         const bool with_p = request_.light != Light::s && !(with_s && cos_theta == 1);
@@ -220,13 +202,33 @@ private:
                          scratch.integrals[i].evaluations, ColorMethod::Kind::quadrature};
     }
 
-    static const IndexTable& indices_at(std::span<const SpectralPoints* const> parts,
-                                        Scratch& scratch) {
-        if (parts.size() == 1) return *parts[0]->indices;
-        scratch.parts.clear();
-        for (const SpectralPoints* part : parts) scratch.parts.push_back(part->indices.get());
-        if (!scratch.indices) scratch.indices = *scratch.parts[0];
-        scratch.indices->assign(scratch.parts);
+    const PanelTree::Start& start_of(std::size_t path) const {
+        const std::scoped_lock guard(lock_);
+        std::unique_ptr<PanelTree::Start>& start = starts_[path];
+        if (start) return *start;
+        start = std::make_unique<PanelTree::Start>(
+            tree_.start(panels_of(pieces_, path_of_class(path)), request_.tolerance,
+                        limits_.evaluations / kPanelPoints / 4));
+        if (constant_)
+            start->points.indices =
+                std::make_unique<IndexTable>(held_, start->points.wavelength_nm);
+        return *start;
+    }
+
+    const IndexTable& indices_at(std::span<const SpectralPoints* const> parts,
+                                 Scratch& scratch) const {
+        if (parts.size() == 1 && parts[0]->indices) return *parts[0]->indices;
+        if (!scratch.indices) scratch.indices = on_path_;
+        if (constant_) {
+            scratch.wavelengths.clear();
+            for (const SpectralPoints* part : parts)
+                scratch.wavelengths.push_back(&part->wavelength_nm);
+            scratch.indices->assign(on_path_, scratch.wavelengths);
+        } else {
+            scratch.parts.clear();
+            for (const SpectralPoints* part : parts) scratch.parts.push_back(part->indices.get());
+            scratch.indices->assign(scratch.parts);
+        }
         return *scratch.indices;
     }
 
@@ -258,11 +260,13 @@ private:
     std::vector<double> pieces_;  ///< ends of what is smooth
     IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
     std::vector<bool> absorbs_, amplifies_;
+    bool constant_;  ///< all indices
     IntegrationLimits limits_;
     bool reflected_ = false, transmitted_ = false;
     mutable PanelTree tree_;
     mutable Pool<Scratch> scratch_;
-    mutable std::array<Lazy<PanelTree::Start>, kPathClasses> starts_;
+    mutable std::mutex lock_;
+    mutable std::map<std::size_t, std::unique_ptr<PanelTree::Start>> starts_;  ///< by path class
 };
 
 }  // namespace

@@ -95,6 +95,26 @@ SensitivityPoints sensitivity_points(const Sensitivity& sensitivity, double opd_
     return points;
 }
 
+std::array<ChannelPoints, 3> channel_points(const Sensitivity& sensitivity) {
+    const SensitivityPoints points = sensitivity_points(sensitivity, 0);
+    std::array<ChannelPoints, 3> result;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const auto moment = [&](double centre, int power) {
+            double sum = 0;
+            for (std::size_t i = 0; i < points.wavenumber.size(); ++i)
+                sum += points.weight[c][i] * std::pow(points.wavenumber[i] - centre, power);
+            return sum / sensitivity.white()[c];
+        };
+        const double mean = moment(0, 1), variance = moment(mean, 2);
+        const double sigma = std::sqrt(variance), skew = moment(mean, 3) / (variance * sigma);
+        const double half = std::sqrt(1 + skew * skew / 4), low = skew / 2 - half,
+                     high = skew / 2 + half;
+        result[c] = {{mean + sigma * low, mean + sigma * high},
+                     {high / (high - low), -low / (high - low)}};
+    }
+    return result;
+}
+
 ComplexTriple transform_at(const SensitivityPoints& points, double opd_nm, double variance_nm2) {
     const std::size_t count = points.wavenumber.size();
     std::vector<double> angle(count), sine(count), cosine(count), less(count, 0.0);

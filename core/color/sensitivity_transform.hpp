@@ -23,6 +23,15 @@ struct SensitivityPoints {
 /// opd_max_nm  [0, 2e7], else DomainError
 SensitivityPoints sensitivity_points(const Sensitivity& sensitivity, double opd_max_nm);
 
+/// One channel's part of the spectrum as two points, those of its Gauss rule: they have its first
+/// four moments. One point stands for both where nothing may vary.
+struct ChannelPoints {
+    std::array<double, 2> nu{}, weight{};
+    double centroid() const { return weight[0] * nu[0] + weight[1] * nu[1]; }
+};
+
+std::array<ChannelPoints, 3> channel_points(const Sensitivity& sensitivity);
+
 /// H_j(D) of SensitivityTransform summed over the points, for one path; the points must reach it.
 ComplexTriple transform_at(const SensitivityPoints& points, double opd_nm, double variance_nm2 = 0);
 

@@ -61,7 +61,7 @@ public:
                     return color.error <= request_.tolerance;
                 }))
                 continue;
-            const ColorAlgorithm& exact = *quadrature_.get([&] {
+            const ColorAlgorithm& exact = *quadrature_.get(lock_, [&] {
                 return std::make_unique<std::unique_ptr<ColorAlgorithm>>(
                     quadrature_color(tables_, stack_, request_));
             });
@@ -74,6 +74,7 @@ private:
     Stack stack_;
     ColorRequest request_;
     std::unique_ptr<ColorAlgorithm> series_;
+    mutable std::mutex lock_;
     mutable Lazy<std::unique_ptr<ColorAlgorithm>> quadrature_;
 };
 

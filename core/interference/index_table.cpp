@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -61,20 +62,46 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     }
 }
 
-void IndexTable::assign(std::span<const IndexTable* const> parts) {
-    const IndexTable& first = *parts.front();
-    std::size_t count = 0;
-    for (const IndexTable* part : parts) count += part->wavelength_nm_.size();
-    materials_ = first.materials_;
-    incident_ = first.incident_;
+void IndexTable::resize_like(const IndexTable& model, std::size_t count) {
+    materials_ = model.materials_;
+    incident_ = model.incident_;
     largest_wavenumber_ = 0;
-    constant_ = first.constant_;
-    absorbs_ = first.absorbs_;
-    amplifies_ = first.amplifies_;
+    constant_ = model.constant_;
+    absorbs_ = model.absorbs_;
+    amplifies_ = model.amplifies_;
     wavelength_nm_.resize(count);
     n_.resize(count * materials_ + kMostLanes, 1);
     k_.resize(n_.size(), 0);
     k0_.resize(count + kMostLanes, 1);
+}
+
+void IndexTable::assign(const IndexTable& constant,
+                        std::span<const std::vector<double>* const> wavelengths) {
+    std::size_t count = 0;
+    for (const std::vector<double>* some : wavelengths) count += some->size();
+    resize_like(constant, count);
+    std::size_t at = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>* some : wavelengths) {
+        for (const double wavelength : *some) {
+            wavelength_nm_[at] = wavelength;
+            k0_[at++] = 2 * std::numbers::pi / wavelength;
+            shortest = std::min(shortest, wavelength);
+        }
+    }
+    for (std::size_t m = 0; m < materials_; ++m) {
+        const Complex index = constant.index(m, 0);
+        std::fill_n(n_.data() + m * count, count, index.real());
+        std::fill_n(k_.data() + m * count, count, index.imag());
+    }
+    largest_wavenumber_ = constant.largest_wavenumber_ * constant.wavelength_nm_[0] / shortest;
+}
+
+void IndexTable::assign(std::span<const IndexTable* const> parts) {
+    const IndexTable& first = *parts.front();
+    std::size_t count = 0;
+    for (const IndexTable* part : parts) count += part->wavelength_nm_.size();
+    resize_like(first, count);
     std::size_t at = 0;
     for (const IndexTable* part : parts) {
         const std::size_t some = part->wavelength_nm_.size();

@@ -15,6 +15,10 @@ public:
     /// smaller k is left out).
     IndexTable(const Stack& stack, std::vector<double> wavelength_nm);
 
+    /// Becomes the table of a stack of constant indices, given by another table of it, at other
+    /// wavelengths, which are not checked; memory is used again.
+    void assign(const IndexTable& constant,
+                std::span<const std::vector<double>* const> wavelengths);
     /// Becomes the parts, tables of the same stack, one after the other; memory is used again.
     void assign(std::span<const IndexTable* const> parts);
 
@@ -39,6 +43,7 @@ public:
     const std::vector<bool>& amplifies() const { return amplifies_; }
 
 private:
+    void resize_like(const IndexTable& model, std::size_t count);
     std::span<const double> row(const std::vector<double>& values, std::size_t material) const {
         return {values.data() + material * wavelength_nm_.size(), wavelength_nm_.size()};
     }

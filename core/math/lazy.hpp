@@ -10,11 +10,12 @@ namespace irido {
 template <class T>
 class Lazy {
 public:
-    /// `make` returns a std::unique_ptr<T>.
+    /// `make` returns a std::unique_ptr<T>; `lock` is the same in every call, and `make` does not
+    /// need it.
     template <class Make>
-    T& get(const Make& make) {
+    T& get(std::mutex& lock, const Make& make) {
         if (T* ready = ready_.load(std::memory_order_acquire)) return *ready;
-        const std::scoped_lock guard(lock_);
+        const std::scoped_lock guard(lock);
         if (!value_) {
             value_ = make();
             ready_.store(value_.get(), std::memory_order_release);
@@ -24,7 +25,6 @@ public:
 
 private:
     std::atomic<T*> ready_ = nullptr;
-    std::mutex lock_;
     std::unique_ptr<T> value_;
 };
 

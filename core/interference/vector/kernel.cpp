@@ -93,12 +93,14 @@ private:
         Cx eps, q2;
         permittivity(program_.media[m].material, point, eps, q2);
         if (m + 1 == program_.media.size()) {
-            put(record, kKzRe, outgoing_root(q2, program_.media[m].absorbs));
+            put(record, kKzRe,
+                normal_ ? normal_root(m, point) : outgoing_root(q2, program_.media[m].absorbs));
             put(record, kEpsRe, eps);
             return;
         }
         if (!program_.media[m].absorbs) {
-            const V kz = Max(hn::Sqrt(Abs(q2.re)), constant(kTinyIndex));
+            const V kz = normal_ ? normal_root(m, point).re
+                                 : Max(hn::Sqrt(Abs(q2.re)), constant(kTinyIndex));
             const V inverse = Div(constant(1), kz), signed_kz = hn::CopySign(kz, q2.re);
             put(record, kPhase, kz);
             put(record, kSw, inverse);
@@ -109,7 +111,7 @@ private:
             evanescent_[m] = !hn::AllFalse(Lanes(), hn::Lt(q2.re, constant(0)));
             return;
         }
-        const Cx kz = upward_root(q2.re, q2.im);
+        const Cx kz = normal_ ? normal_root(m, point) : upward_root(q2.re, q2.im);
         const V inverse_norm = Div(constant(1), norm(kz));
         const V inverse_eps = Div(constant(1), norm(eps));
         const Cx inverse_kz{Mul(kz.re, inverse_norm), negative(Mul(kz.im, inverse_norm))};
@@ -475,6 +477,16 @@ private:
         }
     }
 
+    /// kz at normal incidence, where it is the index, with the sign that the other roots have.
+    HWY_INLINE Cx normal_root(std::size_t m, std::size_t point) const {
+        const std::size_t material = program_.media[m].material;
+        if (material == Program::kIncident) return {at(run_.incident, point), constant(0)};
+        const V n = at(run_.n[material], point), k = at(run_.k[material], point);
+        if (!program_.media[m].absorbs) return {n, constant(0)};
+        const Mask gains = hn::Lt(k, constant(0));
+        return {IfThenElse(gains, negative(n), n), Abs(k)};
+    }
+
     /// kz of the substrate's wave, exact on the real axis.
     static HWY_INLINE Cx outgoing_root(Cx q2, bool absorbs) {
         const V root = hn::Sqrt(Abs(q2.re)), zero = constant(0);
@@ -591,25 +603,28 @@ private:
         Cx out_b;
     };
     /// beta and gamma without sin(delta).
-    static Film film_between(const Incident& in, V beta, V gamma, Cx out_b, Cx out_c) {
+    static HWY_INLINE void set_film(const Incident& in, V beta, V gamma, Cx out_b, Cx out_c,
+                                    Film& film) {
         const V in_b = in.b.re, in_c = in.c.re;
         const Cx first = scaled(out_b, in_c), second = scaled(out_c, in_b);
         const Cx third = minus_i(scaled(out_c, Mul(in_c, beta)));
         const Cx fourth = minus_i(scaled(out_b, Mul(in_b, gamma)));
-        return {{Add(first.re, second.re), Add(first.im, second.im)},
-                {Add(third.re, fourth.re), Add(third.im, fourth.im)},
-                {Sub(first.re, second.re), Sub(first.im, second.im)},
-                {Sub(third.re, fourth.re), Sub(third.im, fourth.im)},
-                in,
-                dot(out_b, out_c),
-                out_b};
+        film.sum_cos = {Add(first.re, second.re), Add(first.im, second.im)};
+        film.sum_sin = {Add(third.re, fourth.re), Add(third.im, fourth.im)};
+        film.difference_cos = {Sub(first.re, second.re), Sub(first.im, second.im)};
+        film.difference_sin = {Sub(third.re, fourth.re), Sub(third.im, fourth.im)};
+        film.in.c = in.c;
+        film.in.unit = in.unit;
+        film.in.mixed = in.mixed;
+        film.out_flux = dot(out_b, out_c);
+        film.out_b = out_b;
     }
     static HWY_INLINE Cx turned(Cx cos_part, Cx sin_part, const Turn& t) {
         return {MulAdd(sin_part.re, t.sin, Mul(cos_part.re, t.cos)),
                 MulAdd(sin_part.im, t.sin, Mul(cos_part.im, t.cos))};
     }
 
-    void prepare_film(std::size_t point) {
+    HWY_INLINE void prepare_film(std::size_t point) {
         const double* medium = record(program_.order[0]);
         const double* below = records_ + (program_.media.size() - 1) * kRecord;
         const Cx kz = slots(below, kKzRe), eps = slots(below, kEpsRe);
@@ -617,8 +632,8 @@ private:
         Incident in_s, in_p;
         Mask never = no_lanes();
         incident_waves(point, in_s, in_p, never);
-        film_s_ = film_between(in_s, slot(medium, kSw), slot(medium, kSv), {one, zero}, kz);
-        film_p_ = film_between(in_p, slot(medium, kPw), slot(medium, kPv), kz, eps);
+        if (s_) set_film(in_s, slot(medium, kSw), slot(medium, kSv), {one, zero}, kz, film_s_);
+        if (p_) set_film(in_p, slot(medium, kPw), slot(medium, kPv), kz, eps, film_p_);
     }
 
     HWY_INLINE void compute_film(std::size_t point) {
@@ -752,6 +767,7 @@ private:
     std::vector<char>& evanescent_;      ///< per medium of layers: some lane is
     std::vector<std::size_t>& varying_;  ///< media that differ from point to point
     Film film_s_, film_p_;
+    const bool normal_ = !run_.cos_theta.varies && *run_.cos_theta.values == 1;
     bool any_evanescent_ = false;
     bool needs_flux_ = false;
     bool wants_denominators_ = (s_ && s_->log_scale) || (p_ && p_->log_scale);
