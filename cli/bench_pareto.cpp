@@ -35,7 +35,7 @@ const std::vector<Candidate>& candidates() {
     static const std::vector<Candidate> all{
         {"quadrature", quadrature, 10, {}, true},
         {"fourier", fourier, 8, {1, 2, 3}, true},
-        {"fourier_constant", fourier_constant, 8, {}, false},
+        {"fourier-constant", fourier_constant, 8, {}, false},
         {"auto", automatic, 10, {}, true},
         {"equal", equal, 0, {8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, false},
         {"naive", naive, 0, {0}, false},
@@ -212,7 +212,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         {"irido bench pareto -o pareto.csv --plot pareto.svg",
          "irido bench pareto --cases dielectric,conductor --count 2000 -f json"},
         "Reflected unpolarized light, D65, 2 degrees, one thread; white Y = 1. Methods:\n"
-        "quadrature, fourier, fourier_constant and auto at their tolerances (fourier also up\n"
+        "quadrature, fourier, fourier-constant and auto at their tolerances (fourier also up\n"
         "to the order `parameter`); equal: `parameter` equally spaced wavelengths;\n"
         "naive: 650, 510, 475 nm; gaussian: Belcour and Barla's Gaussians; gltf: the\n"
         "formulas of KHR_materials_iridescence; smits: two beams. A method that does not\n"
@@ -222,7 +222,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         "each stack's preparation, else of a prepared method; max_dXYZ: largest error of\n"
         "X, Y, Z against quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours.\n"
         "For exact methods: equal_wavelengths: equally spaced ones with the same max_dXYZ,\n"
-        "equal_ns_per_color and times_faster; 0 for the others, and if more than 16384\n"
+        "equal_ns_per_color and times_faster; 0 for the others, and if more than 65536\n"
         "are needed. worst_stack, worst_angle_deg: where dE2000 is largest, which is\n"
         "worst_hex there instead of exact_hex.");
     command->callback([options, &run] { run = [options] { return run_pareto(*options); }; });

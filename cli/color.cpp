@@ -237,12 +237,14 @@ LitColors colors_under(const Sensitivity& sensitivity, const StackDocument& docu
 }
 
 /// 0, or the exit status after one line on standard error if a colour is not as exact as asked.
-/// Methods that are not exact are held to nothing by themselves: a note says how far they are off.
+/// Methods that are not exact are held to nothing by themselves: a note says how far they are off
+/// if it is more than the default tolerance.
 int check_errors(const ColorQuestion& question, const LitColors& lit, const std::string& file,
                  bool quiet) {
     if (question.held_to_tolerance || !lit.approximate)
         return check_tolerance(question, lit.colors, file);
     const double worst = std::ranges::max_element(lit.colors, {}, &StackColor::error)->error;
+    if (worst <= question.request.tolerance) return 0;
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g", worst);
     note(file + ": " + name_of(question.method) + " is off by up to " + text.data() +

@@ -45,7 +45,7 @@ public:
     /// that is no larger: by doubling, then halving to within 3 % (the error does not fall evenly).
     EqualMatch equal_match(double max_error);
 
-    static constexpr std::size_t kMostEqual = 1U << 14;
+    static constexpr std::size_t kMostEqual = 1U << 16;
 
 private:
     using Algorithms = std::vector<std::unique_ptr<ColorAlgorithm>>;  ///< one a family

@@ -8,29 +8,22 @@
 #include <optional>
 
 #include "core/color/film_orders.hpp"
+#include "core/color/film_parts.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/error.hpp"
-#include "core/interference/film.hpp"
-#include "core/interference/index_table.hpp"
 
 namespace irido {
 
 namespace {
 
-constexpr Complex kI{0, 1};
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Where BB17 takes the indices of X, Y and Z (section 4, Validation).
-constexpr std::array<double, 3> kPeaks_nm{600, 560, 450};
 
 /// Error of a colour from rounding, of the Fresnel terms above all.
 constexpr double kRounding = 1e-13;
 
 /// Standard deviations within which a Gaussian has all but 1e-15 of its weight.
 constexpr double kReach = 8;
-
-constexpr double kThickest_nm = 1e9;
 
 /// The only layer of a stack, nullptr if there is none or more.
 const Layer* only_layer(const std::vector<Element>& elements) {
@@ -47,59 +40,6 @@ bool is_real(const Material& material) {
     const auto* k = std::get_if<Table>(&index->k);
     return k && std::ranges::all_of(k->value, [](double value) { return value == 0; });
 }
-
-/// Share of the light in s and in p.
-std::array<double, 2> weights(Light light, double cos_theta) {
-    if (light == Light::s || cos_theta == 1) return {1, 0};  // both are one at normal incidence
-    if (light == Light::p) return {0, 1};
-    return {0.5, 0.5};
-}
-
-/// Three indices at one wavelength, the film's thickness to be filled in.
-Film film_at(const IndexTable& table, const Stack& stack, std::size_t wavelength) {
-    return {table.n(stack.incident)[wavelength], table.n(only_film(stack).material)[wavelength],
-            table.index(stack.substrate, wavelength), 0};
-}
-
-/// The film's thicknesses, whose spread is that of a Gaussian.
-struct Thickness {
-    double mean_nm, sigma_nm;
-
-    explicit Thickness(const Layer& layer)
-        : mean_nm(layer.thickness_nm), sigma_nm(layer.thickness_sigma_nm) {
-        require_in_range("thickness_nm", mean_nm, 0, kThickest_nm);
-        require_in_range("thickness_sigma_nm", sigma_nm, 0, kThickest_nm);
-        mean_nm = std::max(mean_nm, 1e-9 * sigma_nm);  // the spread is taken in parts of the mean
-    }
-    bool vanishes() const { return mean_nm == 0 && sigma_nm == 0; }
-    /// Of the Gaussian.
-    double part_below_zero() const {
-        return sigma_nm == 0 ? 0 : std::erfc(mean_nm / sigma_nm / std::numbers::sqrt2) / 2;
-    }
-    /// A film of no thickness is none: the incident medium goes on.
-    Film of(Film film) const {
-        if (vanishes()) film.film = film.incident;
-        film.thickness_nm = mean_nm;
-        return film;
-    }
-};
-
-/// What every colour of one call needs.
-struct Lighting {
-    const Triple& white;
-    std::span<const Side> sides;
-    ColorMethod::Kind method;
-    std::size_t evaluations;
-
-    /// The colours of all sides, from the transmitted one.
-    void store(const Triple& transmitted, double error, std::span<StackColor> colors) const {
-        for (std::size_t s = 0; s < sides.size(); ++s) {
-            colors[s] = {transmitted, error, evaluations, method};
-            if (sides[s] == Side::transmitted) continue;
-            for (std::size_t c = 0; c < 3; ++c) colors[s].xyz[c] = white[c] - transmitted[c];
-        }
-    }
-};
 
 class ConstantFilm : public ColorAlgorithm {
 public:
@@ -240,115 +180,6 @@ private:
     Film film_;
 };
 
-/// The nearest path that SensitivityTransform takes.
-Complex admitted(Complex path_nm) {
-    constexpr double steepest = SensitivityTransform::kSteepest_nm;
-    return {path_nm.real(), std::clamp(path_nm.imag(), -steepest, steepest)};
-}
-
-/// Films with dispersion: for each channel the logarithms of T_0, of one bounce with its turn and
-/// of the damping by a spread are taken to be linear in nu, which makes of order m a complex path.
-class DispersiveFilm : public ColorAlgorithm {
-public:
-    DispersiveFilm(const ColorTables& tables, const Stack& stack, const ColorMethod& method,
-                   const ColorRequest& request)
-        : white_(tables.sensitivity().white()),
-          transform_(tables.transform(request.tolerance / 8)),
-          tolerance_(request.tolerance / 2),
-          constant_(method.kind == ColorMethod::Kind::fourier_constant),
-          method_(method),
-          request_(request) {
-        if (constant_) {
-            for (std::size_t c = 0; c < 3; ++c)
-                points_[c] = {{1 / kPeaks_nm[c], 1 / kPeaks_nm[c]}, {0.5, 0.5}};
-        } else {
-            points_ = tables.channel_points();
-        }
-        std::vector<double> wavelengths;
-        for (const ChannelPoints& points : points_)
-            for (const double nu : points.nu) wavelengths.push_back(1 / nu);
-        const IndexTable table(stack, wavelengths);
-        for (std::size_t i = 0; i < films_.size(); ++i) films_[i] = film_at(table, stack, i);
-    }
-
-    void operator()(const Stack& stack, std::span<const double> angles_deg,
-                    std::span<StackColor> colors) const override {
-        const Thickness thickness(only_film(stack));
-        const std::size_t sides = request_.sides.size();
-        const Lighting lighting{white_, request_.sides, method_.kind, films_.size()};
-        for (std::size_t i = 0; i < angles_deg.size(); ++i) {
-            const double cosine = cos_of_incidence(angles_deg[i]);
-            const std::array share = weights(request_.light, cosine);
-            Triple transmitted{};
-            for (std::size_t k = 0; k < 2; ++k) {
-                if (share[k] == 0) continue;
-                const Polarization polarization = k == 0 ? Polarization::s : Polarization::p;
-                for (std::size_t c = 0; c < 3; ++c)
-                    transmitted[c] += share[k] * channel(c, thickness, cosine, polarization);
-            }
-            lighting.store(transmitted, kInfinity, colors.subspan(i * sides, sides));
-        }
-    }
-
-private:
-    /// Value at the channel's centroid and slope of a logarithm.
-    struct Line {
-        Complex value, slope;
-    };
-
-    Line line(const ChannelPoints& points, Complex a, Complex b) const {
-        const Complex difference = b - a;
-        if (constant_) return {a, 0};
-        return {a + points.weight[1] * difference, difference / (points.nu[1] - points.nu[0])};
-    }
-
-    double channel(std::size_t c, const Thickness& thickness, double cosine,
-                   Polarization polarization) const {
-        const ChannelPoints& points = points_[c];
-        const auto a = film_series(thickness.of(films_[2 * c]), cosine, polarization);
-        const auto b = film_series(thickness.of(films_[2 * c + 1]), cosine, polarization);
-        if (!a || !b) return 0;
-        const double mean = points.weight[0] * a->T + points.weight[1] * b->T;
-        double sum = mean * white_[c];
-        if (a->T * b->T <= 0 || a->bounce * b->bounce == 0.0) return sum;
-        Line T = line(points, std::log(a->T), std::log(b->T));
-        const Complex turn_a = kTwoPi * kI * a->opd_nm * points.nu[0];
-        const Complex turn_b = kTwoPi * kI * b->opd_nm * points.nu[1];
-        const Complex bounce_a = std::log(a->bounce);
-        Line bounce =
-            line(points, bounce_a + turn_a, bounce_a + std::log(b->bounce / a->bounce) + turn_b);
-        if (constant_) bounce.slope = kTwoPi * kI * a->opd_nm;
-        const auto damping = [&](Complex turn) {
-            const double sigma = thickness.sigma_nm / thickness.mean_nm;
-            return thickness.sigma_nm == 0 ? 0 : turn * turn * sigma * sigma / 2.0;
-        };
-        const Line spread = line(points, damping(turn_a), damping(turn_b));
-        const double ratio = std::max(a->ratio(), b->ratio());
-        double rest = 2 * std::max(a->T, b->T) / (1 - ratio);
-        for (std::size_t m = 1; method_.count == 0 || m <= method_.count; ++m) {
-            const double order = static_cast<double>(m);
-            const Complex path =
-                admitted((T.slope + order * (bounce.slope + order * spread.slope)) / (kTwoPi * kI));
-            rest *= ratio;
-            if (std::abs(path.real()) > transform_.opd_max_nm()) break;
-            if (rest * transform_.bound(std::abs(path.real())) <= tolerance_) break;
-            const Complex value = T.value + order * (bounce.value + order * spread.value);
-            const Complex back = -kTwoPi * kI * path * points.centroid();
-            sum += 2 * (std::exp(value + back) * transform_.channel(c, path)).real();
-        }
-        return sum;
-    }
-
-    const Triple& white_;
-    const SensitivityTransform& transform_;
-    double tolerance_;
-    bool constant_;
-    ColorMethod method_;
-    ColorRequest request_;
-    std::array<ChannelPoints, 3> points_;
-    std::array<Film, 6> films_;  ///< [channel][point]
-};
-
 }  // namespace
 
 bool is_one_film(const Stack& stack) {
@@ -376,8 +207,7 @@ std::unique_ptr<ColorAlgorithm> film_color(const ColorTables& tables, const Stac
         throw DomainError("the Fourier method needs one coherent film of a real index over a base");
     if (!has_dispersion(stack))
         return std::make_unique<ConstantFilm>(tables, stack, method, request);
-    return std::make_unique<DispersiveFilm>(tables, held_stack(stack, tables.sensitivity()), method,
-                                            request);
+    return dispersive_film_color(tables, held_stack(stack, tables.sensitivity()), method, request);
 }
 
 }  // namespace irido
