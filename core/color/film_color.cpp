@@ -10,6 +10,7 @@
 #include "core/color/film_orders.hpp"
 #include "core/color/film_parts.hpp"
 #include "core/color/held_stack.hpp"
+#include "core/color/one_film.hpp"
 #include "core/error.hpp"
 
 namespace irido {
@@ -24,14 +25,6 @@ constexpr double kRounding = 1e-13;
 
 /// Standard deviations within which a Gaussian has all but 1e-15 of its weight.
 constexpr double kReach = 8;
-
-/// The only layer of a stack, nullptr if there is none or more.
-const Layer* only_layer(const std::vector<Element>& elements) {
-    if (elements.size() != 1) return nullptr;
-    if (const Layer* layer = std::get_if<Layer>(&elements.front().value)) return layer;
-    const Group& group = std::get<Group>(elements.front().value);
-    return group.repeat == 1 ? only_layer(group.elements) : nullptr;
-}
 
 bool is_real(const Material& material) {
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
@@ -184,13 +177,13 @@ private:
 
 bool is_one_film(const Stack& stack) {
     if (stack.elements.empty()) return true;
-    const Layer* layer = only_layer(stack.elements);
+    const Layer* layer = only_layer(stack);
     return layer && layer->coherent && is_real(stack.materials[layer->material]);
 }
 
 Layer only_film(const Stack& stack) {
     if (stack.elements.empty()) return {.material = stack.incident};
-    return *only_layer(stack.elements);
+    return *only_layer(stack);
 }
 
 bool has_dispersion(const Stack& stack) {

@@ -225,8 +225,8 @@ private:
         const QuadratureRule& rule = job.rule();
         const Triple allowed = budget(rule, job.share);
         const bool last_degree = job.degree + 1 == kDegrees.size();
-        const bool must_end =
-            evaluations_ >= limits_.evaluations || (last_degree && is_narrow(job.node->range()));
+        const bool narrow = is_narrow(job.node->range());
+        const bool must_end = evaluations_ >= limits_.evaluations || (last_degree && narrow);
         const Poles poles = poles_of(job, samples, first);
         const std::size_t width = rule.row_count();
         memory_.sums.resize(integrals_.size() * width);
@@ -237,9 +237,10 @@ private:
                      sums, limits_.simd);
             panel_errors[k] = rule.error({sums, width}, poles.rate);
             if (must_end || is_below(panel_errors[k], allowed)) continue;
-            return last_degree || !doubling_helps(rule, {sums, width}, panel_errors[k], allowed)
-                       ? Outcome::halves
-                       : Outcome::twice_the_degree;
+            const bool halves =
+                last_degree ||
+                (!narrow && !doubling_helps(rule, {sums, width}, panel_errors[k], allowed));
+            return halves ? Outcome::halves : Outcome::twice_the_degree;
         }
         if (!poles.all_far && denominators_ > 0) {
             const Triple hidden = hidden_weight(rule, samples, first);

@@ -10,10 +10,24 @@
 
 namespace irido {
 
+namespace {
+
+const Layer* only_layer_of(const std::vector<Element>& elements) {
+    if (elements.size() != 1) return nullptr;
+    if (const Layer* layer = std::get_if<Layer>(&elements.front().value)) return layer;
+    const Group& group = std::get<Group>(elements.front().value);
+    return group.repeat == 1 ? only_layer_of(group.elements) : nullptr;
+}
+
+}  // namespace
+
+const Layer* only_layer(const Stack& stack) {
+    return only_layer_of(stack.elements);
+}
+
 void require_film(std::string_view method_name, const Stack& stack, const ColorRequest& request) {
     const std::string method(method_name);
-    const Layer* film =
-        stack.elements.size() == 1 ? std::get_if<Layer>(&stack.elements.front().value) : nullptr;
+    const Layer* film = only_layer(stack);
     if (!film || !film->coherent || film->thickness_sigma_nm != 0)
         throw DomainError("method " + method +
                           " must have one coherent film of one thickness over a substrate");
@@ -22,7 +36,7 @@ void require_film(std::string_view method_name, const Stack& stack, const ColorR
 }
 
 const Layer& film_of(const Stack& stack) {
-    return std::get<Layer>(stack.elements.front().value);
+    return *only_layer(stack);
 }
 
 FilmIndex film_index(const Stack& stack, double wavelength_nm) {

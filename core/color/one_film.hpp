@@ -9,6 +9,9 @@
 
 namespace irido {
 
+/// The only layer of a stack, in groups of one repetition or not; nullptr if there is none or more.
+const Layer* only_layer(const Stack& stack);
+
 /// Throws DomainError that names the method unless the stack is one coherent film of one thickness
 /// and reflected light is all that is asked for.
 void require_film(std::string_view method, const Stack& stack, const ColorRequest& request);
