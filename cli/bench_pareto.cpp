@@ -1,5 +1,6 @@
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cli/bench.hpp"
 #include "cli/color_comparison.hpp"
@@ -17,7 +18,7 @@ struct ParetoOptions {
     std::string count = "50";
     std::string seed = "1";
     std::string time = "0.01";
-    std::string plot;
+    std::optional<std::string> plot;
     OutputOptions output;
 };
 
@@ -163,8 +164,12 @@ std::string picture(const std::vector<std::vector<Row>>& cases) {
 
 int run_pareto(const ParetoOptions& options) {
     resolved_record_format(options.output);
-    if (!options.plot.empty() && !options.plot.ends_with(".svg"))
-        throw UsageError("--plot: must end in .svg (got '" + options.plot + "')");
+    if (options.plot && !options.plot->ends_with(".svg"))
+        throw UsageError("--plot: must end in .svg (got '" + *options.plot + "')");
+    if (options.plot && *options.plot == options.output.file)
+        throw UsageError("--plot: must be another file than --output");
+    check_writable(options.output);
+    check_writable({options.plot.value_or(""), "svg"});
     const std::uint64_t count = parse_whole_number("--count", options.count, 1, kLargestCount);
     const std::uint64_t seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
     const double seconds = parse_one_number("--time", options.time, 0.0001, 60);
@@ -177,8 +182,8 @@ int run_pareto(const ParetoOptions& options) {
             rows_of(one, {tables, color_families(one, count, seed), one.is_set, seconds, simd}));
         rows.insert(rows.end(), cases.back().begin(), cases.back().end());
     }
-    if (!options.plot.empty()) write_bytes(picture(cases), {options.plot, "svg"}, false);
     write_records(to_records(rows), options.output);
+    if (options.plot) write_bytes(picture(cases), {*options.plot, "svg"}, false);
     return 0;
 }
 
@@ -220,8 +225,10 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         "Columns: parameter and tolerance, 0 where there is none; evaluations: wavelengths\n"
         "a colour; ns_per_color: the shortest of repeated runs, in the random sets with\n"
         "each stack's preparation, else of a prepared method; max_dXYZ: largest error of\n"
-        "X, Y, Z against quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours.\n"
-        "For exact methods: equal_wavelengths: equally spaced ones with the same max_dXYZ,\n"
+        "X, Y, Z against quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours, the\n"
+        "mean of the case's `colors`, what 95 % of them stay below, and the largest.\n"
+        "For methods with a tolerance: equal_wavelengths: equally spaced ones with the same "
+        "max_dXYZ,\n"
         "equal_ns_per_color and times_faster; 0 for the others, and if more than 65536\n"
         "are needed. worst_stack, worst_angle_deg: where dE2000 is largest, which is\n"
         "worst_hex there instead of exact_hex.");

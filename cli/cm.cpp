@@ -26,13 +26,15 @@ struct CmOptions {
     bool quiet = false;
 };
 
+constexpr double kMostRows = 1e7;
+
 /// What was asked, in values.
 struct CmRequest {
     std::vector<double> angles_deg;
     std::vector<char> polarizations;  ///< s or p
     std::vector<char> sides;          ///< R or T
     std::vector<double> orders;
-    double at_nm;
+    double at_nm = 0;
 };
 
 /// The letters of a list, each one of `allowed`; `rule` says so.
@@ -56,21 +58,30 @@ std::vector<double> parse_orders(const std::string& text) {
 }
 
 CmRequest parse(const CmOptions& options) {
-    return {
-        parse_list("--angles", options.angles, 0, kLargestAngle_deg),
-        parse_letters(options.polarization, "sp",
-                      "--polarization: must be s, p or both with a comma"),
-        parse_letters(options.sides, "RT", "--side: must be R, T or both with a comma"),
-        parse_orders(options.orders),
-        parse_one_number("--at", options.at, kAllWavelengths.first_nm, kAllWavelengths.last_nm)};
+    CmRequest request;
+    request.angles_deg = parse_list("--angles", options.angles, 0, kLargestAngle_deg);
+    request.polarizations = parse_letters(options.polarization, "sp",
+                                          "--polarization: must be s, p or both with a comma");
+    request.sides = parse_letters(options.sides, "RT", "--side: must be R, T or both with a comma");
+    request.orders = parse_orders(options.orders);
+    request.at_nm =
+        parse_one_number("--at", options.at, kAllWavelengths.first_nm, kAllWavelengths.last_nm);
+    const double rows = static_cast<double>(request.angles_deg.size()) *
+                        static_cast<double>(request.polarizations.size() * request.sides.size()) *
+                        static_cast<double>(request.orders.size());
+    if (rows > kMostRows)
+        throw UsageError("--orders: asks for " + to_text(rows) + " rows, more than " +
+                         to_text(kMostRows));
+    return request;
 }
 
 /// The film's media at the wavelength asked for.
 Film film_of(const StackDocument& document, double at_nm) {
     const Stack& stack = document.stack;
-    if (stack.elements.empty() || !is_one_film(stack))
+    const std::string fault = stack.elements.empty() ? "no layer" : film_fault(stack);
+    if (!fault.empty())
         throw InputError(document.file, "",
-                         "cm needs one coherent film of a real index over a base");
+                         "cm needs one coherent film of a real index (got " + fault + ")");
     const Layer layer = only_film(stack);
     try {
         const IndexTable table(stack, {at_nm});

@@ -113,10 +113,11 @@ std::optional<MethodReport> ColorComparison::measure(const ColorMethod& method,
     const Triple& white = tables_.sensitivity().white();
     std::vector<double> differences;
     for (std::size_t i = 0; i < count_; ++i) {
-        report.evaluations += static_cast<double>(found[i].evaluations) / report.colors;
+        report.evaluations += static_cast<double>(found[i].evaluations);
         differences.push_back(ciede2000(lab(found[i].xyz, white), lab(exact_[i], white)));
         report.mean_de += differences.back() / report.colors;
     }
+    report.evaluations /= report.colors;
     auto worst =
         static_cast<std::size_t>(std::ranges::max_element(differences) - differences.begin());
     report.max_de = differences[worst];

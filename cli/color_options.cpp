@@ -6,6 +6,7 @@
 #include "core/color/illuminant.hpp"
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/nearest.hpp"
 #include "schemas/spectrum_csv.hpp"
 #include "schemas/text_file.hpp"
 
@@ -86,12 +87,17 @@ ColorMethod parse_method(const std::string& text) {
     const std::size_t slash = text.find('/');
     const std::string name = text.substr(0, slash);
     const auto method = std::ranges::find(kMethods, name, &NamedMethod::name);
-    if (method == kMethods.end()) throw UsageError("--method: " + not_one_of(method_names(), name));
+    if (method == kMethods.end()) {
+        const std::vector<std::string_view> names = method_names();
+        throw UsageError("--method: " + not_one_of(names, name) +
+                         did_you_mean(name, {names.begin(), names.end()}));
+    }
     if (slash == std::string::npos) return {method->kind, method->by_itself};
     if (method->most == 0)
         throw UsageError("--method: " + name + " takes no number (got " + text + ")");
     return {method->kind, static_cast<std::size_t>(parse_whole_number(
-                              "--method", text.substr(slash + 1), method->fewest, method->most))};
+                              "--method: the number of " + name, text.substr(slash + 1),
+                              method->fewest, method->most))};
 }
 
 Table parse_illuminant(const std::string& text) {
@@ -141,12 +147,14 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
                     "auto: the cheaper of the two exact ones (--stats says which) [auto]\n"
                     "quadrature: product quadrature of the spectrum, any stack\n"
                     "fourier: series over the orders of interference, one real film over\n"
-                    "any base; exact for constant indices; fourier/M ends it at order M;\n"
-                    "fourier-constant takes constant indices where media have dispersion\n"
+                    "any substrate; exact for constant indices; fourier/M, M in [1, 1000],\n"
+                    "ends it at order M; fourier-constant(/M) takes constant indices where\n"
+                    "media have dispersion\n"
                     "to be compared with, none of them exact:\n"
-                    "equal/N: N equally spaced wavelengths; naive: 650, 510, 475 nm as\n"
-                    "R, G, B; gaussian: Gaussians for the observer; gltf: the formulas of\n"
-                    "KHR_materials_iridescence; smits: a single bounce")
+                    "equal/N: N equally spaced wavelengths, [2, 1e6] [32]; naive: 650, 510,\n"
+                    "475 nm as R, G, B; of one film, reflected: gaussian: Gaussians for the\n"
+                    "observer; gltf (-p u): the formulas of KHR_materials_iridescence, as in\n"
+                    "three.js; smits: a single bounce")
         ->type_name("METHOD");
     command
         .add_option("--tolerance", options.tolerance,

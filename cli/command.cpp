@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <iostream>
 
 #include "core/error.hpp"
@@ -94,6 +97,14 @@ const RecordFormat& resolved_record_format(const OutputOptions& output, std::str
     if (!others.empty()) names.push_back(others);
     throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                      not_one_of(names, name));
+}
+
+void check_writable(const OutputOptions& output) {
+    if (output.file.empty()) return;
+    const std::filesystem::path folder = std::filesystem::path(output.file).parent_path();
+    const std::string name = folder.empty() ? "." : folder.string();
+    if (access(name.c_str(), W_OK | X_OK) != 0)
+        throw UsageError(output.file + ": cannot be written: " + std::strerror(errno));
 }
 
 void write_records(const Records& records, const OutputOptions& output) {

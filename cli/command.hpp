@@ -56,6 +56,9 @@ std::string resolved_format(const OutputOptions& output);
 const RecordFormat& resolved_record_format(const OutputOptions& output,
                                            std::string_view others = "");
 
+/// Throws UsageError if a file could not be written there: before a long computation.
+void check_writable(const OutputOptions& output);
+
 /// Writes records to the file or to standard output.
 void write_records(const Records& records, const OutputOptions& output);
 

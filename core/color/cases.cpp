@@ -19,8 +19,8 @@ std::vector<double> steps(int count) {
 
 /// Angles of incidence from 0 to `last`.
 std::vector<double> angles_to(double last, int count) {
-    std::vector<double> angles = steps(count);
-    for (double& angle : angles) angle *= last;
+    std::vector<double> angles;
+    for (int i = 0; i < count; ++i) angles.push_back(last * i / (count - 1));
     return angles;
 }
 

@@ -54,7 +54,7 @@ public:
                 if (share[k] == 0) continue;
                 const Polarization polarization = k == 0 ? Polarization::s : Polarization::p;
                 for (std::size_t c = 0; c < 3; ++c)
-                    transmitted[c] += share[k] * channel(c, thickness, cosine, polarization);
+                    transmitted[c] += share[k] * channel(c, thickness, angles_deg[i], polarization);
             }
             lighting.store(transmitted, kInfinity, colors.subspan(i * sides, sides));
         }
@@ -72,12 +72,13 @@ private:
         return {a + points.weight[1] * difference, difference / (points.nu[1] - points.nu[0])};
     }
 
-    double channel(std::size_t c, const Thickness& thickness, double cosine,
+    double channel(std::size_t c, const Thickness& thickness, double angle_deg,
                    Polarization polarization) const {
+        const double cosine = cos_of_incidence(angle_deg);
         const ChannelPoints& points = points_[c];
         const auto a = film_series(thickness.of(films_[2 * c]), cosine, polarization);
         const auto b = film_series(thickness.of(films_[2 * c + 1]), cosine, polarization);
-        if (!a || !b) return 0;
+        if (!a || !b) throw no_series(angle_deg);
         const double mean = points.weight[0] * a->T + points.weight[1] * b->T;
         double sum = mean * white_[c];
         if (a->T * b->T <= 0 || a->bounce * b->bounce == 0.0) return sum;

@@ -50,7 +50,7 @@ public:
                     std::span<StackColor> colors) const override {
         const Thickness thickness(only_film(stack));
         const Film film = thickness.of(film_);
-        std::array<Start, kTogether> starts;
+        std::array<double, kTogether> starts;
         std::array<FilmOrders, kTogether> orders;
         std::array<OrderSum, kTogether> sums;
         const std::size_t sides = request_.sides.size();
@@ -72,34 +72,30 @@ public:
 private:
     static constexpr std::size_t kTogether = 8;
 
-    struct Start {
-        double T = 0;      ///< without fringes
-        double error = 0;  ///< of each channel, as part of the white
-    };
-
-    Start start(const Film& film, double angle_deg, FilmOrders& orders) const {
+    /// T without fringes, and the orders.
+    double start(const Film& film, double angle_deg, FilmOrders& orders) const {
         const double cosine = cos_of_incidence(angle_deg);
         const std::array share = weights(request_.light, cosine);
-        Start result;
+        double T = 0;
         orders = {};
         for (std::size_t k = 0; k < 2; ++k) {
             if (share[k] == 0) continue;
             const auto series =
                 film_series(film, cosine, k == 0 ? Polarization::s : Polarization::p);
-            if (!series) return {0, film.base.imag() < 0 ? kInfinity : 1};
+            if (!series) throw no_series(angle_deg);
             orders.opd_nm = series->opd_nm;
             orders.weight[k] = share[k] * series->T;
             orders.bounce[k] = series->bounce;
-            result.T += orders.weight[k];
+            T += orders.weight[k];
         }
-        return result;
+        return T;
     }
 
-    void store(const Start& start, const OrderSum& sum, std::span<StackColor> colors) const {
+    void store(double T, const OrderSum& sum, std::span<StackColor> colors) const {
         const Triple& white = sensitivity_.white();
         Triple transmitted{};
-        for (std::size_t c = 0; c < 3; ++c) transmitted[c] = start.T * white[c] + sum.xyz[c];
-        const double error = start.error * std::ranges::max(white) + sum.error + kRounding;
+        for (std::size_t c = 0; c < 3; ++c) transmitted[c] = T * white[c] + sum.xyz[c];
+        const double error = limits_.last > 0 ? kInfinity : sum.error + kRounding;
         Lighting{white, request_.sides, method_, 1}.store(transmitted, error, colors);
     }
 
@@ -175,10 +171,17 @@ private:
 
 }  // namespace
 
-bool is_one_film(const Stack& stack) {
-    if (stack.elements.empty()) return true;
+std::string film_fault(const Stack& stack) {
+    if (stack.elements.empty()) return "";
     const Layer* layer = only_layer(stack);
-    return layer && layer->coherent && is_real(stack.materials[layer->material]);
+    if (!layer) return "more than one layer";
+    if (!layer->coherent) return "an incoherent one";
+    if (!is_real(stack.materials[layer->material])) return "k other than 0";
+    return "";
+}
+
+bool is_one_film(const Stack& stack) {
+    return film_fault(stack).empty();
 }
 
 Layer only_film(const Stack& stack) {
@@ -196,8 +199,9 @@ bool has_dispersion(const Stack& stack) {
 std::unique_ptr<ColorAlgorithm> film_color(const ColorTables& tables, const Stack& stack,
                                            const ColorMethod& method, const ColorRequest& request) {
     require_in_range("tolerance", request.tolerance, 1e-12, 1);
-    if (!is_one_film(stack))
-        throw DomainError("the Fourier method needs one coherent film of a real index over a base");
+    if (const std::string fault = film_fault(stack); !fault.empty())
+        throw DomainError("the Fourier series needs one coherent film of a real index (got " +
+                          fault + ")");
     if (!has_dispersion(stack))
         return std::make_unique<ConstantFilm>(tables, stack, method, request);
     return dispersive_film_color(tables, held_stack(stack, tables.sensitivity()), method, request);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "core/color/color_request.hpp"
 #include "core/color/color_tables.hpp"
@@ -10,6 +11,9 @@ namespace irido {
 /// Whether the stack is at most one coherent film of a real index over any base, as the Fourier
 /// method needs it.
 bool is_one_film(const Stack& stack);
+
+/// What the stack has instead, in words; "" for such a film.
+std::string film_fault(const Stack& stack);
 
 /// That film; where there is none, a layer of the incident medium without thickness.
 Layer only_film(const Stack& stack);
@@ -21,8 +25,8 @@ bool has_dispersion(const Stack& stack);
 ///     T_j = T_0 H_j(0) + 2 sum_m T_0 rho^m Re( exp(i m phi) H_j(m D) ),   R_j = H_j(0) - T_j,
 /// with FilmSeries's symbols and SensitivityTransform's H. `method` is fourier or fourier_constant.
 ///
-/// Constant indices: exact, and `error` bounds what is left. Past the film's critical angle there
-/// is no series: the colour of total reflection is returned, with the white as its error.
+/// Constant indices: exact, and `error` bounds what is left; it is infinite where method.count ends
+/// the series.
 /// A thickness_sigma_nm damps order m by exactly the spread of its path, (2 m n2 cos(theta2)
 /// sigma)^2. Its Gaussian is not cut at zero thickness, unlike StackPower's, which `error` allows
 /// for; orders are summed over all points of the sensitivity, some 20 us each.
@@ -35,8 +39,9 @@ bool has_dispersion(const Stack& stack);
 ///                     of its amplitude
 ///   fourier_constant  C_m, phi and D of each channel where BB17 has its peak: 600, 560 and 450 nm
 /// The tables must outlive the result.
-/// Throws DomainError if the stack is not one real film over a base, or a material is not known
-/// where it is asked for. Source: BB17 section 4 (eqs. 5, 6 and 10) and section 5.
+/// Throws DomainError if the stack is not one real film over a base, if there is no series at an
+/// angle (past the film's critical angle, or over a base that amplifies as much), or a material is
+/// not known where it is asked for. Source: BB17 section 4 (eqs. 5, 6 and 10) and section 5.
 std::unique_ptr<ColorAlgorithm> film_color(const ColorTables& tables, const Stack& stack,
                                            const ColorMethod& method, const ColorRequest& request);
 

@@ -18,6 +18,11 @@ namespace irido {
 /// Where BB17 takes the indices of X, Y and Z (section 4, Validation).
 inline constexpr std::array<double, 3> kPeaks_nm{600, 560, 450};
 
+inline DomainError no_series(double angle_deg) {
+    return DomainError("there is no Fourier series at " + to_text(angle_deg) +
+                       " degrees, past the film's critical angle or over a base that amplifies");
+}
+
 /// Share of the light in s and in p.
 inline std::array<double, 2> weights(Light light, double cos_theta) {
     if (light == Light::s || cos_theta == 1) return {1, 0};  // both are one at normal incidence

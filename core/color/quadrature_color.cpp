@@ -18,8 +18,9 @@ namespace {
 /// Past this exponent of attenuation nothing below returns a fringe.
 constexpr double kOpaqueExponent = 35;
 
-/// Layers computed for one spectrum before it is given up, and points that any stack may have.
-constexpr double kMostWork = 2e7, kFewestPoints = 4096;
+/// Layers computed for one spectrum before it is given up, about a second's worth of either kernel,
+/// and points that any stack may have.
+constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kFewestPoints = 4096;
 
 /// Points of a panel that is not cut any further.
 constexpr std::size_t kPanelPoints = 129;
@@ -130,9 +131,6 @@ public:
         }
         limits_.tolerance = request.tolerance;
         limits_.simd = request.simd;
-        limits_.evaluations = std::min(
-            request.evaluations,
-            static_cast<std::size_t>(std::max(kFewestPoints, kMostWork / work_of(stack.elements))));
         reflected_ = std::ranges::find(request.sides, Side::reflected) != request.sides.end();
         transmitted_ = std::ranges::find(request.sides, Side::transmitted) != request.sides.end();
     }
@@ -149,9 +147,14 @@ public:
                           .denominators = true};
         const SpectrumKernel kernel(power, absorbs_, amplifies_, needs, request_.simd);
         const std::size_t sides = request_.sides.size();
+        IntegrationLimits limits = limits_;
+        const double most = kernel.is_vectorized() ? kMostVectorWork : kMostPlainWork;
+        limits.evaluations = static_cast<std::size_t>(
+            std::min(static_cast<double>(request_.evaluations),
+                     std::max(kFewestPoints, most / work_of(stack.elements))));
         const Pool<Scratch>::Loan scratch = scratch_.borrow();
         for (std::size_t i = 0; i < angles_deg.size(); ++i)
-            integrate(kernel, stack, cos_of_incidence(angles_deg[i]),
+            integrate(kernel, stack, cos_of_incidence(angles_deg[i]), limits,
                       colors.subspan(i * sides, sides), *scratch);
     }
 
@@ -182,7 +185,8 @@ private:
     }
 
     void integrate(const SpectrumKernel& kernel, const Stack& stack, double cos_theta,
-                   std::span<StackColor> colors, Scratch& scratch) const {
+                   const IntegrationLimits& limits, std::span<StackColor> colors,
+                   Scratch& scratch) const {
         const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.media));
         const PanelTree::Start& start = start_of(path);
         // at normal incidence one polarization stands for both
@@ -195,7 +199,7 @@ private:
             fill(with_s ? at.s : at.p, with_s && with_p ? &at.p : nullptr, samples);
         };
         scratch.integrals.resize(colors.size());
-        integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, limits_,
+        integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, limits,
                         scratch.integration, scratch.integrals);
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = {scratch.integrals[i].xyz, scratch.integrals[i].error,
@@ -208,7 +212,7 @@ private:
         if (start) return *start;
         start = std::make_unique<PanelTree::Start>(
             tree_.start(panels_of(pieces_, path_of_class(path)), request_.tolerance,
-                        limits_.evaluations / kPanelPoints / 4));
+                        request_.evaluations / kPanelPoints / 4));
         if (constant_)
             start->points.indices =
                 std::make_unique<IndexTable>(held_, start->points.wavelength_nm);

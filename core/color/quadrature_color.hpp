@@ -11,7 +11,7 @@ namespace irido {
 /// piece of the spectrum between two kinks of the materials is a panel, and panels whose fringes
 /// or resonances are not resolved are halved. `error` is an honest estimate; it exceeds the
 /// tolerance where the effort ran out: request.evaluations, or earlier for stacks of many layers,
-/// after about 2e7 layers' worth of work. A colour does not depend on the other angles of a call.
+/// after about a second of work. A colour does not depend on the other angles of a call.
 /// Throws DomainError as StackPower and IndexTable do.
 std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
                                                  const ColorRequest& request);

@@ -29,7 +29,7 @@ double quadrature_us(double colors, double path_um) {
     return kRules + kRulesPerPath * path_um + colors * (kColor + kColorPerPath * path_um);
 }
 
-/// Errors are measured against quadrature of this tolerance.
+/// Errors are measured against colours of this tolerance.
 constexpr double kMeasuringTolerance = 1e-9;
 
 /// Whether the series is the better way; quadrature takes very long over spread thicknesses.
@@ -53,11 +53,12 @@ public:
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
-        (*series_)(stack, angles_deg, colors);
         const std::size_t sides = request_.sides.size();
+        const bool all = try_series(stack, angles_deg, colors);
         for (std::size_t i = 0; i < angles_deg.size(); ++i) {
             const std::span<StackColor> of_angle = colors.subspan(i * sides, sides);
-            if (std::ranges::all_of(of_angle, [&](const StackColor& color) {
+            const bool is_there = all || try_series(stack, angles_deg.subspan(i, 1), of_angle);
+            if (is_there && std::ranges::all_of(of_angle, [&](const StackColor& color) {
                     return color.error <= request_.tolerance;
                 }))
                 continue;
@@ -70,6 +71,17 @@ public:
     }
 
 private:
+    /// False if an angle has no series.
+    bool try_series(const Stack& stack, std::span<const double> angles_deg,
+                    std::span<StackColor> colors) const {
+        try {
+            (*series_)(stack, angles_deg, colors);
+            return true;
+        } catch (const DomainError&) {
+            return false;
+        }
+    }
+
     const ColorTables& tables_;
     Stack stack_;
     ColorRequest request_;
@@ -125,7 +137,7 @@ bool measure_errors(const ColorTables& tables, const Stack& stack, const ColorRe
     ColorRequest exactly = request;
     exactly.tolerance = std::min(request.tolerance, kMeasuringTolerance);
     const std::vector<StackColor> exact =
-        stack_color(tables, stack, {ColorMethod::Kind::quadrature}, exactly, angles_deg, threads);
+        stack_color(tables, stack, {}, exactly, angles_deg, threads);
     for (std::size_t i = 0; i < colors.size(); ++i) {
         if (std::isfinite(colors[i].error)) continue;
         colors[i].error = exact[i].error;

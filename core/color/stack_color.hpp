@@ -27,8 +27,8 @@ std::vector<StackColor> stack_color(const ColorTables& tables, const Stack& stac
                                     const ColorMethod& method, const ColorRequest& request,
                                     std::span<const double> angles_deg, unsigned threads = 1);
 
-/// Gives colours of stack_color() with an infinite error their distance from quadrature's colour,
-/// and its own error; returns whether there were any.
+/// Gives colours of stack_color() with an infinite error their distance from the colour by auto,
+/// and the error of that; returns whether there were any.
 bool measure_errors(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
                     std::span<const double> angles_deg, unsigned threads,
                     std::span<StackColor> colors);

@@ -89,6 +89,9 @@ public:
     void operator()(const IndexTable& table, std::span<const double> cos_theta, Spectra& out,
                     SpectrumMemory& memory) const;
 
+    /// Whether the vector kernel takes the stack, but for the largest phases.
+    bool is_vectorized() const { return program_.has_value(); }
+
     /// How the call above goes about it.
     Work work(const IndexTable& table, std::span<const double> cos_theta) const;
 

@@ -16,8 +16,8 @@ constexpr double kPanelHeight = 150, kPanelTitle = 20, kTicks = 26, kLegendRow =
 constexpr double kPanelWidth = (kWidth - kLeft - kRight - (kColumns - 1) * kGap) / kColumns;
 constexpr double kLegendEntry = 146;
 
-constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                             "#000000", "#e69f00", "#56b4e9", "#7f7f7f"};
+constexpr std::array kColors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000",
+                             "#e69f00", "#56b4e9", "#7f7f7f", "#8c510a"};
 
 struct Box {
     double left, top, right, bottom;

@@ -107,6 +107,7 @@ TEST_CASE("what cm cannot answer is refused", "[cli][cm]") {
     check_refused(run_irido({"cm", kFilm, "--side", "A"}), "--side: must be R, T or both");
     check_refused(run_irido({"cm", kFilm, "--orders", "0:1:0.5"}), "--orders: must be whole");
     check_refused(run_irido({"cm", kFilm, "--orders", "-1"}), "--orders");
+    check_refused(run_irido({"cm", kFilm, "--orders", "0:1000000:1", "-a", "0:90:1"}), "1e+07");
     check_refused(run_irido({"cm", kFilm, "--at", "0"}), "--at");
     check_refused(run_irido({"cm", kFilm, "-a", "91"}), "--angles");
     check_refused(run_irido({"cm", "air | SiO2@300 | Si", "--at", "100000"}), "SiO2");

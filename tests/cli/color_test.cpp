@@ -130,7 +130,8 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
         {{"--side", "R,R"}, "--side: must be R, T or both"},
         {{"--method", "guess"}, "--method: must be one of auto, quadrature, fourier"},
         {{"--method", "naive/3"}, "--method: naive takes no number (got naive/3)"},
-        {{"--method", "equal/1"}, "--method: must be in [2, 1e+06] (got 1)"},
+        {{"--method", "equal/1"}, "--method: the number of equal: must be in [2, 1e+06] (got 1)"},
+        {{"--method", "fourrier"}, "(did you mean \"fourier\"?)"},
         {{"--method", "equal/x"}, "--method: "},
         {{"--adaptation", "cat02"}, "--adaptation: must be one of bradford, none"},
         {{"--tolerance", "0"}, "--tolerance: must be in [1e-12, 1] (got 0)"},
@@ -174,6 +175,10 @@ TEST_CASE("methods that are not exact say how far they are off", "[cli][color]")
         CHECK(std::abs(std::stod(series[c]) - std::stod(exact[c])) < 1e-6);
     CHECK(row_of({"color", film, "--stats"})[12] == "quadrature");
     CHECK(row_of({"color", "1 | 1.5@1e9 | 1", "--stats"})[12] == "fourier");
+    check_refused(run_irido({"color", "1.5 | 1@300 | 1.5", "-a", "42", "--method", "fourier"}),
+                  "there is no Fourier series at 42 degrees");
+    check_refused(run_irido({"color", "1 | TiO2@300 | 1", "--method", "fourier"}),
+                  "(got k other than 0)");
     for (const std::string method : {"fourier", "fourier-constant", "gaussian", "gltf", "smits"})
         check_refused(run_irido({"color", "1 | 1.5@525 | 1.3@70 | 1", "--method", method}), "film");
 }

@@ -94,7 +94,8 @@ TEST_CASE("CSV spectrum", "[csv]") {
     CHECK(read_spectrum_csv("nm,value\n400,0\n500,2.5\n", "s.csv") == Table{{400, 500}, {0, 2.5}});
     CHECK(spectrum_error("400,1\n") == "s.csv: must have at least 2 rows (got 1)");
     CHECK(spectrum_error("400,1\n500,-1\n") ==
-          "s.csv: 2:5: the value must not be negative (got -1)");
-    CHECK(spectrum_error("400,0\n500,0\n") == "s.csv: the values must not all be 0");
+          "s.csv: 2:5: the value must be in [0, 1e+30] (got -1)");
+    CHECK(spectrum_error("400,0\n500,0\n") ==
+          "s.csv: the largest value must be at least 1e-30 (got 0)");
     CHECK(spectrum_error("400,1,1\n500,1,1\n") == "s.csv: 1:1: must have 2 columns (got 3)");
 }

@@ -197,12 +197,19 @@ TEST_CASE("a spread that reaches zero thickness says how much that matters", "[f
     }
 }
 
-TEST_CASE("a film of no series is an honest failure", "[film_color]") {
+TEST_CASE("an angle without a series is refused, and auto does without it", "[film_color]") {
     const Stack stack = one_film(1.2, 200, 1.6, 1.5);
-    const StackColor past = color(stack, 70);
-    CHECK(past.xyz == d65().sensitivity().white());
-    CHECK(past.error >= difference(past.xyz, quadrature(stack, 70, Side::reflected, 1e-9).xyz));
     CHECK(color(stack, 20).error < 1e-6);
+    for (const Stack& without : {stack, one_film(2.5, 400, {2.5, -0.2})})
+        CHECK_THROWS_WITH(color(without, 70), Catch::Contains("no Fourier series at 70 degrees"));
+    const std::vector<double> angles{20, 70};
+    const std::vector<StackColor> by_auto =
+        stack_color(d65(), stack, {}, {.colors = 1000000}, angles);
+    CHECK(by_auto[0].method == Method::fourier);
+    CHECK(by_auto[1].method == Method::quadrature);
+    for (std::size_t i = 0; i < angles.size(); ++i)
+        CHECK(difference(by_auto[i].xyz, quadrature(stack, angles[i], Side::reflected, 1e-9).xyz) <
+              1e-6);
     // fringes past the end of the table are left out, and counted
     const Stack thick = one_film(1.5, 1e9, 2.5);
     CHECK(color(thick, 0).error < 1e-6);  // even their bound is small
