@@ -19,6 +19,7 @@ using Run = std::function<int()>;
 void add_spectrum_command(CLI::App& program, Run& run);
 void add_color_command(CLI::App& program, Run& run);
 void add_cm_command(CLI::App& program, Run& run);
+void add_bands_command(CLI::App& program, Run& run);
 void add_materials_command(CLI::App& program, Run& run);
 void add_validate_command(CLI::App& program, Run& run);
 void add_bench_command(CLI::App& program, Run& run);

@@ -75,6 +75,7 @@ int run_program(int argc, char** argv) {
     add_spectrum_command(program, run);
     add_color_command(program, run);
     add_cm_command(program, run);
+    add_bands_command(program, run);
     add_materials_command(program, run);
     add_validate_command(program, run);
     add_bench_command(program, run);
