@@ -5,9 +5,9 @@
 #include <memory>
 #include <numbers>
 
-#include "cli/bragg_mirror.hpp"
 #include "cli/command.hpp"
 #include "core/error.hpp"
+#include "core/interference/bragg_mirror.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/atomic_file.hpp"
 #include "tables/formats/band_diagram.hpp"
@@ -187,8 +187,8 @@ int run_bands(const BandsOptions& options) {
         throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
     const StackDocument document = read_stack(options.stack);
     for (const std::string& text : document.notes) note(text, options.quiet);
-    const BraggMirror mirror(document, request.first_nm, request.last_nm);
     try {
+        const BraggMirror mirror(document.stack, request.first_nm, request.last_nm);
         const Records records =
             options.gaps ? gap_records(request, mirror) : landmark_records(request, mirror);
         const std::string title = document.name.empty() ? options.stack.stack : document.name;

@@ -1,4 +1,4 @@
-#include "cli/bragg_mirror.hpp"
+#include "core/interference/bragg_mirror.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/interference/spectrum.hpp"
-#include "schemas/input_error.hpp"
 
 namespace irido {
 
@@ -38,8 +37,7 @@ std::vector<Element> without_single_groups(const std::vector<Element>& elements)
 
 }  // namespace
 
-BraggMirror::BraggMirror(const StackDocument& document, double first_nm, double last_nm)
-    : file_(document.file), stack_(document.stack) {
+BraggMirror::BraggMirror(Stack stack, double first_nm, double last_nm) : stack_(std::move(stack)) {
     stack_.elements = without_single_groups(stack_.elements);
     find_pair();
     check_indices(first_nm, last_nm);
@@ -47,7 +45,7 @@ BraggMirror::BraggMirror(const StackDocument& document, double first_nm, double 
 }
 
 void BraggMirror::find_pair() {
-    const InputError none(file_, "", "bands needs one repeated group of two coherent layers");
+    const DomainError none("a Bragg mirror needs one repeated group of two coherent layers");
     std::size_t groups = 0;
     for (std::size_t i = 0; i < stack_.elements.size(); ++i) {
         const Group* group = std::get_if<Group>(&stack_.elements[i].value);
@@ -68,18 +66,15 @@ void BraggMirror::check_indices(double first_nm, double last_nm) {
     for (int i = 1; i < kSamples; ++i)
         wavelengths.push_back(first_nm + (last_nm - first_nm) * i / kSamples);
     wavelengths.push_back(last_nm);
-    try {
-        const IndexTable table(stack_, std::move(wavelengths));
-        for (const Layer& layer : pair_)
-            for (const double k : table.k(layer.material))
-                left_out_k_ = std::max(left_out_k_, std::abs(k));
-    } catch (const DomainError& error) {
-        throw InputError(file_, "", error.what());
-    }
+    const IndexTable table(stack_, std::move(wavelengths));
+    for (const Layer& layer : pair_)
+        for (const double k : table.k(layer.material))
+            left_out_k_ = std::max(left_out_k_, std::abs(k));
     if (left_out_k_ > kLargestK)
-        throw InputError(file_, "",
-                         "bands needs two transparent layers, k in [-0.1, 0.1] (got " +
-                             to_text(left_out_k_) + ")");
+        throw DomainError(
+            "the two layers of a Bragg mirror must be transparent, k in [-0.1, 0.1] "
+            "(got " +
+            to_text(left_out_k_) + ")");
 }
 
 double BraggMirror::index(std::size_t material, double omega) const {
@@ -95,8 +90,7 @@ BraggPeriod BraggMirror::period(double angle_deg, Polarization polarization, dou
         return bragg_period(first, second, index(stack_.incident, omega),
                             cos_of_incidence(angle_deg), polarization);
     } catch (const DomainError& error) {
-        throw InputError(file_, "",
-                         std::string(error.what()) + ", at " + to_text(angle_deg) + " degrees");
+        throw DomainError(std::string(error.what()) + ", at " + to_text(angle_deg) + " degrees");
     }
 }
 
@@ -116,15 +110,11 @@ double BraggMirror::reflectance(double angle_deg, Polarization polarization, dou
     needs.s = is_s;
     needs.p = !is_s;
     needs.T = needs.A = false;
-    try {
-        const StackPower power(stack);
-        const IndexTable table(stack, {kTurn / omega});
-        const std::array cosine{cos_of_incidence(angle_deg)};
-        const Spectra result = spectra(power, table, cosine, needs, {1, SimdLevel::plain});
-        return (is_s ? result.s : result.p).R[0];
-    } catch (const DomainError& error) {
-        throw InputError(file_, "", error.what());
-    }
+    const StackPower power(stack);
+    const IndexTable table(stack, {kTurn / omega});
+    const std::array cosine{cos_of_incidence(angle_deg)};
+    const Spectra result = spectra(power, table, cosine, needs, {1, SimdLevel::plain});
+    return (is_s ? result.s : result.p).R[0];
 }
 
 BraggMirror::Periods BraggMirror::periods_needed(double angle_deg, Polarization polarization,

@@ -4,17 +4,17 @@
 #include <cstdint>
 
 #include "core/interference/bragg.hpp"
-#include "schemas/stack_document.hpp"
+#include "core/stack/stack.hpp"
 
 namespace irido {
 
 /// A stack that has one repeated group of two coherent, transparent layers, and any others around
-/// it. Angles in degrees, omega = 2 pi / wavelength in 1/nm. All throw InputError.
+/// it. Angles in degrees, omega = 2 pi / wavelength in 1/nm. All throw DomainError.
 class BraggMirror {
 public:
     /// Materials must be known from first_nm to last_nm, the group's with k in [-0.1, 0.1];
     /// landmarks beyond have the indices of the ends of what is known.
-    BraggMirror(const StackDocument& document, double first_nm, double last_nm);
+    BraggMirror(Stack stack, double first_nm, double last_nm);
 
     /// Largest k of the two layers, which their landmarks leave out.
     double left_out_k() const { return left_out_k_; }
@@ -44,7 +44,6 @@ private:
     void find_pair();
     void check_indices(double first_nm, double last_nm);
 
-    std::string file_;
     Stack stack_;
     std::size_t place_ = 0;  ///< of the group among the stack's elements
     std::array<Layer, 2> pair_;
