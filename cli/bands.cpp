@@ -24,7 +24,7 @@ struct BandsOptions {
     std::string polarization = "s,p";
     std::string range = "360:830";
     bool gaps = false;
-    std::string plot;
+    std::optional<std::string> plot;
     OutputOptions output;
     bool quiet = false;
 };
@@ -182,7 +182,8 @@ std::string picture(const BandsRequest& request, const BraggMirror& mirror,
 int run_bands(const BandsOptions& options) {
     resolved_record_format(options.output);
     const BandsRequest request = parse(options);
-    if (!options.plot.empty() &&
+    check_plot(options.plot, options.output);
+    if (options.plot &&
         std::ranges::min(request.angles_deg) == std::ranges::max(request.angles_deg))
         throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
     const StackDocument document = read_stack(options.stack);
@@ -192,13 +193,13 @@ int run_bands(const BandsOptions& options) {
         const Records records =
             options.gaps ? gap_records(request, mirror) : landmark_records(request, mirror);
         const std::string title = document.name.empty() ? options.stack.stack : document.name;
-        const std::string drawn = options.plot.empty() ? "" : picture(request, mirror, title);
+        const std::string drawn = options.plot ? picture(request, mirror, title) : "";
         if (mirror.left_out_k() > 0)
             note("the absorption of the two layers (k up to " + to_text(mirror.left_out_k()) +
                      ") is left out of landmarks and gaps",
                  options.quiet);
-        if (!drawn.empty()) write_file(options.plot, drawn);
         write_records(records, options.output);
+        if (options.plot) write_file(*options.plot, drawn);
     } catch (const DomainError& error) {
         throw InputError(document.file, "", error.what());
     }
@@ -244,7 +245,9 @@ void add_bands_command(CLI::App& program, Run& run) {
         "    zero z  b = z pi          airy m  cos(KL) = 0 between the modes m and m + 1.\n"
         "Closed gaps have two equal edges. Every landmark has the indices at its own wavelength\n"
         "(edges of a gap past what is known of a material: those at its end). A k up to 0.1 and\n"
-        "thickness_sigma_nm are left out of landmarks, but not of R.");
+        "thickness_sigma_nm are left out of landmarks, but not of R. An angle past the\n"
+        "critical angle of a layer is an error, as is dispersion so anomalous that the phase\n"
+        "of a layer grows with the wavelength.");
     command->callback([options, &run] { run = [options] { return run_bands(*options); }; });
 }
 

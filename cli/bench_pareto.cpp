@@ -164,12 +164,8 @@ std::string picture(const std::vector<std::vector<Row>>& cases) {
 
 int run_pareto(const ParetoOptions& options) {
     resolved_record_format(options.output);
-    if (options.plot && !options.plot->ends_with(".svg"))
-        throw UsageError("--plot: must end in .svg (got '" + *options.plot + "')");
-    if (options.plot && *options.plot == options.output.file)
-        throw UsageError("--plot: must be another file than --output");
     check_writable(options.output);
-    check_writable({options.plot.value_or(""), "svg"});
+    check_plot(options.plot, options.output);
     const std::uint64_t count = parse_whole_number("--count", options.count, 1, kLargestCount);
     const std::uint64_t seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
     const double seconds = parse_one_number("--time", options.time, 0.0001, 60);

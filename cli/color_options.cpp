@@ -37,6 +37,7 @@ constexpr std::array kMethods{
 
 std::vector<std::string_view> method_names() {
     std::vector<std::string_view> names;
+    names.reserve(kMethods.size());
     for (const NamedMethod& method : kMethods) names.push_back(method.name);
     return names;
 }

@@ -107,6 +107,14 @@ void check_writable(const OutputOptions& output) {
         throw UsageError(output.file + ": cannot be written: " + std::strerror(errno));
 }
 
+void check_plot(const std::optional<std::string>& plot, const OutputOptions& output) {
+    if (!plot) return;
+    if (!plot->ends_with(".svg"))
+        throw UsageError("--plot: must end in .svg (got '" + *plot + "')");
+    if (*plot == output.file) throw UsageError("--plot: must be another file than --output");
+    check_writable({*plot, "svg"});
+}
+
 void write_records(const Records& records, const OutputOptions& output) {
     const RecordFormat& format = resolved_record_format(output);
     write_bytes(format.write(records), output, format.name == "npy");

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,9 @@ const RecordFormat& resolved_record_format(const OutputOptions& output,
 
 /// Throws UsageError if a file could not be written there: before a long computation.
 void check_writable(const OutputOptions& output);
+
+/// Throws UsageError if a picture cannot be drawn into `plot` beside that output.
+void check_plot(const std::optional<std::string>& plot, const OutputOptions& output);
 
 /// Writes records to the file or to standard output.
 void write_records(const Records& records, const OutputOptions& output);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -123,6 +124,32 @@ struct TurnRange {
     double most = 0;
 };
 
+/// Landmarks are where the phases say only if both grow with omega. Looked at somewhat beyond the
+/// range too, where ends of gaps are, as far as there is a period.
+void require_growing_phases(const PeriodAt& period, const OmegaRange& range) {
+    constexpr int kSamples = 2000;
+    constexpr double kBeyond = 1.5;
+    const double low = range.low_per_nm / kBeyond, high = range.high_per_nm * kBeyond;
+    double a = 0, b = 0;
+    for (int i = 0; i <= kSamples; ++i) {
+        const double omega = low + (high - low) * (i / double{kSamples});
+        BraggPeriod at;
+        try {
+            at = period(omega);
+        } catch (const DomainError&) {
+            if (omega >= range.low_per_nm && omega <= range.high_per_nm) throw;
+            continue;
+        }
+        const double next_a = omega * at.path1_nm, next_b = omega * at.path2_nm;
+        if (next_a < a || next_b < b)
+            throw DomainError("the phase of a layer must grow with 1/wavelength (it falls near " +
+                              to_text(std::round(2 * kPi / omega)) +
+                              " nm): its landmarks are not unique");
+        a = next_a;
+        b = next_b;
+    }
+}
+
 template <class Path>
 TurnRange turns_in(const PeriodAt& period, const OmegaRange& range, const Path& path) {
     constexpr int kSamples = 64;
@@ -139,6 +166,14 @@ TurnRange turns_in(const PeriodAt& period, const OmegaRange& range, const Path& 
                           " in the range (got " + to_text(std::ceil(result.most - result.least)) +
                           ")");
     return result;
+}
+
+/// The whole numbers below and above.
+std::int64_t first_order(double turns, std::int64_t least) {
+    return std::max(least, static_cast<std::int64_t>(std::floor(turns)));
+}
+std::int64_t last_order(const TurnRange& range) {
+    return static_cast<std::int64_t>(std::floor(range.most)) + 1;
 }
 
 }  // namespace
@@ -208,8 +243,10 @@ std::vector<Landmark> landmarks(const PeriodAt& period, const OmegaRange& range)
         if (omega >= range.low_per_nm && omega <= range.high_per_nm)
             found.push_back({kind, order, omega});
     };
+    require_growing_phases(period, range);
     const TurnRange all = turns_in(period, range, total_path);
-    for (double m = std::max(0.0, std::floor(all.least) - 1); m <= all.most + 1; ++m) {
+    for (std::int64_t i = first_order(all.least - 1, 0); i <= last_order(all); ++i) {
+        const auto m = static_cast<double>(i);
         if (m > 0) {
             const BandGap gap = band_gap(period, m);
             keep(LandmarkKind::edge, m, gap.low_per_nm);
@@ -222,19 +259,22 @@ std::vector<Landmark> landmarks(const PeriodAt& period, const OmegaRange& range)
     }
     const TurnRange zeros =
         turns_in(period, range, [](const BraggPeriod& at) { return at.path2_nm; });
-    for (double z = std::max(1.0, std::floor(zeros.least)); z <= zeros.most + 1 && zeros.most > 0;
-         ++z)
+    for (std::int64_t i = first_order(zeros.least, 1); zeros.most > 0 && i <= last_order(zeros);
+         ++i) {
+        const auto z = static_cast<double>(i);
         keep(LandmarkKind::zero, z,
              self_consistent([&](double omega) { return omega_of_zero(period(omega), z); }));
+    }
     std::ranges::stable_sort(found, {}, &Landmark::omega_per_nm);
     return found;
 }
 
 std::vector<BandGap> band_gaps(const PeriodAt& period, const OmegaRange& range) {
     std::vector<BandGap> found;
+    require_growing_phases(period, range);
     const TurnRange all = turns_in(period, range, total_path);
-    for (double m = std::max(1.0, std::floor(all.least) - 1); m <= all.most + 1; ++m) {
-        const BandGap gap = band_gap(period, m);
+    for (std::int64_t i = first_order(all.least - 1, 1); i <= last_order(all); ++i) {
+        const BandGap gap = band_gap(period, static_cast<double>(i));
         if (gap.high_per_nm >= range.low_per_nm && gap.low_per_nm <= range.high_per_nm)
             found.push_back(gap);
     }

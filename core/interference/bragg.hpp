@@ -66,8 +66,8 @@ BandGap band_gap(const BraggPeriod& period, double order);
 /// A period whose indices depend on omega, for any omega > 0. May throw.
 using PeriodAt = std::function<BraggPeriod(double omega_per_nm)>;
 
-/// The gap whose ends are each taken with the indices at its own wavelength. If anomalous
-/// dispersion makes several of them, one.
+/// The gap whose ends are each taken with the indices at its own wavelength; one of them, if the
+/// phases do not grow with omega everywhere.
 BandGap band_gap(const PeriodAt& period, double order);
 
 /// Closed range of omega, 1/nm; 0 < low <= high.
@@ -77,7 +77,7 @@ struct OmegaRange {
 
 /// All landmarks in a range, each with the indices at its own wavelength, by ascending omega; where
 /// they coincide edges stand around their mode. Throws DomainError if they are of more than
-/// kMostOrders orders.
+/// kMostOrders orders, or if anomalous dispersion lets the phase of a layer fall with omega.
 std::vector<Landmark> landmarks(const PeriodAt& period, const OmegaRange& range);
 
 /// All gaps, closed ones too, that have a point in the range, by ascending order.

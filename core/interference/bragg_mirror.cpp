@@ -131,8 +131,12 @@ BraggMirror::Periods BraggMirror::periods_needed(double angle_deg, Polarization 
     std::uint64_t low = kOneByOne;
     for (; level < needed.size(); ++level) {
         std::uint64_t high = low;
-        while (high < kMost && R(high) < kReflectances[level]) high = std::min(2 * high, kMost);
-        if (R(high) < kReflectances[level]) break;
+        try {
+            while (high < kMost && R(high) < kReflectances[level]) high = std::min(2 * high, kMost);
+            if (R(high) < kReflectances[level]) break;
+        } catch (const DomainError&) {
+            break;  // a spread thickness has no mean over so many periods
+        }
         while (high - low > 1) {
             const std::uint64_t middle = low + (high - low) / 2;
             (R(middle) < kReflectances[level] ? low : high) = middle;

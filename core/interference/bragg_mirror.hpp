@@ -30,7 +30,8 @@ public:
     using Periods = std::array<double, kReflectances.size()>;
 
     /// Smallest numbers of periods for which the whole stack reflects kReflectances, 0 where none
-    /// up to 1e9 does. Inside a gap; beyond 64 periods R is taken to grow with their number.
+    /// up to 1e9 does, or none that can be computed. Inside a gap; beyond 64 periods R is taken to
+    /// grow with their number.
     Periods periods_needed(double angle_deg, Polarization polarization, double omega) const;
 
     /// Whether some wavelength lies inside the gap of this order at every angle in both

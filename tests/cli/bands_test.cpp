@@ -199,7 +199,35 @@ TEST_CASE("what bands cannot answer is refused", "[cli][bands]") {
         refused({kMirror, "--range", range}, "--range");
     refused({kMirror, "-a", "91"}, "--angles");
     refused({kMirror, "--plot", "x.svg"}, "--plot: needs several angles");
+    refused({kMirror, "-a", "0,1", "--plot", "x.png"}, "--plot: must end in .svg");
+    refused({kMirror, "-a", "0,1", "--plot", "x.svg", "-o", "x.svg", "-f", "csv"}, "another file");
     refused({kMirror, "-f", "svg"}, "--format");
+}
+
+TEST_CASE("landmarks that are not unique are refused", "[cli][bands][refused]") {
+    // n goes from 1.5 to 2.5 between 450 and 500 nm: the phase falls with 1/wavelength there
+    const std::string stack = R"({"incident": 1, "layers": [{"repeat": 8, "layers": [
+        {"material": 1.3, "thickness_nm": 150},
+        {"material": {"table": [[300, 1.5, 0], [450, 1.5, 0], [500, 2.5, 0], [900, 2.5, 0]]},
+         "thickness_nm": 300}]}], "substrate": 1})";
+    for (const std::string what : {"--quiet", "--gaps"})
+        check_refused(run_irido({"bands", "-", "-p", "s", what}, stack),
+                      "the phase of a layer must grow with 1/wavelength (it falls near 500 nm)");
+    CHECK(run_irido({"bands", "-", "--range", "800:880"}, stack).status == 0);
+}
+
+TEST_CASE("periods of spread thicknesses are counted as far as they can be", "[cli][bands]") {
+    const Outcome outcome = run_irido({"bands", "-", "-p", "s", "--gaps"}, R"({"incident": 1,
+        "layers": [{"repeat": 5, "layers": [
+            {"material": 1, "thickness_nm": 200, "thickness_sigma_nm": 5},
+            {"material": 1.5, "thickness_nm": 180}]}], "substrate": 1})");
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const auto rows = parse_csv(outcome.out);
+    const auto column = static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), "N_95") -
+                                                 rows[0].begin());
+    CHECK(std::stod(rows.at(1).at(column)) > 5);
+    CHECK(std::stod(rows.at(1).at(column + 2)) == 0);
 }
 
 TEST_CASE("help of bands says what it is for, with examples that work", "[cli][bands]") {
