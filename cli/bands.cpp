@@ -132,7 +132,7 @@ Records gap_records(const BandsRequest& request, const BraggMirror& mirror) {
                 shorter.push_back(short_nm);
                 longer.push_back(long_nm);
                 width.push_back(long_nm - short_nm);
-                R.push_back(mirror.reflectance(angle_deg, p, middle, 0));
+                R.push_back(mirror.reflectance(angle_deg, p, middle));
                 centre.push_back(kTurn / middle);
                 BraggMirror::Periods needed{};
                 if (gap.is_open()) needed = mirror.periods_needed(angle_deg, p, middle);

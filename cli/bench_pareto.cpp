@@ -4,6 +4,7 @@
 
 #include "cli/bench.hpp"
 #include "cli/color_comparison.hpp"
+#include "cli/color_options.hpp"
 #include "core/color/illuminant.hpp"
 #include "tables/formats/plot.hpp"
 
@@ -24,25 +25,26 @@ struct ParetoOptions {
 
 /// Tolerances 10^-2 to 10^-last, or counts of something, of one method.
 struct Candidate {
-    std::string_view name;
     ColorMethod::Kind kind;
     int last_power;  ///< 0 for no tolerances
     std::vector<std::size_t> counts;
     bool is_exact;  ///< as exact as asked: compared with equal wavelengths
+
+    std::string name() const { return name_of(ColorMethod{kind}); }
 };
 
 const std::vector<Candidate>& candidates() {
     using enum ColorMethod::Kind;
     static const std::vector<Candidate> all{
-        {"quadrature", quadrature, 10, {}, true},
-        {"fourier", fourier, 8, {1, 2, 3}, true},
-        {"fourier-constant", fourier_constant, 8, {}, false},
-        {"auto", automatic, 10, {}, true},
-        {"equal", equal, 0, {8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, false},
-        {"naive", naive, 0, {0}, false},
-        {"gaussian", gaussian, 0, {0}, false},
-        {"gltf", gltf, 0, {0}, false},
-        {"smits", smits, 0, {0}, false},
+        {quadrature, 10, {}, true},
+        {fourier, 8, {1, 2, 3}, true},
+        {fourier_constant, 8, {}, false},
+        {automatic, 10, {}, true},
+        {equal, 0, {8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, false},
+        {naive, 0, {0}, false},
+        {gaussian, 0, {0}, false},
+        {gltf, 0, {0}, false},
+        {smits, 0, {0}, false},
     };
     return all;
 }
@@ -81,7 +83,7 @@ Records to_records(const std::vector<Row>& rows) {
     Column::Texts cases, methods, stacks, hexes, exact;
     for (const Row& row : rows) {
         cases.emplace_back(row.of);
-        methods.emplace_back(candidates()[row.candidate].name);
+        methods.push_back(candidates()[row.candidate].name());
         stacks.push_back(row.report.worst_stack);
         hexes.push_back(row.report.worst_hex);
         exact.push_back(row.report.exact_hex);
@@ -130,7 +132,7 @@ std::vector<Plot::Point> front(const std::vector<Row>& rows) {
 Plot::Panel panel_of(const std::vector<Row>& rows, std::vector<std::string>& names) {
     Plot::Panel panel{std::string(rows.front().of), front(rows), {}};
     for (const Row& row : rows) {
-        const std::string name(candidates()[row.candidate].name);
+        const std::string name = candidates()[row.candidate].name();
         const auto known = std::ranges::find(names, name);
         const auto kind = static_cast<std::size_t>(known - names.begin());
         if (known == names.end()) names.push_back(name);

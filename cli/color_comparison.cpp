@@ -21,12 +21,6 @@ std::size_t colors_of(const ColorFamily& family) {
     return family.variants.size() * family.angles_deg.size();
 }
 
-double largest_difference(const Triple& a, const Triple& b) {
-    double largest = 0;
-    for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
-    return largest;
-}
-
 }  // namespace
 
 ColorComparison::ColorComparison(const ColorTables& tables, std::vector<ColorFamily> families,

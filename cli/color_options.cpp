@@ -81,7 +81,8 @@ const Observer& parse_observer(const std::string& text) {
 }
 
 double parse_tolerance(const std::string& text) {
-    return text.empty() ? kDefaultTolerance : parse_one_number("--tolerance", text, 1e-12, 1);
+    return text.empty() ? ColorRequest().tolerance
+                        : parse_one_number("--tolerance", text, 1e-12, 1);
 }
 
 ColorMethod parse_method(const std::string& text) {

@@ -19,9 +19,8 @@ struct ColorOptions {
     std::string space = "srgb";
     std::string adaptation = "bradford";
     std::string method = "auto";
-    std::string tolerance;  ///< "" for kDefaultTolerance
+    std::string tolerance;  ///< "" for that of ColorRequest
 };
-inline constexpr double kDefaultTolerance = 1e-6;
 
 void add_color_options(CLI::App& command, ColorOptions& options);
 

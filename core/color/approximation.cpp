@@ -29,20 +29,14 @@ public:
     SampledColor(const Sensitivity& sensitivity, std::shared_ptr<const SampleRule> rule,
                  const Stack& stack, ColorMethod::Kind kind, const ColorRequest& request)
         : rule_(std::move(rule)),
-          stride_((rule_->wavelength_nm.size() + kMostLanes - 1) / kMostLanes * kMostLanes),
+          stride_(whole_vectors(rule_->wavelength_nm.size())),
           table_(held_stack(stack, sensitivity), rule_->wavelength_nm),
           white_(sensitivity.white()),
           kind_(kind),
           sides_(request.sides),
           light_(request.light),
-          simd_(request.simd) {
-        const auto wants = [this](Side side) { return std::ranges::count(sides_, side) > 0; };
-        needs_ = {.s = light_ != Light::p,
-                  .p = light_ != Light::s,
-                  .p_at_normal = false,
-                  .R = wants(Side::reflected),
-                  .T = wants(Side::transmitted),
-                  .A = false};
+          simd_(request.simd),
+          needs_(needs_of(request)) {
         rows_.resize(3 * stride_);
         for (std::size_t c = 0; c < 3; ++c)
             std::ranges::copy(rule_->weight[c],

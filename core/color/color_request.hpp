@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "core/color/space.hpp"
+#include "core/interference/spectrum.hpp"
 #include "core/math/simd_level.hpp"
 #include "core/stack/stack.hpp"
 
@@ -44,6 +46,19 @@ struct ColorRequest {
     std::size_t colors = 1;  ///< about as many will be asked for: it decides what to prepare
     SimdLevel simd = best_simd_level();
 };
+
+/// What a kernel computes for it; at normal incidence s stands for p.
+inline Needs needs_of(const ColorRequest& request) {
+    const auto wants = [&](Side side) {
+        return std::ranges::find(request.sides, side) != request.sides.end();
+    };
+    return {.s = request.light != Light::p,
+            .p = request.light != Light::s,
+            .p_at_normal = false,
+            .R = wants(Side::reflected),
+            .T = wants(Side::transmitted),
+            .A = false};
+}
 
 struct StackColor {
     Triple xyz{};

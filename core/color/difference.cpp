@@ -1,5 +1,6 @@
 #include "core/color/difference.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -68,6 +69,12 @@ double rotation(double mean_chroma, double mean_hue_deg) {
 }
 
 }  // namespace
+
+double largest_difference(const Triple& a, const Triple& b) {
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
+    return largest;
+}
 
 Triple lab(const Triple& xyz, const Triple& white) {
     for (const double component : white) require_in_range("white XYZ", component, 1e-6, 1e6);

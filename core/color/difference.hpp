@@ -4,6 +4,9 @@
 
 namespace irido {
 
+/// Largest difference of a component.
+double largest_difference(const Triple& a, const Triple& b);
+
 /// CIE 1976 L*, a*, b* of XYZ under the white `white` (XYZ on the same scale, each in [1e-6, 1e6],
 /// else DomainError). The white is exactly {100, 0, 0}, black {0, 0, 0} up to rounding.
 /// Source: CIE 15, Colorimetry, section 8.2; ISO/CIE 11664-4.

@@ -93,9 +93,8 @@ class Samples {
 public:
     /// Makes room, keeping memory from before.
     ///   spectra       such as R and T
-    ///   denominators  complex functions without poles whose zeros are the poles of the spectra
-    ///   (one
-    ///                 a polarization); they betray a resonance between two points
+    ///   denominators  complex functions without poles, one a polarization, whose zeros are the
+    ///                 poles of the spectra; they betray a resonance between two points
     void resize(std::size_t spectra, std::size_t denominators, std::size_t points);
     std::size_t points() const { return points_; }
     std::size_t rows() const { return rows_; }

@@ -89,10 +89,8 @@ std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double pat
 }
 
 /// Wavelengths at which paths are as long as anywhere, more or less.
-std::vector<double> path_wavelengths(const std::vector<Material>& materials,
-                                     WavelengthRange support) {
-    if (std::ranges::all_of(materials, [](const Material& m) { return is_constant(m); }))
-        return {support.first_nm};
+std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
+    if (constant) return {support.first_nm};
     std::vector<double> wavelengths;
     for (int i = 0; i <= 4; ++i)
         wavelengths.push_back(support.first_nm + (support.last_nm - support.first_nm) * i / 4);
@@ -112,9 +110,10 @@ public:
           request_(request),
           held_(held_stack(stack, sensitivity_)),
           pieces_(smooth_pieces(held_, sensitivity_.support())),
-          on_path_(held_, path_wavelengths(held_.materials, sensitivity_.support())),
           constant_(std::ranges::all_of(held_.materials,
                                         [](const Material& m) { return is_constant(m); })),
+          on_path_(held_, path_wavelengths(constant_, sensitivity_.support())),
+          needs_(needs_of(request)),
           tree_(tables, [this](std::vector<double> wavelength_nm) {
               SpectralPoints points{std::move(wavelength_nm), nullptr};
               if (!constant_)
@@ -129,29 +128,19 @@ public:
             absorbs_[m] = true;
             amplifies_[m] = true;
         }
-        limits_.tolerance = request.tolerance;
-        limits_.simd = request.simd;
-        reflected_ = std::ranges::find(request.sides, Side::reflected) != request.sides.end();
-        transmitted_ = std::ranges::find(request.sides, Side::transmitted) != request.sides.end();
+        needs_.denominators = true;
     }
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
         const StackPower power(stack);
-        const Needs needs{.s = request_.light != Light::p,
-                          .p = request_.light != Light::s,
-                          .p_at_normal = false,
-                          .R = reflected_,
-                          .T = transmitted_,
-                          .A = false,
-                          .denominators = true};
-        const SpectrumKernel kernel(power, absorbs_, amplifies_, needs, request_.simd);
+        const SpectrumKernel kernel(power, absorbs_, amplifies_, needs_, request_.simd);
         const std::size_t sides = request_.sides.size();
-        IntegrationLimits limits = limits_;
         const double most = kernel.is_vectorized() ? kMostVectorWork : kMostPlainWork;
-        limits.evaluations = static_cast<std::size_t>(
-            std::min(static_cast<double>(request_.evaluations),
-                     std::max(kFewestPoints, most / work_of(stack.elements))));
+        const auto affordable =
+            static_cast<std::size_t>(std::max(kFewestPoints, most / work_of(stack.elements)));
+        const IntegrationLimits limits{request_.tolerance,
+                                       std::min(request_.evaluations, affordable), request_.simd};
         const Pool<Scratch>::Loan scratch = scratch_.borrow();
         for (std::size_t i = 0; i < angles_deg.size(); ++i)
             integrate(kernel, stack, cos_of_incidence(angles_deg[i]), limits,
@@ -190,8 +179,8 @@ private:
         const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.media));
         const PanelTree::Start& start = start_of(path);
         // at normal incidence one polarization stands for both
-        const bool with_s = request_.light != Light::p;
-        const bool with_p = request_.light != Light::s && !(with_s && cos_theta == 1);
+        const bool with_s = needs_.s;
+        const bool with_p = needs_.p && !(with_s && cos_theta == 1);
         const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
                                     Samples& samples) {
             kernel(indices_at(parts, scratch), {&cos_theta, 1}, scratch.spectra, scratch.memory);
@@ -262,11 +251,10 @@ private:
     ColorRequest request_;
     Stack held_;
     std::vector<double> pieces_;  ///< ends of what is smooth
+    bool constant_;               ///< all indices
     IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
+    Needs needs_;
     std::vector<bool> absorbs_, amplifies_;
-    bool constant_;  ///< all indices
-    IntegrationLimits limits_;
-    bool reflected_ = false, transmitted_ = false;
     mutable PanelTree tree_;
     mutable Pool<Scratch> scratch_;
     mutable std::mutex lock_;

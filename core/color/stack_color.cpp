@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/color/approximation.hpp"
+#include "core/color/difference.hpp"
 #include "core/color/film_color.hpp"
 #include "core/color/quadrature_color.hpp"
 #include "core/error.hpp"
@@ -140,11 +141,7 @@ bool measure_errors(const ColorTables& tables, const Stack& stack, const ColorRe
         stack_color(tables, stack, {}, exactly, angles_deg, threads);
     for (std::size_t i = 0; i < colors.size(); ++i) {
         if (std::isfinite(colors[i].error)) continue;
-        colors[i].error = exact[i].error;
-        double largest = 0;
-        for (std::size_t c = 0; c < 3; ++c)
-            largest = std::max(largest, std::abs(colors[i].xyz[c] - exact[i].xyz[c]));
-        colors[i].error += largest;
+        colors[i].error = exact[i].error + largest_difference(colors[i].xyz, exact[i].xyz);
     }
     return true;
 }

@@ -100,21 +100,26 @@ PeriodAt BraggMirror::period_at(double angle_deg, Polarization polarization) con
     };
 }
 
-double BraggMirror::reflectance(double angle_deg, Polarization polarization, double omega,
-                                std::uint64_t repeat) const {
-    Stack stack = stack_;
-    Group& group = std::get<Group>(stack.elements[place_].value);
-    if (repeat > 0) group.repeat = repeat;
+std::function<double(std::uint64_t)> BraggMirror::reflectances(double angle_deg,
+                                                               Polarization polarization,
+                                                               double omega) const {
     const bool is_s = polarization == Polarization::s;
     Needs needs;
     needs.s = is_s;
     needs.p = !is_s;
     needs.T = needs.A = false;
-    const StackPower power(stack);
-    const IndexTable table(stack, {kTurn / omega});
-    const std::array cosine{cos_of_incidence(angle_deg)};
-    const Spectra result = spectra(power, table, cosine, needs, {1, SimdLevel::plain});
-    return (is_s ? result.s : result.p).R[0];
+    const IndexTable table(stack_, {kTurn / omega});
+    const double cosine = cos_of_incidence(angle_deg);
+    return [=, stack = stack_, place = place_](std::uint64_t repeat) mutable {
+        if (repeat > 0) std::get<Group>(stack.elements[place].value).repeat = repeat;
+        const Spectra result =
+            spectra(StackPower(stack), table, {&cosine, 1}, needs, {1, SimdLevel::plain});
+        return (is_s ? result.s : result.p).R[0];
+    };
+}
+
+double BraggMirror::reflectance(double angle_deg, Polarization polarization, double omega) const {
+    return reflectances(angle_deg, polarization, omega)(0);
 }
 
 BraggMirror::Periods BraggMirror::periods_needed(double angle_deg, Polarization polarization,
@@ -122,9 +127,7 @@ BraggMirror::Periods BraggMirror::periods_needed(double angle_deg, Polarization 
     constexpr std::uint64_t kOneByOne = 64, kMost = 1000000000;
     Periods needed{};
     std::size_t level = 0;
-    const auto R = [&](std::uint64_t repeat) {
-        return reflectance(angle_deg, polarization, omega, repeat);
-    };
+    const std::function<double(std::uint64_t)> R = reflectances(angle_deg, polarization, omega);
     for (std::uint64_t n = 1; n <= kOneByOne && level < needed.size(); ++n)
         for (const double r = R(n); level < needed.size() && r >= kReflectances[level]; ++level)
             needed[level] = static_cast<double>(n);

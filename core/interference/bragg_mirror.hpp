@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
 #include "core/interference/bragg.hpp"
 #include "core/stack/stack.hpp"
@@ -22,9 +23,8 @@ public:
     /// The group without end.
     PeriodAt period_at(double angle_deg, Polarization polarization) const;
 
-    /// R of the whole stack with the group `repeat` times, or as it is if that is 0.
-    double reflectance(double angle_deg, Polarization polarization, double omega,
-                       std::uint64_t repeat = 0) const;
+    /// R of the whole stack.
+    double reflectance(double angle_deg, Polarization polarization, double omega) const;
 
     static constexpr std::array kReflectances{0.95, 0.99, 0.999};
     using Periods = std::array<double, kReflectances.size()>;
@@ -40,6 +40,10 @@ public:
     bool is_omnidirectional(double order) const;
 
 private:
+    /// R with the group as many times as asked; 0: as it is.
+    std::function<double(std::uint64_t repeat)> reflectances(double angle_deg,
+                                                             Polarization polarization,
+                                                             double omega) const;
     double index(std::size_t material, double omega) const;
     BraggPeriod period(double angle_deg, Polarization polarization, double omega) const;
     void find_pair();

@@ -20,6 +20,11 @@ inline constexpr std::array kSimdLevels{SimdLevel::plain, SimdLevel::baseline, S
 /// hold, so that the last vector needs no care.
 inline constexpr std::size_t kMostLanes = 8;
 
+/// The next multiple of kMostLanes.
+constexpr std::size_t whole_vectors(std::size_t count) {
+    return (count + kMostLanes - 1) / kMostLanes * kMostLanes;
+}
+
 /// "plain", "baseline", "avx2", "avx512".
 std::string_view name_of(SimdLevel level);
 
