@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kLargestSeed = 0x1p53, kLargestCount = 1e5;
 
+/// To which the average of Bloch waves is integrated: it is further off itself.
+constexpr double kAverageTolerance = 1e-4;
+
 struct ParetoOptions {
     std::string cases = "all";
     std::string count = "50";
@@ -39,12 +42,14 @@ const std::vector<Candidate>& candidates() {
         {quadrature, 10, {}, true},
         {fourier, 8, {1, 2, 3}, true},
         {fourier_constant, 8, {}, false},
+        {bloch, 8, {1}, true},
         {automatic, 10, {}, true},
         {equal, 0, {8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, false},
         {naive, 0, {0}, false},
         {gaussian, 0, {0}, false},
         {gltf, 0, {0}, false},
         {smits, 0, {0}, false},
+        {landmarks, 0, {1, 2, 3, 4, 5}, false},
     };
     return all;
 }
@@ -63,7 +68,8 @@ std::vector<Row> rows_of(const ColorCase& one, ColorComparison comparison) {
         const Candidate& candidate = candidates()[index];
         const auto report = comparison.measure({candidate.kind, count}, tolerance);
         if (!report) return;
-        Row row{one.name, index, static_cast<double>(count), 0, *report, {}};
+        const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch && count > 0;
+        Row row{one.name, index, static_cast<double>(is_bloch ? count - 1 : count), 0, *report, {}};
         if (count == 0 && candidate.last_power > 0) {
             row.tolerance = tolerance;
             if (candidate.is_exact) row.equal = comparison.equal_match(report->max_error);
@@ -74,7 +80,9 @@ std::vector<Row> rows_of(const ColorCase& one, ColorComparison comparison) {
         const Candidate& candidate = candidates()[index];
         for (int power = 2; power <= candidate.last_power; ++power)
             add(index, 0, std::stod("1e-" + std::to_string(power)));
-        for (const std::size_t count : candidate.counts) add(index, count, 1e-6);
+        const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch;
+        for (const std::size_t count : candidate.counts)
+            add(index, count, is_bloch ? kAverageTolerance : 1e-6);
     }
     return rows;
 }
@@ -215,8 +223,10 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         {"irido bench pareto -o pareto.csv --plot pareto.svg",
          "irido bench pareto --cases dielectric,conductor --count 2000 -f json"},
         "Reflected unpolarized light, D65, 2 degrees, one thread; white Y = 1. Methods:\n"
-        "quadrature, fourier, fourier-constant and auto at their tolerances (fourier also up\n"
-        "to the order `parameter`); equal: `parameter` equally spaced wavelengths;\n"
+        "quadrature, fourier, fourier-constant, bloch and auto at their tolerances (fourier\n"
+        "also up to the order `parameter`, bloch also the average alone, at tolerance 0);\n"
+        "landmarks: FPB24's boxes, subdivided by `parameter`;\n"
+        "equal: `parameter` equally spaced wavelengths;\n"
         "naive: 650, 510, 475 nm; gaussian: Belcour and Barla's Gaussians; gltf: the\n"
         "formulas of KHR_materials_iridescence; smits: two beams. A method that does not\n"
         "take a case's stacks has no rows there.\n"

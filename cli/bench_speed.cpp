@@ -8,9 +8,12 @@
 
 #include "cli/bench.hpp"
 #include "cli/stopwatch.hpp"
+#include "core/interference/bragg.hpp"
 #include "core/interference/spectrum.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/vector_math.hpp"
+#include "core/rough/filter.hpp"
+#include "core/rough/filter_reference.hpp"
 #include "core/stability/reference.hpp"
 
 namespace irido {
@@ -24,7 +27,8 @@ struct SpeedOptions {
     unsigned threads = 0;
 };
 
-/// A stack and what is asked of it, at 380:780:1 nm and the angles 0.5:89.5:1 or 0 degrees.
+/// A stack and what is asked of it, at 380:780:1 nm and the angles 0.5:89.5:1 or 0 degrees; or the
+/// transmission filter of a roughness alpha.
 struct SpeedCase {
     std::string_view name;
     int layers;
@@ -32,7 +36,12 @@ struct SpeedCase {
     Stack (*stack)(int layers);
     bool normal = false;
     bool only_R = false;
+    double alpha = 0;
 };
+
+constexpr SpeedCase filter_case(double alpha, std::string_view name, std::string_view summary) {
+    return {name, 0, summary, nullptr, false, false, alpha};
+}
 
 Material constant(double n, double k = 0) {
     return {"", RefractiveIndex{Constant{n}, Constant{k}}};
@@ -77,6 +86,14 @@ Stack periods(int layers) {
     return stack;
 }
 
+/// The same between half-spaces of the index of one of the two.
+Stack hosted_periods(int layers) {
+    Stack stack = periods(layers);
+    stack.incident = stack.substrate =
+        std::get<Layer>(std::get<Group>(stack.elements[0].value).elements[0].value).material;
+    return stack;
+}
+
 constexpr std::array kCases{
     SpeedCase{"film", 1, "one transparent film", transparent},
     SpeedCase{"film_normal", 1, "the same at 0 degrees", transparent, true},
@@ -91,11 +108,38 @@ constexpr std::array kCases{
     SpeedCase{"40_absorbing", 40, "40 absorbing films", absorbing},
     SpeedCase{"20_periods", 40, "20 periods of two films", periods},
     SpeedCase{"500_periods", 1000, "500 periods of two films", periods},
+    SpeedCase{"20_hosted", 40, "20 periods between half-spaces of the first one", hosted_periods},
+    SpeedCase{"500_hosted", 1000, "500 of them", hosted_periods},
     SpeedCase{"1000", 1000, "1000 transparent films", transparent},
     SpeedCase{"1000_absorbing", 1000, "1000 absorbing films", absorbing},
+    filter_case(0.001, "falpha_0.001", "transmission filter of a layer of roughness 0.001"),
+    filter_case(0.01, "falpha_0.01", "of roughness 0.01"),
+    filter_case(0.05, "falpha_0.05", "of roughness 0.05"),
+    filter_case(0.1, "falpha_0.1", "of roughness 0.1"),
+    filter_case(0.2, "falpha_0.2", "of roughness 0.2"),
+    filter_case(0.5, "falpha_0.5", "of roughness 0.5"),
+    filter_case(1, "falpha_1", "of roughness 1"),
 };
 
 using Clock = std::chrono::steady_clock;
+
+/// F_alpha as FPB24 compute it: their eq. 29 by the midpoint rule over psi.
+double filter_by_sum(double alpha, double theta_i_deg, double theta_d_deg) {
+    constexpr int kSamples = 1000;
+    constexpr double kPi = std::numbers::pi;
+    const double ti = theta_i_deg * kPi / 180, td = theta_d_deg * kPi / 180;
+    const double a2 = alpha * alpha, cc = std::cos(ti) * std::cos(td),
+                 ss = std::sin(ti) * std::sin(td);
+    const double psi_max = ti + td > kPi / 2 ? std::acos(std::max(-1.0, -cc / ss)) : kPi;
+    double sum = 0;
+    for (int k = 0; k < kSamples; ++k) {
+        const double x = cc + ss * std::cos(psi_max * (k + 0.5) / kSamples);
+        const double spread = 1 - (1 - a2) * x * x;
+        sum += a2 / (kPi * spread * spread);
+    }
+    const double G1 = 2 / (1 + std::sqrt(1 + a2 * std::tan(ti) * std::tan(ti)));
+    return 2 * G1 * G1 * std::cos(td) / std::cos(ti) * std::sin(td) * sum * psi_max / kSamples;
+}
 
 /// Multiply-adds of doubles a second.
 double machine_limit(SimdLevel level, unsigned threads) {
@@ -121,6 +165,7 @@ struct Row {
     std::string name, method;
     double layers = 0, threads = 1, points = 0, rate = 0, worst_R = 0;
     double operations = 0, limit = 0;
+    double worst_F = 0;
 };
 
 /// One case with what its rows share.
@@ -235,6 +280,84 @@ private:
     mutable Spectra out_;
 };
 
+/// The filter of one roughness at the angles 0:89.75:0.25, both.
+class FilterMeasurement {
+public:
+    FilterMeasurement(const SpeedCase& of, double budget)
+        : case_(of), budget_(budget), filter_(of.alpha), axis_(angles(), "theta_d_deg") {
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            // every second one in the peak, the others anywhere
+            const std::size_t theta_i = 1 + (i * 37 + 5) % (kAngles - 1);
+            const auto width = static_cast<std::size_t>(of.alpha * 180 / std::numbers::pi * 4);
+            const std::size_t theta_d = i % 2 == 0 ? theta_i + i % (width + 2) : i * 89;
+            samples_.push_back({theta_i, 1 + theta_d % (kAngles - 1)});
+            exact_.push_back(reference_filter(of.alpha, angle(samples_.back().theta_i),
+                                              angle(samples_.back().theta_d)));
+        }
+    }
+
+    Row by_closed_form(SimdLevel level) const {
+        std::vector<double> row(kAngles);
+        return measured(std::string(name_of(level)), [&](std::size_t theta_i) {
+            filter_.row(angle(theta_i), axis_, row, level);
+            return std::span<const double>(row);
+        });
+    }
+
+    Row by_sum() const {
+        std::vector<double> row(kAngles);
+        return measured("sum_1000", [&](std::size_t theta_i) {
+            for (std::size_t d = 0; d < kAngles; ++d)
+                row[d] = filter_by_sum(case_.alpha, angle(theta_i), angle(d));
+            return std::span<const double>(row);
+        });
+    }
+
+private:
+    static constexpr std::size_t kAngles = 360, kSamples = 60;
+    /// Indices of two angles.
+    struct Sample {
+        std::size_t theta_i, theta_d;
+    };
+
+    static double angle(std::size_t index) { return 0.25 * static_cast<double>(index); }
+
+    static std::vector<double> angles() {
+        std::vector<double> all(kAngles);
+        for (std::size_t i = 0; i < kAngles; ++i) all[i] = angle(i);
+        return all;
+    }
+
+    /// row_of(theta_i) gives F at all theta_d; a slow way gets fewer theta_i.
+    template <class RowOf>
+    Row measured(std::string method, const RowOf& row_of) const {
+        volatile double sink = 0;
+        const double one_row = seconds_of([&] { sink = row_of(kAngles / 2).front(); });
+        const auto affordable = static_cast<std::size_t>(std::max(1.0, budget_ / one_row));
+        const std::size_t rows = std::min(affordable, kAngles);
+        Row row;
+        row.name = case_.name;
+        row.method = std::move(method);
+        row.points = static_cast<double>(rows * kAngles);
+        row.rate = row.points / best_seconds(budget_, [&] {
+                       for (std::size_t i = 0; i < rows; ++i)
+                           sink = row_of(kAngles * i / rows).back();
+                   });
+        for (std::size_t i = 0; i < kSamples; ++i) {
+            const double F = row_of(samples_[i].theta_i)[samples_[i].theta_d];
+            row.worst_F = std::max(row.worst_F, std::abs(F / exact_[i] - 1));
+        }
+        return row;
+    }
+
+    SpeedCase case_;
+    double budget_;
+    TransmissionFilter filter_;
+    FilterAxis axis_;
+    std::vector<Sample> samples_;
+    std::vector<double> exact_;
+};
+
 /// Sine and cosine together, of 4096 phases up to 1e5, beside the C library's.
 Row sine_row(SimdLevel level, double budget) {
     std::vector<double> x(4096), sine(x.size()), cosine(x.size());
@@ -257,6 +380,69 @@ Row sine_row(SimdLevel level, double budget) {
     return row;
 }
 
+/// The point of [low, high] where a function that changes sign there is zero, by halving until
+/// there is no double between.
+template <class Function>
+double halved(double low, double high, const Function& f) {
+    const bool rises = f(high) > 0;
+    while (true) {
+        const double middle = low + (high - low) / 2;
+        if (!(middle > low && middle < high)) return middle;
+        ((f(middle) > 0) == rises ? high : low) = middle;
+    }
+}
+
+/// Both edges of one gap and the Airy point below it.
+using ThreeLandmarks = std::array<double, 3>;
+
+ThreeLandmarks landmarks_by_newton(const BraggPeriod& period, double order) {
+    const BandGap gap = band_gap(period, order);
+    return {omega_of_airy(period, order - 1), gap.low_per_nm, gap.high_per_nm};
+}
+
+/// By dichotomy of cos KL: Airy points between modes, edges between Airy points and the mode. A gap
+/// that is closed is not found. `above` is the Airy point above the gap, which the next gap needs.
+/// Source: FPB24 (CGF 43(2), 2024), section 3.
+ThreeLandmarks landmarks_by_dichotomy(const BraggPeriod& period, double order, double& above) {
+    const double q = period.admittance_ratio, mean = (q + 1 / q) / 2;
+    const double side = std::fmod(order, 2) == 0 ? 1 : -1;
+    const auto cos_kl = [&](double omega) {
+        const double a = omega * period.path1_nm, b = omega * period.path2_nm;
+        return std::cos(a) * std::cos(b) - mean * std::sin(a) * std::sin(b);
+    };
+    const auto past_edge = [&](double omega) { return side * cos_kl(omega) - 1; };
+    const double mode = omega_of_mode(period, order);
+    const double below = order == 1 ? halved(0, mode, cos_kl) : above;
+    above = halved(mode, omega_of_mode(period, order + 1), cos_kl);
+    return {below, halved(below, mode, past_edge), halved(mode, above, past_edge)};
+}
+
+/// Edges and Airy points of the first 8 gaps of 64 mirrors, one thread and one at a time.
+Row landmarks_row(bool by_newton, double budget) {
+    constexpr int kMirrors = 64, kOrders = 8;
+    std::array<BraggPeriod, kMirrors> mirrors;
+    for (int i = 0; i < kMirrors; ++i)
+        mirrors.at(static_cast<std::size_t>(i)) = {100 + 300 * std::fmod(0.618 * i, 1),
+                                                   100 + 300 * std::fmod(0.382 * i, 1),
+                                                   1.2 + std::fmod(0.7548 * i, 1)};
+    volatile double sink = 0;
+    const double seconds = best_seconds(budget, [&] {
+        for (const BraggPeriod& mirror : mirrors) {
+            double above = 0;
+            for (int order = 1; order <= kOrders; ++order)
+                sink = (by_newton ? landmarks_by_newton(mirror, order)
+                                  : landmarks_by_dichotomy(mirror, order, above))[1];
+        }
+    });
+    Row row;
+    row.name = "landmarks";
+    row.method = by_newton ? "newton" : "dichotomy";
+    row.layers = 2;
+    row.points = 3 * kMirrors * kOrders;
+    row.rate = row.points / seconds;
+    return row;
+}
+
 Records to_records(const std::vector<Row>& rows) {
     Column::Texts names, methods;
     for (const Row& row : rows) {
@@ -276,6 +462,7 @@ Records to_records(const std::vector<Row>& rows) {
     add("operations_per_point", [](const Row& r) { return r.operations; });
     add("limit_per_s", [](const Row& r) { return r.limit; });
     add("fraction_of_limit", [](const Row& r) { return r.rate * r.operations / r.limit; });
+    add("worst_F", [](const Row& r) { return r.worst_F; });
     return records;
 }
 
@@ -298,7 +485,16 @@ int run_speed(const SpeedOptions& options) {
     for (const SimdLevel level : kSimdLevels)
         if (level <= widest && is_available(level)) levels.push_back(level);
     for (const SimdLevel level : levels) add(level, 1, [&] { return sine_row(level, budget); });
+    for (const bool by_newton : {true, false})
+        add(SimdLevel::plain, 1, [&] { return landmarks_row(by_newton, budget); });
     for (const SpeedCase& one : cases) {
+        if (one.alpha > 0) {
+            const FilterMeasurement measurement(one, budget);
+            add(SimdLevel::plain, 1, [&] { return measurement.by_sum(); });
+            for (const SimdLevel level : levels)
+                add(level, 1, [&] { return measurement.by_closed_form(level); });
+            continue;
+        }
         const Measurement measurement(one, budget);
         add(SimdLevel::plain, 1, [&] { return measurement.by_long_double(); });
         for (const SimdLevel level : levels)
@@ -333,7 +529,11 @@ void add_bench_speed(CLI::App& bench, Run& run) {
         "fused multiply-adds of the same instruction set and threads, measured before and\n"
         "after; operations_per_point is the arithmetic of the vector kernel, and\n"
         "fraction_of_limit = points_per_s operations_per_point / limit_per_s. sin_cos is\n"
-        "a sine and a cosine; plain and long_double go point by point.");
+        "a sine and a cosine; plain and long_double go point by point. landmarks: band\n"
+        "edges and Airy points of 64 Bragg mirrors a second, by irido's Newton steps and\n"
+        "by halving cos KL between modes, as Fourneau et al. (2024) do. falpha is F_alpha\n"
+        "of theta_i and theta_d, both 0:89.75:0.25, in closed form, and as sum_1000 by\n"
+        "1000 samples of psi; worst_F is its largest relative error at 60 points.");
     command->callback([options, &run] { run = [options] { return run_speed(*options); }; });
 }
 

@@ -3,7 +3,6 @@
 
 #include "cli/color_options.hpp"
 #include "core/color/difference.hpp"
-#include "core/color/held_stack.hpp"
 #include "core/color/illuminant.hpp"
 #include "core/color/space.hpp"
 #include "core/color/stack_color.hpp"
@@ -46,7 +45,7 @@ ColorQuestion parse(const ColorCommand& command) {
     const ColorOptions& typed = command.color;
     ColorQuestion question;
     question.angles_deg = parse_list("--angles", command.angles, 0, kLargestAngle_deg);
-    question.method = parse_method(typed.method);
+    question.method = parse_method(typed);
     question.held_to_tolerance = !typed.tolerance.empty();
     question.space = &parse_space(typed.space);
     question.adaptation = parse_adaptation(typed.adaptation);
@@ -57,35 +56,6 @@ ColorQuestion parse(const ColorCommand& command) {
     request.colors = question.angles_deg.size();
     request.simd = execution_of(command.threads).simd;
     return question;
-}
-
-std::string in_words(const HeldRange& held, const StackDocument& document) {
-    const std::string& name = document.stack.materials[held.material].name;
-    return (name.empty() ? "the material" : name) + " is known from " +
-           to_text(held.range.first_nm) + " to " + to_text(held.range.last_nm) + " nm";
-}
-
-/// Two digits of a fraction in percent.
-std::string percent(double fraction) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.2g %%", 100 * fraction);
-    return text.data();
-}
-
-/// Says where a material holds its end values, or refuses what colour cannot be made of.
-void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity,
-                        const ColorCommand& command) {
-    for (const HeldRange& held : held_ranges(document.stack, sensitivity)) {
-        const std::string& pointer = document.material_pointers[held.material];
-        if (!held.usable)
-            throw InputError(document.file, pointer,
-                             in_words(held, document) + ", a colour needs 400 to 700 nm");
-        const std::string text = in_words(held, document) + ", its end values are held for " +
-                                 percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
-                                 percent(held.weight[2]) + " of the X, Y, Z weight";
-        if (command.strict) throw InputError(document.file, pointer, text);
-        note(InputError(document.file, pointer, text).what(), command.quiet);
-    }
 }
 
 /// x, y of the colour, of the white where there is no light.
@@ -261,7 +231,7 @@ int run_color(const ColorCommand& command) {
     const Sensitivity first(eye, parse_illuminant(command.color.illuminant));
     const StackDocument document = read_stack(command.stack);
     for (const std::string& text : document.notes) note(text, command.quiet);
-    report_held_ranges(document, first, command);
+    report_held_ranges(document, first, command.strict, command.quiet);
     std::vector<LitColors> lits;
     for (const std::string& name : illuminants(command)) {
         lits.push_back(colors_under(lits.empty() ? first : Sensitivity(eye, illuminant(name)),

@@ -6,6 +6,7 @@
 #include "cli/command.hpp"
 #include "core/color/color_request.hpp"
 #include "core/color/observer.hpp"
+#include "core/color/sensitivity.hpp"
 #include "core/color/space.hpp"
 
 namespace irido {
@@ -19,9 +20,21 @@ struct ColorOptions {
     std::string space = "srgb";
     std::string adaptation = "bradford";
     std::string method = "auto";
+    std::string subdivide;  ///< "" if not typed
+    std::string harmonics;  ///< "" if not typed
     std::string tolerance;  ///< "" for that of ColorRequest
 };
 
+/// --side and -p; `sides` as the help shows them.
+void add_side_options(CLI::App& command, ColorOptions& options, const std::string& sides);
+
+/// --illuminant and --observer
+void add_light_options(CLI::App& command, ColorOptions& options);
+
+/// --space and --adaptation
+void add_space_options(CLI::App& command, ColorOptions& options);
+
+/// All of these, --method and --tolerance.
 void add_color_options(CLI::App& command, ColorOptions& options);
 
 // What was typed, in values; each throws UsageError.
@@ -35,6 +48,9 @@ double parse_tolerance(const std::string& text);
 /// auto, quadrature, fourier, naive, ..., or one with a number, such as equal/32.
 ColorMethod parse_method(const std::string& text);
 
+/// The method with what --subdivide and --harmonics say.
+ColorMethod parse_method(const ColorOptions& options);
+
 /// A named illuminant, or that of a file. Throws InputError if the file is at fault.
 Table parse_illuminant(const std::string& text);
 
@@ -42,5 +58,10 @@ Table parse_illuminant(const std::string& text);
 std::string name_of(const ColorMethod& method);
 
 std::string_view letter(Side side);
+
+/// Says where a material holds its end values in colours, or refuses what no colour can be made of.
+/// strict  refuses both. Throws InputError.
+void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity, bool strict,
+                        bool quiet);
 
 }  // namespace irido

@@ -98,6 +98,8 @@ std::vector<std::string> stats_of(const Work& work, const Needs& needs, std::siz
     if (!needs.s || !needs.p) skipped(std::string(needs.s ? "p" : "s") + " (not asked for)");
     if (work.kernel == SimdLevel::plain) return lines;
     if (work.one_film) skipped("the recursion over layers (one film: Airy's sum)");
+    if (work.mirror)
+        skipped("the matrices of layers (a mirror in a host of one of its indices: Yeh's form)");
     if (work.transparent_layers > 0)
         skipped("complex arithmetic in " +
                 count_of(work.transparent_layers, work.layers, "layers (transparent)"));

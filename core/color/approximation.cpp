@@ -130,6 +130,8 @@ std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, con
         case quadrature:
         case fourier:
         case fourier_constant:
+        case bloch:
+        case landmarks:
             break;
     }
     throw DomainError("method must be one of equal, naive, gaussian, gltf, smits");

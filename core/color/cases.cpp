@@ -85,6 +85,12 @@ ColorFamily fpb24_fig1(Random&) {
     return at_18_angles(fpb24_mirror(20, 101, 143));
 }
 
+/// FPB24's table 1: d1 = d2 = period / 2.
+template <std::uint64_t repeat, int period_nm>
+ColorFamily fpb24_table1(Random&) {
+    return at_18_angles(fpb24_mirror(repeat, period_nm / 2.0, period_nm / 2.0));
+}
+
 /// A stack of which something goes from 0 to 1: many of them at 0 degrees, four at 0 to 80.
 template <class StackAt>
 ColorFamily at_normal(int count, const StackAt& stack_at) {
@@ -217,6 +223,14 @@ constexpr std::array kCases{
     ColorCase{"leather", "BB17: 290 nm of 1.3 on 1", false, leather},
     ColorCase{"fpb24_fig3", "FPB24: (1@315 | 1.5@315)^10", false, fpb24_fig3},
     ColorCase{"fpb24_fig1", "FPB24: (1@101 | 1.5@143)^20", false, fpb24_fig1},
+    ColorCase{"fpb24_244_10", "FPB24 table 1: (1@122 | 1.5@122)^10", false, fpb24_table1<10, 244>},
+    ColorCase{"fpb24_244_20", "(1@122 | 1.5@122)^20", false, fpb24_table1<20, 244>},
+    ColorCase{"fpb24_500_10", "(1@250 | 1.5@250)^10", false, fpb24_table1<10, 500>},
+    ColorCase{"fpb24_500_20", "(1@250 | 1.5@250)^20", false, fpb24_table1<20, 500>},
+    ColorCase{"fpb24_988_10", "(1@494 | 1.5@494)^10", false, fpb24_table1<10, 988>},
+    ColorCase{"fpb24_988_20", "(1@494 | 1.5@494)^20", false, fpb24_table1<20, 988>},
+    ColorCase{"fpb24_500_100", "(1@250 | 1.5@250)^100", false, fpb24_table1<100, 500>},
+    ColorCase{"fpb24_500_1000", "(1@250 | 1.5@250)^1000", false, fpb24_table1<1000, 500>},
     ColorCase{"film_normal", "256 films of 1.33 up to 1500 nm in air, 0 degrees", false,
               film_normal},
     ColorCase{"film_80", "four of them at 0:80:2 degrees", false, film_80},

@@ -18,22 +18,25 @@ enum class Side { reflected, transmitted };
 /// The light that falls on the stack.
 enum class Light { s, p, unpolarized };
 
-/// A way to compute the colour of a stack. Those after `fourier` are there to be compared with.
+/// A way to compute the colour of a stack. Those after `bloch` are there to be compared with.
 struct ColorMethod {
     enum class Kind {
         automatic,         ///< the cheapest of the exact ones for the tolerance asked
         quadrature,        ///< product quadrature; any stack
         fourier,           ///< BB17's series with exact transforms; one real film over any base
+        bloch,             ///< Bloch waves between band edges; periods of two transparent layers
         fourier_constant,  ///< the same with BB17's constant indices where media have dispersion
         naive,             ///< three wavelengths taken for R, G and B
         equal,             ///< equally spaced wavelengths
         gaussian,          ///< BB17's series with their Gaussian fits of the observer
         gltf,              ///< the same with Schlick's Fresnel terms, as glTF has it
         smits,             ///< a single bounce
+        landmarks,         ///< FPB24's boxes between the landmarks of a mirror
     };
     Kind kind = Kind::automatic;
     /// equal: wavelengths, [2, 1e6]. fourier: the last order of the series, 0: as many as the
-    /// tolerance needs.
+    /// tolerance needs. bloch: the last harmonic + 1, 0: as many as the tolerance needs. landmarks:
+    /// their parameter s of subdivision, [1, 1000].
     std::size_t count = 0;
 };
 

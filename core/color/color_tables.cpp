@@ -1,5 +1,7 @@
 #include "core/color/color_tables.hpp"
 
+#include <cmath>
+
 namespace irido {
 
 namespace {
@@ -21,6 +23,32 @@ const std::array<ChannelPoints, 3>& ColorTables::channel_points() const {
     return channel_points_.get(making_, [&] {
         return std::make_unique<std::array<ChannelPoints, 3>>(irido::channel_points(sensitivity_));
     });
+}
+
+const CumulativeSensitivity& ColorTables::cumulative() const {
+    return cumulative_.get(making_,
+                           [&] { return std::make_unique<CumulativeSensitivity>(sensitivity_); });
+}
+
+const SmoothSensitivity& ColorTables::smooth(std::size_t level) const {
+    return smooth_.at(level).get(making_, [&] {
+        return std::make_unique<SmoothSensitivity>(
+            sensitivity_, kFirstSmooth_nm * std::exp2(static_cast<double>(level)));
+    });
+}
+
+const SensitivityDecay& ColorTables::decay() const {
+    return decay_.get(making_, [&] { return std::make_unique<SensitivityDecay>(sensitivity_); });
+}
+
+const CosineNodes& ColorTables::nodes(std::size_t least) const {
+    // 2, 3, 4, 6, 8, 12 ...
+    std::size_t k = 0, count = 2;
+    while (count < least) {
+        count += k % 2 == 0 ? count / 2 : count / 3;
+        ++k;
+    }
+    return nodes_.at(k).get(making_, [&] { return std::make_unique<CosineNodes>(count); });
 }
 
 std::shared_ptr<const QuadratureRule> ColorTables::rule(WavelengthRange panel,

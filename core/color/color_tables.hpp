@@ -7,9 +7,12 @@
 #include <tuple>
 #include <utility>
 
+#include "core/color/bloch_sums.hpp"
+#include "core/color/cumulative_sensitivity.hpp"
 #include "core/color/quadrature_rule.hpp"
 #include "core/color/sensitivity.hpp"
 #include "core/color/sensitivity_transform.hpp"
+#include "core/color/smooth_sensitivity.hpp"
 #include "core/math/lazy.hpp"
 
 namespace irido {
@@ -35,12 +38,29 @@ public:
     /// equal_rule() of the sensitivity.
     std::shared_ptr<const SampleRule> equal(std::size_t count) const;
 
+    /// X, Y and Z up to any wavelength.
+    const CumulativeSensitivity& cumulative() const;
+
+    /// The sensitivity up to waves of kFirstSmooth_nm 2^level; level < kSmoothLevels.
+    const SmoothSensitivity& smooth(std::size_t level) const;
+    static constexpr std::size_t kSmoothLevels = 9;
+    static constexpr double kFirstSmooth_nm = 32000;
+
+    const SensitivityDecay& decay() const;
+
+    /// Nodes for at least `least` points, 2^k or 3 2^k of them.
+    const CosineNodes& nodes(std::size_t least) const;
+
     static constexpr std::size_t kMostNumbers = 1U << 22;
 
 private:
     Sensitivity sensitivity_;
     mutable std::array<Lazy<SensitivityTransform>, 2> transforms_;
     mutable Lazy<std::array<ChannelPoints, 3>> channel_points_;
+    mutable Lazy<CumulativeSensitivity> cumulative_;
+    mutable Lazy<SensitivityDecay> decay_;
+    mutable std::array<Lazy<SmoothSensitivity>, kSmoothLevels> smooth_;
+    mutable std::array<Lazy<CosineNodes>, 64> nodes_;
     mutable std::mutex making_, lock_;
     mutable std::map<std::tuple<double, double, std::size_t>, std::shared_ptr<const QuadratureRule>>
         rules_;

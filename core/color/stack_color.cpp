@@ -4,8 +4,11 @@
 #include <cmath>
 
 #include "core/color/approximation.hpp"
+#include "core/color/bloch_color.hpp"
 #include "core/color/difference.hpp"
 #include "core/color/film_color.hpp"
+#include "core/color/landmark_color.hpp"
+#include "core/color/one_mirror.hpp"
 #include "core/color/quadrature_color.hpp"
 #include "core/error.hpp"
 #include "core/math/lazy.hpp"
@@ -43,22 +46,55 @@ bool is_for_series(const Stack& stack, const ColorRequest& request) {
            series_us(colors) < quadrature_us(colors, 2e-3 * index * film.thickness_nm);
 }
 
-/// The series, and quadrature where it cannot promise the tolerance.
-class FilmColor : public ColorAlgorithm {
+/// Fringes of all periods in the visible range from which on Bloch waves are quicker than
+/// quadrature at 1e-6, and the points that they may take for one before quadrature would have been
+/// done: it takes about 36 points a fringe, of 25 to 80 ns; Bloch waves fewer the more there are,
+/// of 4 to 8 ns. That is under D65, of which 5e-6 is left for fringes of 1 mm; as this falls with
+/// the square of the path, smaller tolerances and spikier lights need more points of Bloch waves.
+constexpr double kFewestFringes = 150, kPointsPerFringe = 100, kFewestBlochPoints = 8192;
+constexpr double kUsualTolerance = 1e-6, kUsualPath_nm = 1e6, kUsualDecay = 5e-6;
+
+/// Visible fringes of a mirror at normal incidence.
+double fringes_of(const OneMirror& mirror, WavelengthRange visible) {
+    const double path_nm =
+        mirror.first.n * mirror.first.thickness_nm + mirror.second.n * mirror.second.thickness_nm;
+    return 2 * static_cast<double>(mirror.repeat) * path_nm *
+           (1 / visible.first_nm - 1 / visible.last_nm);
+}
+
+/// The fringes, if Bloch waves are the better way; else 0.
+double fringes_for_bloch(const ColorTables& tables, const Stack& stack,
+                         const ColorRequest& request) {
+    if (!mirror_fault(stack).empty()) return 0;
+    const double fringes = fringes_of(one_mirror("bloch", stack), tables.sensitivity().support());
+    if (!(fringes >= kFewestFringes)) return 0;
+    const double more =
+        kUsualTolerance / request.tolerance * tables.decay()(kUsualPath_nm) / kUsualDecay;
+    return fringes >= kFewestFringes * std::sqrt(std::max(1.0, more)) ? fringes : 0;
+}
+
+ColorRequest bloch_request(const ColorRequest& request, double fringes) {
+    ColorRequest result = request;
+    const double most = std::max(kFewestBlochPoints, kPointsPerFringe * fringes);
+    if (most < static_cast<double>(request.evaluations))
+        result.evaluations = static_cast<std::size_t>(most);
+    return result;
+}
+
+/// A special method, and quadrature where it cannot promise the tolerance.
+class SpecialColor : public ColorAlgorithm {
 public:
-    FilmColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request)
-        : tables_(tables),
-          stack_(stack),
-          request_(request),
-          series_(film_color(tables, stack, {ColorMethod::Kind::fourier}, request)) {}
+    SpecialColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
+                 std::unique_ptr<ColorAlgorithm> special)
+        : tables_(tables), stack_(stack), request_(request), special_(std::move(special)) {}
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
         const std::size_t sides = request_.sides.size();
-        const bool all = try_series(stack, angles_deg, colors);
+        const bool all = try_special(stack, angles_deg, colors);
         for (std::size_t i = 0; i < angles_deg.size(); ++i) {
             const std::span<StackColor> of_angle = colors.subspan(i * sides, sides);
-            const bool is_there = all || try_series(stack, angles_deg.subspan(i, 1), of_angle);
+            const bool is_there = all || try_special(stack, angles_deg.subspan(i, 1), of_angle);
             if (is_there && std::ranges::all_of(of_angle, [&](const StackColor& color) {
                     return color.error <= request_.tolerance;
                 }))
@@ -72,11 +108,11 @@ public:
     }
 
 private:
-    /// False if an angle has no series.
-    bool try_series(const Stack& stack, std::span<const double> angles_deg,
-                    std::span<StackColor> colors) const {
+    /// False if it does not take an angle.
+    bool try_special(const Stack& stack, std::span<const double> angles_deg,
+                     std::span<StackColor> colors) const {
         try {
-            (*series_)(stack, angles_deg, colors);
+            (*special_)(stack, angles_deg, colors);
             return true;
         } catch (const DomainError&) {
             return false;
@@ -86,10 +122,24 @@ private:
     const ColorTables& tables_;
     Stack stack_;
     ColorRequest request_;
-    std::unique_ptr<ColorAlgorithm> series_;
+    std::unique_ptr<ColorAlgorithm> special_;
     mutable std::mutex lock_;
     mutable Lazy<std::unique_ptr<ColorAlgorithm>> quadrature_;
 };
+
+std::unique_ptr<ColorAlgorithm> automatic_color(const ColorTables& tables, const Stack& stack,
+                                                const ColorRequest& request) {
+    std::unique_ptr<ColorAlgorithm> special;
+    if (is_for_series(stack, request)) {
+        special = film_color(tables, stack, {ColorMethod::Kind::fourier}, request);
+    } else if (const double fringes = fringes_for_bloch(tables, stack, request)) {
+        special =
+            bloch_color(tables, stack, {ColorMethod::Kind::bloch}, bloch_request(request, fringes));
+    } else {
+        return quadrature_color(tables, stack, request);
+    }
+    return std::make_unique<SpecialColor>(tables, stack, request, std::move(special));
+}
 
 }  // namespace
 
@@ -100,14 +150,16 @@ std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const
     require_in_range("tolerance", request.tolerance, 1e-12, 1);
     switch (method.kind) {
         case automatic:
-            if (is_for_series(stack, request))
-                return std::make_unique<FilmColor>(tables, stack, request);
-            [[fallthrough]];
+            return automatic_color(tables, stack, request);
         case quadrature:
             return quadrature_color(tables, stack, request);
         case fourier:
         case fourier_constant:
             return film_color(tables, stack, method, request);
+        case bloch:
+            return bloch_color(tables, stack, method, request);
+        case landmarks:
+            return landmark_color(tables, stack, method, request);
         default:
             return approximate_color(tables, stack, method, request);
     }

@@ -14,7 +14,8 @@ namespace irido {
 ///
 /// automatic: the series where the stack is one film of constant indices, if there are enough
 /// colours for its table to pay (or the film's thickness is spread, which takes quadrature very
-/// long); quadrature for all others, and where the series cannot promise the tolerance.
+/// long); Bloch waves where it is one_mirror() of many fringes; quadrature for all others, and
+/// where these cannot promise the tolerance.
 ///
 /// Throws DomainError if the method does not take the stack or the request, if a held range is not
 /// usable, and as StackPower and IndexTable do.

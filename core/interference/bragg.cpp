@@ -43,7 +43,8 @@ Detuning detuning(const BraggPeriod& period, double order) {
 ///                                                     : -sin(alpha) cos(beta)) = 0,
 /// in which nothing cancels that its root could feel: neither when rho is nearly 0 or 1, nor when
 /// w is small. f(0) <= 0 <= f(pi/2), and the root is simple.
-double deviation(double x, double w, double phi, bool positive_side) {
+/// `step` is the relative size of a Newton step that is the last one.
+double deviation(double x, double w, double phi, bool positive_side, double step) {
     if (x == 0 || phi == 0) return 0;
     double low = 0, high = kPi / 2;
     double delta = std::min(phi, 1.0) * x / (x + 2);
@@ -59,7 +60,7 @@ double deviation(double x, double w, double phi, bool positive_side) {
         (f < 0 ? low : high) = delta;
         double next = delta - f / slope;
         if (!(next > low && next < high)) next = low + (high - low) / 2;
-        if (std::abs(next - delta) <= kRounding * delta || next == low || next == high) return next;
+        if (std::abs(next - delta) <= step * delta || next == low || next == high) return next;
         delta = next;
     }
     return delta;
@@ -67,8 +68,9 @@ double deviation(double x, double w, double phi, bool positive_side) {
 
 /// t = order pi/2 + delta, delta the root in [-pi/2, pi/2] of sin(delta) = +-rho sin(phi -
 /// (1 - 2w) delta) for any phi: its size is found on the side on which everything is positive.
-double total_phase(double x, const Detuning& at, double order, bool negative) {
-    const double size = deviation(x, at.share, std::abs(at.phi), !negative);
+double total_phase(double x, const Detuning& at, double order, bool negative,
+                   double step = kRounding) {
+    const double size = deviation(x, at.share, std::abs(at.phi), !negative, step);
     double t = order * (kPi / 2) + ((at.phi < 0) == negative ? size : -size);
     if (order != 1 || t >= 1) return t;
     // only this one can be near 0, at a high contrast: there cos(wt) cos(t - wt) and
@@ -83,6 +85,11 @@ double total_phase(double x, const Detuning& at, double order, bool negative) {
                   (1 - at.share) * (from_beta + (x + 1) * from_alpha));
     }
     return t;
+}
+
+/// Relative size of the step that is the last one; most of them square the error.
+double last_step(Roots roots) {
+    return roots == Roots::exact ? kRounding : 1e-10;
 }
 
 /// max(q, 1/q) - 1; 0 if that is what q's own roundings make of 1.
@@ -211,20 +218,21 @@ double omega_of_zero(const BraggPeriod& period, double order) {
 
 // With h = (a + b)/2 = M pi/4 + delta/2 and Q = (q + 1/q)/2, cos KL = 0 reads cos 2h = R cos 2g,
 // R = (Q - 1)/(Q + 1), and that sin(delta) = -+R sin(phi - (1 - 2w) delta) for M = 2m + 1.
-double omega_of_airy(const BraggPeriod& period, double order) {
+double omega_of_airy(const BraggPeriod& period, double order, Roots roots) {
     const double q = period.admittance_ratio;
     const Detuning at = detuning(period, 2 * order + 1);
     const double x = (q - 1) * (q - 1) / (2 * q);
-    return total_phase(x, at, 2 * order + 1, !at.odd_whole) / total_path(period);
+    return total_phase(x, at, 2 * order + 1, !at.odd_whole, last_step(roots)) / total_path(period);
 }
 
 // cos KL = 1 where sin h = +-r sin g, cos KL = -1 where cos h = +-r cos g, r = (q - 1)/(q + 1);
 // with h = m pi/2 + delta both are sin(delta) = +-r sin(phi - (1 - 2w) delta), one root for each
 // sign.
-BandGap band_gap(const BraggPeriod& period, double order) {
+BandGap band_gap(const BraggPeriod& period, double order, Roots roots) {
     const double x = contrast(period.admittance_ratio);
     const Detuning at = detuning(period, order);
-    const double one = total_phase(x, at, order, false), other = total_phase(x, at, order, true);
+    const double one = total_phase(x, at, order, false, last_step(roots));
+    const double other = total_phase(x, at, order, true, last_step(roots));
     const double path = total_path(period);
     return {order, 2 * std::min(one, other) / path, 2 * std::max(one, other) / path};
 }

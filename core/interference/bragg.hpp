@@ -56,12 +56,15 @@ struct BandGap {
     double centre_per_nm() const { return low_per_nm + (high_per_nm - low_per_nm) / 2; }
 };
 
+/// How well landmarks are found that have no formula: as stated below, or to 1e-10 in less time.
+enum class Roots { exact, quick };
+
 /// One landmark of given indices; relative errors of omega below 1e-15 plus those of rounding the
 /// period. `order` whole, up to 1e9. omega_of_zero is infinite if path2_nm is 0.
 double omega_of_mode(const BraggPeriod& period, double order);
-double omega_of_airy(const BraggPeriod& period, double order);
+double omega_of_airy(const BraggPeriod& period, double order, Roots roots = Roots::exact);
 double omega_of_zero(const BraggPeriod& period, double order);
-BandGap band_gap(const BraggPeriod& period, double order);
+BandGap band_gap(const BraggPeriod& period, double order, Roots roots = Roots::exact);
 
 /// A period whose indices depend on omega, for any omega > 0. May throw.
 using PeriodAt = std::function<BraggPeriod(double omega_per_nm)>;

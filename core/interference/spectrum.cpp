@@ -272,6 +272,7 @@ SpectrumKernel::SpectrumKernel(const StackPower& stack, const std::vector<bool>&
     const Chain* chain = stack.chain();
     if (chain && !needs.layers && simd != SimdLevel::plain)
         program_ = compile(*chain, absorbs, amplifies);
+    if (program_) program_->down[0].mirror = fast_mirror(stack.mirror(), absorbs);
 }
 
 bool SpectrumKernel::by_vectors(const IndexTable& table) const {
@@ -356,8 +357,16 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_t
     work.media = media.size();
     work.constant_media = constant_media.size();
     const bool constant = work.constant_media == work.media;
+    const std::optional<HostedMirror>& mirror = program_->down[0].mirror;
+    work.mirror = mirror && mirror->serves(needs_.amplitudes, needs_.denominators);
     work.one_film = work.passes == 1 && program_->down[0].is_one_film();
     const bool both = needs_.s && needs_.p && work.normal_angles < cos_theta.size();
+    if (work.mirror) {
+        work.layers = work.transparent_layers = work.distinct_layers = 2;
+        work.powers = 1;
+        work.operations_per_point = operations_of_mirror(both ? 2 : 1, constant);
+        return work;
+    }
     for (const auto* direction : {&program_->down, &program_->up})
         for (const Program& block : *direction)
             work.operations_per_point += operations_per_point(block, both ? 2 : 1, constant);

@@ -50,6 +50,7 @@ struct Work {
     std::size_t media = 0;               ///< of layers and substrate
     std::size_t constant_media = 0;      ///< of these: angle terms once an angle
     bool one_film = false;               ///< the Airy sum
+    bool mirror = false;                 ///< Yeh's closed form of periods in their host
     std::size_t normal_angles = 0;       ///< one polarization serves both
     bool absorbs = false;                ///< any layer
     double operations_per_point = 0;     ///< see vector/program.hpp

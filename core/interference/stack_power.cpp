@@ -76,12 +76,19 @@ StackPower::StackPower(const Stack& stack) : layer_count_(count_layers(stack.ele
     chain_ = chain_of(expansion.elements, stack.substrate);
     spreads_ = std::move(expansion.spreads);
     spread_of_ = std::move(expansion.spread_of);
+    if (has_amplitudes())
+        mirror_ = hosted_mirror(chain_.blocks[0].down, stack.incident, stack.substrate);
 }
 
 Response StackPower::operator()(std::span<const Medium> media, double k0,
                                 Polarization polarization) const {
     Response response = ChainLight(chain_, media, k0, polarization).response();
     if (!has_amplitudes()) response.r = response.t = 0;
+    if (mirror_) {
+        const auto power =
+            mirror_power(*mirror_, media[mirror_->host], media[mirror_->other], k0, polarization);
+        if (power) response.power = *power;
+    }
     const bool lit = outgoing_wave(media.back(), polarization).flux > 0;
     if (lit && !spreads_.empty())
         response.power = SpreadMean(chain_, spreads_, spread_of_, media, k0, polarization).power();

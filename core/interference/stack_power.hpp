@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/interference/chain.hpp"
+#include "core/interference/hosted_mirror.hpp"
 #include "core/interference/spread/spread_mean.hpp"
 
 namespace irido {
@@ -29,6 +30,7 @@ public:
 
     /// R, T, A at one wavelength and angle. `media` has one entry per material of the stack and, as
     /// its last, the incident medium without absorption; k0 = 2 pi / wavelength in 1/nm.
+    /// Powers of a mirror in its host are mirror_power().
     /// The denominator is the product of those of all coherent blocks at the mean thicknesses.
     Response operator()(std::span<const Medium> media, double k0, Polarization polarization) const;
 
@@ -37,6 +39,9 @@ public:
 
     /// Its blocks, if no thickness is spread; else nullptr.
     const Chain* chain() const { return spreads_.empty() ? &chain_ : nullptr; }
+
+    /// What the whole stack is, if no thickness is spread: its powers are mirror_power() then.
+    const std::optional<HostedMirror>& mirror() const { return mirror_; }
 
     /// Layers with groups written out, from the incident side to the substrate.
     std::size_t layer_count() const { return layer_count_; }
@@ -54,6 +59,7 @@ public:
 private:
     std::size_t layer_count_ = 0;
     Chain chain_;
+    std::optional<HostedMirror> mirror_;
     std::vector<SpreadLayer> spreads_;
     std::vector<std::size_t> spread_of_;  ///< of the chain's spread layers, as in SpreadMean
 };

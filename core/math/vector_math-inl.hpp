@@ -51,6 +51,12 @@ HWY_INLINE V asin(V x) {
 HWY_INLINE V asinh(V x) {
     return constant(std::asinh(hn::GetLane(x)));
 }
+HWY_INLINE V atan(V x) {
+    return constant(std::atan(hn::GetLane(x)));
+}
+HWY_INLINE V sin_of_eighth(V x) {
+    return constant(std::sin(hn::GetLane(x)));
+}
 
 #else
 
@@ -135,6 +141,17 @@ HWY_INLINE V asin(V x) {
 }
 HWY_INLINE V asinh(V x) {
     return hn::Asinh(Lanes(), x);
+}
+HWY_INLINE V atan(V x) {
+    return hn::Atan(Lanes(), x);
+}
+/// Sine within 1 ulp of |x| <= pi/4, an eighth of a turn.
+HWY_INLINE V sin_of_eighth(V x) {
+    const V z = hn::Mul(x, x);
+    V s = constant(kSine[0]);
+    _Pragma("GCC unroll 5") for (std::size_t i = 1; i < 6; ++i) s =
+        hn::MulAdd(z, s, constant(kSine[i]));
+    return hn::MulAdd(hn::Mul(x, z), s, x);
 }
 
 #endif

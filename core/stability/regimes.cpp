@@ -224,20 +224,52 @@ double band_edge_nm(const Pair& pair, std::size_t order, bool upper) {
     }
 }
 
+/// Layers of index n and thickness d; along is n0 sin(theta).
+Pair pair_of(const std::array<double, 2>& n, const std::array<double, 2>& d, double along, bool s) {
+    std::array<double, 2> q{};
+    for (std::size_t i = 0; i < 2; ++i) q[i] = std::sqrt(n[i] * n[i] - along * along);
+    return {{d[0] * q[0], d[1] * q[1]},
+            s ? q[1] / q[0] : (q[1] / (n[1] * n[1])) / (q[0] / (n[0] * n[0]))};
+}
+
 StackCase band_edge(Random& random) {
     const std::array n{dielectric(random), dielectric(random)};
     const std::array d{random.uniform(50, 300), random.uniform(50, 300)};
     const double angle = random.one_in(4) ? 0 : random.uniform(0, 85);
     const double sine = std::sin(angle / kDegrees);
     const bool s = random.one_in(2);
-    std::array<double, 2> q{};
-    for (std::size_t i = 0; i < 2; ++i) q[i] = std::sqrt(n[i] * n[i] - sine * sine);
-    const Pair pair{{d[0] * q[0], d[1] * q[1]},
-                    s ? q[1] / q[0] : (q[1] / (n[1] * n[1])) / (q[0] / (n[0] * n[0]))};
+    const Pair pair = pair_of(n, d, sine, s);
     StackBuilder b;
     b.add(StackBuilder::group(many(random), {b.layer(n[0], d[0]), b.layer(n[1], d[1])}));
     const double edge = band_edge_nm(pair, 1 + random.below(6), random.one_in(2));
     return {b.over(substrate(random)), beside(edge, random), angle};
+}
+
+/// A mirror in its host at any wavelength, where phases are commensurate, or at a band edge.
+StackCase hosted_mirror(Random& random) {
+    const double host = random.one_in(2) ? 1 : dielectric(random);
+    const double contrast = random.one_in(4) ? random.log_uniform(1e-12, 1) : 0;
+    const std::array n{host, contrast > 0 ? host * (1 + contrast) : dielectric(random)};
+    const std::array d{random.uniform(50, 300), random.uniform(50, 300)};
+    const std::uint64_t repeat = random.one_in(2) ? 1 + random.below(50) : many(random);
+    double angle = random.one_in(4) ? 0 : random.uniform(0, 85);
+    if (random.one_in(6)) angle = beside(std::atan(n[1] / n[0]) * kDegrees, random);
+    const double along = host * std::sin(angle / kDegrees);
+    StackBuilder b(host);
+    const bool turned = random.one_in(2);
+    const Element first = b.layer(n[0], d[0]), second = b.layer(n[1], d[1]);
+    b.add(StackBuilder::group(repeat,
+                              turned ? std::vector{second, first} : std::vector{first, second}));
+    double nm = visible(random);
+    const bool s = random.one_in(2), travels = along < 0.99 * n[1];
+    const Pair pair = pair_of(n, d, travels ? along : 0, s);
+    const std::size_t order = 1 + random.below(6);
+    if (random.one_in(2)) {
+        nm = beside(band_edge_nm(pair, order, random.one_in(2)), random);
+    } else if (random.one_in(4)) {
+        nm = beside(2 * pair.path_nm[random.below(2)] / static_cast<double>(order), random);
+    }
+    return {b.over(host), nm, angle};
 }
 
 StackCase thousand_layers(Random& random) {
@@ -389,6 +421,7 @@ constexpr std::array kRegimes{
     Regime{"repeats_absorbing", "periods with k of 1e-15 to 1, up to 1e9", true, repeats_absorbing},
     Regime{"repeats_thin", "periods far thinner than the wavelength", true, repeats_thin},
     Regime{"band_edge", "at and beside edges of up to 1e9 periods", true, band_edge},
+    Regime{"hosted_mirror", "1 to 1e9 pairs in the index of one, at edges", true, hosted_mirror},
     Regime{"thousand_layers", "1000 random layers, half of them absorbing", true, thousand_layers},
     Regime{"wavelengths", "ordinary films from 1 nm to 1 mm", true, wavelengths},
     Regime{"nested", "groups in groups, mixed with layers", true, nested},

@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     std::puts("what,kind,stacks,tolerance,worst,worst_T_relative,worst_sum,violations,evaluations");
-    for (std::size_t k = 0; k < oracle::kKinds; ++k) {
+    for (std::size_t k = 0; k < oracle::kAllKinds; ++k) {
         const auto kind = static_cast<oracle::Kind>(k);
         const std::string name(oracle::name_of(kind));
         if (argc <= 2) {

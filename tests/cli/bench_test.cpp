@@ -120,7 +120,7 @@ TEST_CASE("bench speed reports every kernel beside the machine's limit", "[cli][
     CHECK(outcome.err.empty());
     CHECK_THAT(outcome.out,
                StartsWith("case,method,threads,layers,points,points_per_s,ns_per_point,worst_R,"
-                          "operations_per_point,limit_per_s,fraction_of_limit\n"));
+                          "operations_per_point,limit_per_s,fraction_of_limit,worst_F\n"));
     const auto rows = parse_csv(outcome.out);
     std::set<std::string> cases, methods;
     for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -134,9 +134,29 @@ TEST_CASE("bench speed reports every kernel beside the machine's limit", "[cli][
         CHECK(std::abs(std::stod(rows[i][10]) - rate * operations / limit) < 1e-9);
         CHECK(std::stod(rows[i][7]) < 1e-12);
     }
-    CHECK(cases == std::set<std::string>{"20_periods", "film", "sin_cos"});
-    for (const std::string method : {"plain", "baseline", "long_double"})
+    CHECK(cases == std::set<std::string>{"20_periods", "film", "landmarks", "sin_cos"});
+    for (const std::string method : {"plain", "baseline", "long_double", "newton", "dichotomy"})
         CHECK(methods.contains(method));
+}
+
+TEST_CASE("bench speed compares the closed form of the filter with its sum", "[cli][bench]") {
+    const Outcome outcome =
+        run_irido({"bench", "speed", "--cases", "falpha_0.1", "--time", "0.002"});
+    CHECK(outcome.status == 0);
+    const auto rows = parse_csv(outcome.out);
+    double sum = 0, closed = 1e300;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        if (rows[i][0] != "falpha_0.1") continue;
+        const double ns = std::stod(rows[i][6]), worst = std::stod(rows[i][11]);
+        if (rows[i][1] == "sum_1000") {
+            sum = ns;
+            CHECK(worst < 1e-3);
+        } else {
+            closed = std::min(closed, ns);
+            CHECK(worst < 1e-14);
+        }
+    }
+    CHECK(sum > 10 * closed);
 }
 
 TEST_CASE("bench speed refuses what it does not know in one line", "[cli][bench][refused]") {

@@ -78,6 +78,9 @@ TEST_CASE("stats say what was skipped and do not touch the answer", "[cli][simd]
     CHECK_THAT(mirror, Contains("skipped: p (not asked for)"));
     CHECK_THAT(mirror, Contains("skipped: the repetitions of 1 groups"));
     CHECK_THAT(mirror, !Contains("3 of 3 media"));
+    const std::string hosted = stats("\"1.46 | (2.3@60 | 1.46@94)^500 | 1.46\" -a 0,30");
+    CHECK_THAT(hosted, Contains("skipped: the matrices of layers (a mirror in a host of one of"));
+    CHECK_THAT(mirror, !Contains("Yeh"));
     const std::string metal = stats("\"1 | Ag@10 | 1.5@100 | Ag@10 | 1.5@100 | 1.5\" -a 30 -p s,p");
     CHECK_THAT(metal, Contains("skipped: complex arithmetic in 2 of 4 layers"));
     CHECK_THAT(metal, Contains("skipped: matrices of 2 of 4 layers"));

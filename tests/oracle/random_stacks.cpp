@@ -1,6 +1,7 @@
 #include "tests/oracle/random_stacks.hpp"
 
 #include <array>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -9,9 +10,9 @@
 namespace irido::oracle {
 
 std::string_view name_of(Kind kind) {
-    constexpr std::array<std::string_view, kKinds> names{
-        "film",         "film on metal", "multilayer", "tabulated metal",
-        "kinked table", "bragg",         "thick film", "metal cavity"};
+    constexpr std::array<std::string_view, kAllKinds> names{
+        "film",  "film on metal", "multilayer",   "tabulated metal", "kinked table",
+        "bragg", "thick film",    "metal cavity", "mirror"};
     return names[static_cast<std::size_t>(kind)];
 }
 
@@ -90,6 +91,15 @@ Stack random_stack(Kind kind, Random& random) {
             film(50, 1500);
             b.add(b.layer(index, random.uniform(10, 60)));
             return b.over(1.52);
+        }
+        case Kind::mirror: {
+            const double n1 = random.uniform(1, 1.5), d1 = random.uniform(30, 300);
+            const double n2 = random.uniform(1.5, 2.5), d2 = random.uniform(30, 300);
+            const auto repeat = static_cast<std::uint64_t>(std::pow(300, random.uniform(0, 1)));
+            StackBuilder in_host(n1);
+            in_host.add(
+                StackBuilder::group(repeat, {in_host.layer(n1, d1), in_host.layer(n2, d2)}));
+            return in_host.over(n1);
         }
     }
     return b.over(1);

@@ -21,8 +21,10 @@ enum class Kind {
     bragg,            ///< two-layer periods, 2 to 30 of them
     thick_film,       ///< 2 to 20 um
     metal_cavity,     ///< a dielectric between two thin metals
+    mirror,           ///< two-layer periods in the medium of the first one, 1 to 300 of them
 };
-inline constexpr std::size_t kKinds = 8;
+inline constexpr std::size_t kKinds = 8;     ///< without the mirrors, whose oracle takes long
+inline constexpr std::size_t kAllKinds = 9;  ///< with them
 std::string_view name_of(Kind kind);
 
 Stack random_stack(Kind kind, Random& random);

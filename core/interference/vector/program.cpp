@@ -12,6 +12,9 @@ namespace {
 /// Groups of fewer layers in all are cheaper layer by layer than in closed form.
 constexpr std::uint64_t kFewLayers = 40;
 
+/// Fewer periods of a hosted mirror than this are cheaper layer by layer.
+constexpr std::uint64_t kFewMirrorPeriods = 7;
+
 /// Groups without a closed form are written out up to this many layers: the roundings of equal
 /// layers add up.
 constexpr std::uint64_t kMostWrittenOut = 200;
@@ -131,8 +134,23 @@ constexpr Operations kAbsorbingLayer{kTurn + 33, 25}, kSharedAbsorbingLayer{0, 1
     kAbsorbingMatrix{kTurn + 49, 0};
 constexpr Operations kLayerOfPeriod{kTurn + 2, 30}, kPowerOfPeriod{0, 92};
 constexpr Operations kFilm{kTurn + 1, 18}, kEnds{3, 20};
+constexpr Operations kMirror{2 * kTurn + 7, kTurn + 46}, kMirrorMedia{39, 0};
 
 }  // namespace
+
+std::optional<HostedMirror> fast_mirror(const std::optional<HostedMirror>& mirror,
+                                        const std::vector<bool>& absorbs) {
+    if (!mirror || absorbs[mirror->host] || absorbs[mirror->other]) return std::nullopt;
+    return mirror->repeat < kFewMirrorPeriods ? std::nullopt : mirror;
+}
+
+bool has_few_layers(const HostedMirror& mirror) {
+    return 2 * mirror.repeat <= kFewLayers;
+}
+
+double operations_of_mirror(int polarizations, bool constant) {
+    return kMirror.of(polarizations) + (constant ? 0 : kMirrorMedia.of(polarizations));
+}
 
 double operations_per_point(const Program& program, int polarizations, bool constant) {
     if (constant && program.is_one_film()) return kFilm.of(polarizations);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/interference/hosted_mirror.hpp"
 #include "core/stack/stack.hpp"
 
 namespace irido {
@@ -38,6 +39,7 @@ struct Program {
     bool shares_layers = false;  ///< layers occur often: their matrices are computed once a point
     bool absorbs = false;        ///< any layer
     double largest_thickness_nm = 0;
+    std::optional<HostedMirror> mirror;  ///< where its closed form is the faster one
 
     bool is_one_film() const {
         return steps.size() == 1 && steps[0].count == 1 && steps[0].kind == Kind::transparent;
@@ -49,6 +51,17 @@ struct Program {
 ///   absorbs  one per material: whether its index has an imaginary part anywhere
 std::optional<Program> compile(std::span<const Element> elements, std::size_t substrate,
                                const std::vector<bool>& absorbs);
+
+/// The mirror if its closed form is faster than its program.
+///   absorbs  as above
+std::optional<HostedMirror> fast_mirror(const std::optional<HostedMirror>& mirror,
+                                        const std::vector<bool>& absorbs);
+
+/// Whether a mirror's denominators come without a logarithm, as those of its layers one by one.
+bool has_few_layers(const HostedMirror& mirror);
+
+/// Operations of one point of a hosted mirror, counted as below, in bands.
+double operations_of_mirror(int polarizations, bool constant);
 
 /// Floating-point operations that the vector kernel spends on one point where all transparent
 /// layers travel and all of A is 1 - R - T: additions, multiplications, fused pairs of them,
