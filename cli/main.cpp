@@ -76,6 +76,9 @@ int run_program(int argc, char** argv) {
     add_color_command(program, run);
     add_cm_command(program, run);
     add_bands_command(program, run);
+    add_lut_command(program, run);
+    add_plan_command(program, run);
+    add_bake_command(program, run);
     add_materials_command(program, run);
     add_validate_command(program, run);
     add_bench_command(program, run);

@@ -46,10 +46,16 @@ void store(char* to, bool flag) {
 }
 
 std::string header(const Records& records, const std::vector<FieldType>& types) {
-    std::string text = "{'descr': [";
+    std::string type = "[";
     for (std::size_t c = 0; c < types.size(); ++c)
-        text += "('" + records.columns[c].name + "', '" + types[c].name + "'), ";
-    text += "], 'fortran_order': False, 'shape': (" + std::to_string(records.rows()) + ",), }";
+        type += "('" + records.columns[c].name + "', '" + types[c].name + "'), ";
+    return npy_header(type + "]", "(" + std::to_string(records.rows()) + ",)");
+}
+
+}  // namespace
+
+std::string npy_header(const std::string& type, const std::string& shape) {
+    std::string text = "{'descr': " + type + ", 'fortran_order': False, 'shape': " + shape + ", }";
     constexpr std::size_t preamble = 10;
     text.append((kAlignment - (preamble + text.size() + 1) % kAlignment) % kAlignment, ' ');
     text += '\n';
@@ -58,8 +64,6 @@ std::string header(const Records& records, const std::vector<FieldType>& types) 
     out += static_cast<char>(text.size() >> 8);
     return out + text;
 }
-
-}  // namespace
 
 std::string write_npy(const Records& records) {
     std::vector<FieldType> types;

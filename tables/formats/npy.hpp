@@ -11,4 +11,8 @@ namespace irido {
 /// Source: NumPy documentation, numpy.lib.format.
 std::string write_npy(const Records& records);
 
+/// Magic, version and header of an array: `type` and `shape` in Python's spelling, "'<f4'" and
+/// "(3, 4)". The array's bytes follow.
+std::string npy_header(const std::string& type, const std::string& shape);
+
 }  // namespace irido

@@ -1,0 +1,39 @@
+#include "cli/progress.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace irido {
+
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(1);
+constexpr auto kInterval = std::chrono::milliseconds(100);
+constexpr double kWidth = 40;
+
+}  // namespace
+
+Progress::Progress(bool quiet)
+    : is_on_(!quiet && isatty(STDERR_FILENO) == 1), next_(Clock::now() + kPatience) {}
+
+void Progress::set(double done) {
+    if (!is_on_) return;
+    const std::lock_guard guard(lock_);
+    if (Clock::now() < next_) return;
+    next_ = Clock::now() + kInterval;
+    is_shown_ = true;
+    const double part = std::clamp(done, 0.0, 1.0);
+    const std::string bar(static_cast<std::size_t>(kWidth * part), '=');
+    std::fprintf(stderr, "\r[%-40s] %3.0f %%", bar.c_str(), 100 * part);
+}
+
+void Progress::clear() {
+    if (!is_shown_) return;
+    std::fputs("\r\033[K", stderr);
+    is_shown_ = false;
+}
+
+}  // namespace irido

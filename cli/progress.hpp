@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+namespace irido {
+
+/// A bar on standard error, if that is a terminal and the work takes more than a second.
+class Progress {
+public:
+    explicit Progress(bool quiet);
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// done  a fraction of the work, [0, 1]; from any thread
+    void set(double done);
+    /// Takes the bar away.
+    void clear();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    bool is_on_;
+    std::mutex lock_;
+    Clock::time_point next_;
+    bool is_shown_ = false;
+};
+
+}  // namespace irido

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "schemas/stack_document.hpp"
+
+namespace irido {
+
+/// How an engine shades a material.
+enum class Shading {
+    color,         ///< RGB from a table
+    fourier,       ///< C_m in the shader, with a table of the sensitivity
+    bragg,         ///< Yeh's reflectance in the shader
+    rough_layers,  ///< tables falpha and transmissivity
+    albedo,        ///< table of the directional albedo
+};
+
+std::string_view name_of(Shading shading);
+
+/// From one value to another, first <= last.
+struct ValueRange {
+    double first = 0, last = 0;
+    bool is_one() const { return first == last; }
+};
+
+struct VariedRange {
+    std::string path;
+    ValueRange range;
+};
+
+/// A material of a scene. Angles in degrees, alpha in [1e-4, 1].
+struct SceneMaterial {
+    std::string name;
+    StackSource source;
+    StackDocument document;
+    std::vector<VariedRange> vary;  ///< at most two
+    ValueRange angles_deg{0, 90};
+    bool is_rough = false;
+    ValueRange alpha;
+    bool transmission = false;
+    double thickness_spread_nm = 0;
+    Shading shading = Shading::color;
+};
+
+/// A scene document as plain values. Names of spaces, illuminants, formats and types are known
+/// ones.
+struct Scene {
+    std::string file;  ///< its name in messages
+    std::string name;
+    std::string space = "srgb", illuminant = "D65", adaptation = "bradford";
+    int observer_deg = 2;
+    double delta_e = 0.5, relative = 1e-3;  ///< tolerances of colours and of filters
+    std::string format = "ktx2", type = "f16";
+    std::vector<SceneMaterial> materials;
+    std::vector<std::string> notes;  ///< what the readers of stacks say
+};
+
+/// Reads a scene file ("-" for standard input). Throws InputError for the first thing that is
+/// wrong, in the scene or in one of its stacks.
+Scene read_scene(const std::string& path);
+
+/// The text of scene.schema.json.
+const char* scene_schema_text();
+
+}  // namespace irido

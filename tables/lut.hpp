@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace irido {
+
+/// The number format of a table's values in a file.
+enum class LutType { f16, f32, f64 };
+
+std::string_view name_of(LutType type);  ///< f16, f32, f64
+std::size_t bytes_of(LutType type);
+/// The double that is read back after the value was stored: rounded to nearest even. Infinite
+/// beyond the type's range.
+double rounded(double value, LutType type);
+
+/// Where a table's function was sampled along one axis.
+struct LutAxis {
+    std::string name;            ///< column of the CSV: theta_i_deg, cos_theta, opd_nm, ...
+    std::string unit;            ///< deg, nm, or "" for a pure number
+    std::vector<double> values;  ///< strictly monotonic, at least one
+    bool operator==(const LutAxis&) const = default;
+
+    std::size_t count() const { return values.size(); }
+    /// Equally spaced (to 1e-9 of the spacing): then only the ends and the count are written.
+    bool is_linear() const;
+};
+
+/// `count` values from one end to the other, both included; count 1 is `first` alone.
+std::vector<double> equally_spaced(double first, double last, std::size_t count);
+
+/// A sampled function of 1 to 3 axes: what a kind makes and a format writes.
+/// Texture coordinates put the first sample of an axis at the centre of the first texel and the
+/// last at that of the last: u = (0.5 + (count - 1) (x - first) / (last - first)) / count.
+struct Lut {
+    std::string kind;
+    std::vector<LutAxis> axes;          ///< slowest first
+    std::vector<std::string> channels;  ///< R,G,B, or one name for each value
+    /// The first axis counts mip levels: level l has max(1, count >> l) equally spaced samples
+    /// between the same ends along every other axis, which are linear.
+    bool mips = false;
+    LutType type = LutType::f32;
+    std::vector<double> values;  ///< level by level if mips; last axis and then channel fastest
+    /// The rest of the metadata, as schemas/lut.schema.json has it: version, color_space, stack,
+    /// request, error, notes. Never paths, times or thread counts.
+    nlohmann::json facts = nlohmann::json::object();
+
+    std::size_t levels() const { return mips ? axes.front().count() : 1; }
+    /// Axes of one level without the mip axis, with the samples that this level has.
+    std::vector<LutAxis> axes_of_level(std::size_t level) const;
+    std::size_t values_of_level(std::size_t level) const;  ///< numbers, channels counted
+};
+
+}  // namespace irido

@@ -1,0 +1,31 @@
+#include "tables/lut_kind.hpp"
+
+#include <array>
+
+#define IRIDO_DECLARE(name) extern const LutKind name;
+namespace irido {
+#include "lut_kinds.inc"
+
+namespace {
+
+constexpr std::array kKinds{IRIDO_ALL};
+
+}  // namespace
+
+std::span<const LutKind* const> lut_kinds() {
+    return kKinds;
+}
+
+const std::vector<double>& LutRequest::list(std::string_view name) const {
+    return std::get<std::vector<double>>(options.find(name)->second);
+}
+
+double LutRequest::number(std::string_view name) const {
+    return std::get<double>(options.find(name)->second);
+}
+
+const std::string& LutRequest::word(std::string_view name) const {
+    return std::get<std::string>(options.find(name)->second);
+}
+
+}  // namespace irido

@@ -1,0 +1,434 @@
+#include "tables/lut_maker.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/math/parallel.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr std::size_t kMostSamplesOfAxis = 8192, kMostValues = 1U << 27;
+constexpr std::size_t kChunks = 64;  ///< of the work, whatever the number of threads
+constexpr std::size_t kFirstSize = 4;
+constexpr std::size_t kDroppedSamples = 65;  ///< along an axis that has one sample
+constexpr std::size_t kFineSamples = 9;      ///< along each side of the worst cell
+constexpr std::size_t kEndSamples = 1025;    ///< along a range that may end early
+
+std::size_t size_of(const std::vector<LutAxis>& axes, std::size_t first, std::size_t last) {
+    std::size_t count = 1;
+    for (std::size_t a = first; a < last; ++a) count *= axes[a].count();
+    return count;
+}
+
+/// The plan's function on a grid, in pieces along the plan's axis.
+std::vector<double> evaluated(const LutPlan& plan, const std::vector<LutAxis>& axes,
+                              unsigned threads, const std::function<void(double)>& progress = {}) {
+    const std::size_t split = plan.split_axis, count = axes[split].count();
+    const std::size_t outer = size_of(axes, 0, split);
+    const std::size_t inner = size_of(axes, split + 1, axes.size()) * plan.channels.size();
+    const std::size_t length = (count + kChunks - 1) / kChunks;
+    const std::size_t chunks = (count + length - 1) / length;
+    std::vector<double> values(outer * count * inner);
+    std::atomic<std::size_t> done = 0;
+    parallel_for(chunks, threads, [&](std::size_t chunk) {
+        const std::size_t first = chunk * length, last = std::min(count, first + length);
+        std::vector<LutAxis> part = axes;
+        const auto& all = axes[split].values;
+        part[split].values.assign(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                  all.begin() + static_cast<std::ptrdiff_t>(last));
+        const std::vector<double> block = plan.evaluate(part);
+        const std::size_t row = (last - first) * inner;
+        for (std::size_t o = 0; o < outer; ++o)
+            std::copy_n(block.begin() + static_cast<std::ptrdiff_t>(o * row), row,
+                        values.begin() + static_cast<std::ptrdiff_t>((o * count + first) * inner));
+        const std::size_t ready = ++done;
+        if (progress) progress(static_cast<double>(ready) / static_cast<double>(chunks));
+    });
+    return values;
+}
+
+/// Values on a grid, linearly interpolated at other samples along one of its axes.
+std::vector<double> resampled(const std::vector<double>& values, const std::vector<LutAxis>& axes,
+                              std::size_t a, const std::vector<double>& at, std::size_t channels) {
+    const std::vector<double>& x = axes[a].values;
+    const std::size_t outer = size_of(axes, 0, a);
+    const std::size_t inner = size_of(axes, a + 1, axes.size()) * channels;
+    const bool falls = x.size() > 1 && x.back() < x.front();
+    std::vector<double> result(outer * at.size() * inner);
+    for (std::size_t j = 0; j < at.size(); ++j) {
+        std::size_t i = 0;
+        while (i + 2 < x.size() && (falls ? at[j] < x[i + 1] : at[j] > x[i + 1])) ++i;
+        const std::size_t next = std::min(i + 1, x.size() - 1);
+        const double w = next == i ? 0 : std::clamp((at[j] - x[i]) / (x[next] - x[i]), 0.0, 1.0);
+        for (std::size_t o = 0; o < outer; ++o) {
+            const double* const low = values.data() + (o * x.size() + i) * inner;
+            const double* const high = values.data() + (o * x.size() + next) * inner;
+            double* const to = result.data() + (o * at.size() + j) * inner;
+            for (std::size_t k = 0; k < inner; ++k) to[k] = low[k] * (1 - w) + high[k] * w;
+        }
+    }
+    return result;
+}
+
+std::vector<double> middles(const std::vector<double>& x) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i + 1 < x.size(); ++i) result.push_back(0.5 * (x[i] + x[i + 1]));
+    return result;
+}
+
+/// One grid with its values as stored, to be compared with the plan's function.
+class Comparison {
+public:
+    Comparison(const LutPlan& plan, std::vector<LutAxis> axes, std::vector<double> stored,
+               unsigned threads)
+        : plan_(plan), axes_(std::move(axes)), stored_(std::move(stored)), threads_(threads) {}
+
+    /// Samples at which an axis is looked at between those of the grid; none if it is a list.
+    std::vector<double> between(std::size_t a) const {
+        const LutAxis& planned = plan_.axes[a].axis;
+        if (plan_.mips && a == 0) return {};
+        if (plan_.axes[a].fixed && (axes_[a].count() < 3 || !axes_[a].is_linear())) return {};
+        if (axes_[a].count() > 1) return middles(axes_[a].values);
+        if (plan_.axes[a].fixed || planned.count() < 2) return {};
+        return equally_spaced(planned.values.front(), planned.values.back(), kDroppedSamples);
+    }
+
+    /// The largest difference at the samples of `targets`, and where.
+    std::pair<double, std::vector<double>> largest(const std::vector<LutAxis>& targets) const {
+        std::vector<LutAxis> axes = axes_;
+        std::vector<double> approximate = stored_;
+        for (std::size_t a = 0; a < axes.size(); ++a) {
+            if (targets[a] == axes[a]) continue;
+            approximate = resampled(approximate, axes, a, targets[a].values, channels());
+            axes[a] = targets[a];
+        }
+        const std::vector<double> exact = evaluated(plan_, targets, threads_);
+        const std::vector<double> d = plan_.measure.differences(targets, exact, approximate);
+        const auto worst = std::ranges::max_element(d);
+        auto place = static_cast<std::size_t>(worst - d.begin());
+        std::vector<double> at(axes.size());
+        for (std::size_t a = axes.size(); a-- > 0; place /= axes[a].count())
+            at[a] = axes[a].values[place % axes[a].count()];
+        return {*worst, at};
+    }
+
+    InterpolationError error() const {
+        InterpolationError result;
+        result.of_axis.resize(axes_.size());
+        std::vector<LutAxis> all = axes_;
+        std::size_t ranges = 0;
+        for (std::size_t a = 0; a < axes_.size(); ++a) {
+            const std::vector<double> samples = between(a);
+            if (samples.empty()) continue;
+            std::vector<LutAxis> targets = axes_;
+            targets[a].values = all[a].values = samples;
+            ++ranges;
+            const auto [value, at] = largest(targets);
+            result.of_axis[a] = value;
+            keep(result, value, at);
+        }
+        if (ranges == 0) {  // what the type rounds off
+            const auto [value, at] = largest(axes_);
+            keep(result, value, at);
+            return result;
+        }
+        if (ranges > 1) {
+            const auto [value, at] = largest(all);
+            keep(result, value, at);
+        }
+        const auto [value, at] = largest(worst_cell(result.at));
+        keep(result, value, at);
+        return result;
+    }
+
+private:
+    std::size_t channels() const { return plan_.channels.size(); }
+
+    static void keep(InterpolationError& result, double value, const std::vector<double>& at) {
+        if (!result.at.empty() && !(value > result.value)) return;
+        result.value = value;
+        result.at = at;
+    }
+
+    std::vector<LutAxis> worst_cell(const std::vector<double>& at) const {
+        std::vector<LutAxis> cell = axes_;
+        for (std::size_t a = 0; a < axes_.size(); ++a) {
+            const std::vector<double>& x = axes_[a].values;
+            cell[a].values = {at[a]};
+            if (x.size() < 2 || between(a).empty()) continue;
+            std::size_t i = 0;
+            while (i + 2 < x.size() && (at[a] - x[i + 1]) * (x.back() - x.front()) > 0) ++i;
+            cell[a].values = equally_spaced(x[i], x[i + 1], kFineSamples);
+        }
+        return cell;
+    }
+
+    const LutPlan& plan_;
+    std::vector<LutAxis> axes_;
+    std::vector<double> stored_;
+    unsigned threads_;
+};
+
+std::vector<double> as_stored(std::vector<double> values, LutType type) {
+    for (double& value : values) value = rounded(value, type);
+    return values;
+}
+
+/// The parts of a table that are sampled together, as grids of the plan's axes.
+std::vector<std::vector<LutAxis>> grids_of(const Lut& lut) {
+    if (!lut.mips) return {lut.axes};
+    std::vector<std::vector<LutAxis>> grids;
+    for (std::size_t level = 0; level < lut.levels(); ++level) {
+        std::vector<LutAxis> axes = lut.axes_of_level(level);
+        LutAxis of_level = lut.axes.front();
+        of_level.values = {of_level.values[level]};
+        axes.insert(axes.begin(), std::move(of_level));
+        grids.push_back(std::move(axes));
+    }
+    return grids;
+}
+
+std::string name_of_axis(const LutAxis& axis) {
+    return axis.unit.empty() ? axis.name : axis.name + " (" + axis.unit + ")";
+}
+
+/// Finds axes for a tolerance.
+class Fit {
+public:
+    Fit(LutPlan& plan, const LutMaking& making, Lut& lut)
+        : plan_(plan), making_(making), lut_(lut), tolerance_(*making.sizing.tolerance) {}
+
+    void run() {
+        for (std::size_t a = 0; a < plan_.axes.size(); ++a)
+            if (plan_.axes[a].may_end_early && is_free(a)) end_early(a);
+        for (std::size_t a = 0; a < plan_.axes.size(); ++a)
+            if (is_free(a)) start(a);
+        grow();
+        shrink();
+    }
+
+private:
+    bool is_free(std::size_t a) const {
+        return !plan_.axes[a].fixed && plan_.axes[a].axis.count() > 1 && !(lut_.mips && a == 0);
+    }
+
+    void note(const std::string& text) { lut_.facts["notes"].push_back(text); }
+
+    LutAxis range(std::size_t a, std::size_t count) const {
+        LutAxis axis = plan_.axes[a].axis;
+        axis.values = equally_spaced(axis.values.front(), axis.values.back(), count);
+        return axis;
+    }
+
+    /// Few samples along the other axes.
+    std::vector<LutAxis> coarse() const {
+        constexpr std::size_t coarse_samples = 9;
+        std::vector<LutAxis> axes;
+        for (std::size_t a = 0; a < plan_.axes.size(); ++a)
+            axes.push_back(is_free(a) ? range(a, coarse_samples) : plan_.axes[a].axis);
+        return axes;
+    }
+
+    /// Along axis a of a grid: the last sample that differs from the last of all.
+    std::size_t last_different(std::size_t a, const std::vector<LutAxis>& axes,
+                               std::size_t reference) const {
+        const std::vector<double> values = evaluated(plan_, axes, making_.threads);
+        const std::size_t channels = plan_.channels.size();
+        const std::vector<double> constant =
+            resampled(values, axes, a,
+                      std::vector<double>(axes[a].count(), axes[a].values[reference]), channels);
+        const std::vector<double> d = plan_.measure.differences(axes, values, constant);
+        const std::size_t inner = size_of(axes, a + 1, axes.size()), count = axes[a].count();
+        std::size_t last = 0;
+        for (std::size_t i = 0; i < d.size(); ++i)
+            if (!(d[i] <= tolerance_ / 4)) last = std::max(last, 1 + i / inner % count);
+        return last;
+    }
+
+    /// The range ends where the function has become constant.
+    void end_early(std::size_t a) {
+        std::vector<LutAxis> axes = coarse();
+        axes[a] = range(a, kEndSamples);
+        const std::size_t last = last_different(a, axes, kEndSamples - 1);
+        if (last + kEndSamples / 16 >= kEndSamples) return;
+        LutAxis& axis = plan_.axes[a].axis;
+        const double end = axis.values.back();
+        axis.values = {axis.values.front(), axes[a].values[std::max<std::size_t>(last, 1)]};
+        note(axis.name + ": constant from " + to_text(axis.values.back()) + " to " + to_text(end) +
+             ", the range ends there");
+    }
+
+    /// One sample for an axis that does not matter, few for others.
+    void start(std::size_t a) {
+        std::vector<LutAxis> axes = coarse();
+        axes[a] = range(a, kDroppedSamples);
+        const LutAxis whole = range(a, 3);
+        if (last_different(a, axes, kDroppedSamples / 2) == 0) {
+            lut_.axes[a].values = {whole.values[1]};
+            note(whole.name + ": does not matter from " + to_text(whole.values.front()) + " to " +
+                 to_text(whole.values.back()) + ", one sample");
+        } else {
+            lut_.axes[a] = range(a, kFirstSize);
+        }
+    }
+
+    /// Of the first mip level, where there are any.
+    InterpolationError error_now() {
+        const std::vector<LutAxis> grid = grids_of(lut_).front();
+        const Comparison comparison(plan_, grid,
+                                    as_stored(evaluated(plan_, grid, making_.threads), lut_.type),
+                                    making_.threads);
+        return comparison.error();
+    }
+
+    void grow() {
+        for (InterpolationError error = error_now(); error.value > tolerance_;
+             error = error_now()) {
+            double largest = 0;
+            for (std::size_t a = 0; a < plan_.axes.size(); ++a)
+                if (is_free(a)) largest = std::max(largest, error.of_axis[a]);
+            bool has_grown = false;
+            for (std::size_t a = 0; a < plan_.axes.size(); ++a) {
+                // errors of the axes add up: each may take its share
+                if (!is_free(a) || !(error.of_axis[a] > largest / 2)) continue;
+                const std::size_t count = lut_.axes[a].count();
+                if (count >= kMostSamplesOfAxis) continue;
+                // the error falls with the square of the spacing, once it is small
+                const std::size_t factor = error.of_axis[a] > 16 * tolerance_ ? 4 : 2;
+                lut_.axes[a] = range(a, std::max(kFirstSize, count * factor));
+                has_grown = true;
+            }
+            if (!has_grown || size_of(lut_.axes, 0, lut_.axes.size()) > kMostValues)
+                throw LutToleranceError(
+                    "no table of a reasonable size has an interpolation error of " +
+                    to_text(tolerance_) + " (" + plan_.measure.name + "); of " + size_text() +
+                    " samples it is " + to_text(error.value));
+        }
+    }
+
+    std::string size_text() const {
+        std::string text;
+        for (const LutAxis& axis : lut_.axes)
+            text += (text.empty() ? "" : " x ") + std::to_string(axis.count());
+        return text;
+    }
+
+    /// Fewer samples along one axis after the other, the largest first, while the error allows.
+    void shrink() {
+        std::vector<std::size_t> order;
+        for (std::size_t a = 0; a < plan_.axes.size(); ++a)
+            if (is_free(a) && lut_.axes[a].count() > 1) order.push_back(a);
+        std::ranges::stable_sort(order, std::ranges::greater(),
+                                 [&](std::size_t a) { return lut_.axes[a].count(); });
+        for (const std::size_t a : order) {
+            std::size_t enough = lut_.axes[a].count();
+            while (enough > 2 && suffices(a, enough / 2)) enough /= 2;
+            if (!making_.sizing.power_of_two && enough > 2) enough = fewest(a, enough / 2, enough);
+            lut_.axes[a] = range(a, enough);
+        }
+    }
+
+    bool suffices(std::size_t a, std::size_t count) {
+        lut_.axes[a] = range(a, count);
+        return error_now().value <= tolerance_;
+    }
+
+    /// Between few, which do not suffice, and enough, to 3 %.
+    std::size_t fewest(std::size_t a, std::size_t few, std::size_t enough) {
+        while (enough - few > std::max<std::size_t>(1, enough / 32)) {
+            const std::size_t middle = (enough + few) / 2;
+            (suffices(a, middle) ? enough : few) = middle;
+        }
+        return enough;
+    }
+
+    LutPlan& plan_;
+    const LutMaking& making_;
+    Lut& lut_;
+    double tolerance_;
+};
+
+/// The axes for the sizes that were typed.
+void set_counts(Lut& lut, const LutPlan& plan, const std::vector<std::size_t>& counts) {
+    if (counts.size() != plan.axes.size())
+        throw LutError("the size must have " + std::to_string(plan.axes.size()) +
+                       " numbers, one for each axis (got " + std::to_string(counts.size()) + ")");
+    for (std::size_t a = 0; a < counts.size(); ++a) {
+        LutAxis& axis = lut.axes[a];
+        if (counts[a] == axis.count()) continue;
+        if (plan.axes[a].fixed || (lut.mips && a == 0))
+            throw LutError("the samples of " + name_of_axis(axis) +
+                           " are given: " + std::to_string(axis.count()) + " (got " +
+                           std::to_string(counts[a]) + ")");
+        axis.values = counts[a] == 1
+                          ? std::vector{0.5 * (axis.values.front() + axis.values.back())}
+                          : equally_spaced(axis.values.front(), axis.values.back(), counts[a]);
+    }
+}
+
+void fill(Lut& lut, const LutPlan& plan, const LutMaking& making) {
+    lut.values.clear();
+    for (const auto& grid : grids_of(lut)) {
+        const std::vector<double> values = evaluated(plan, grid, making.threads, making.progress);
+        lut.values.insert(lut.values.end(), values.begin(), values.end());
+    }
+}
+
+/// A table without values; with a tolerance, the plan's ranges may be cut.
+Lut sized(const LutKind& kind, LutPlan& plan, const LutMaking& making) {
+    Lut lut;
+    lut.kind = kind.name;
+    lut.channels = plan.channels;
+    lut.type = making.type;
+    lut.facts = plan.facts;
+    lut.facts["error"] = nullptr;
+    if (!lut.facts.contains("notes")) lut.facts["notes"] = nlohmann::json::array();
+    for (const AxisPlan& axis : plan.axes) lut.axes.push_back(axis.axis);
+    lut.mips = making.mips && plan.mips && plan.axes.front().axis.count() > 1;
+    if (!making.sizing.counts.empty()) set_counts(lut, plan, making.sizing.counts);
+    if (making.sizing.tolerance) Fit(plan, making, lut).run();
+    const std::size_t samples = size_of(lut.axes, 0, lut.axes.size());
+    if (samples > kMostValues)
+        throw LutError("a table of " + std::to_string(samples) + " samples is too large");
+    return lut;
+}
+
+}  // namespace
+
+std::vector<InterpolationError> interpolation_errors(const LutPlan& plan, const Lut& lut,
+                                                     unsigned threads) {
+    std::vector<InterpolationError> errors;
+    auto from = lut.values.begin();
+    for (const auto& grid : grids_of(lut)) {
+        const auto count =
+            static_cast<std::ptrdiff_t>(size_of(grid, 0, grid.size()) * lut.channels.size());
+        const Comparison comparison(plan, grid, as_stored({from, from + count}, lut.type), threads);
+        from += count;
+        errors.push_back(comparison.error());
+    }
+    return errors;
+}
+
+Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making) {
+    return sized(kind, plan, making);
+}
+
+Lut make_lut(const LutKind& kind, LutPlan plan, const LutMaking& making) {
+    Lut lut = sized(kind, plan, making);
+    fill(lut, plan, making);
+    if (!making.measure) return lut;
+    const std::vector<InterpolationError> errors = interpolation_errors(plan, lut, making.threads);
+    nlohmann::json& facts = lut.facts["error"];
+    facts = {{"measure", plan.measure.name}, {"value", errors.front().value}};
+    for (std::size_t a = 0; a < lut.axes.size(); ++a)
+        facts["at"][lut.axes[a].name] = errors.front().at[a];
+    if (lut.mips)
+        for (const InterpolationError& error : errors) facts["levels"].push_back(error.value);
+    return lut;
+}
+
+}  // namespace irido

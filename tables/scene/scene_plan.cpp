@@ -1,0 +1,439 @@
+#include "tables/scene/scene_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/color/film_color.hpp"
+#include "core/color/held_stack.hpp"
+#include "core/color/illuminant.hpp"
+#include "core/color/sensitivity_transform.hpp"
+#include "core/error.hpp"
+#include "core/interference/film.hpp"
+#include "core/interference/index_table.hpp"
+#include "schemas/canonical_stack.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/varied_stack.hpp"
+#include "tables/color_values.hpp"
+#include "tables/hash.hpp"
+
+namespace irido {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMiddle_nm = 550;      ///< where the constants of shaders are taken
+constexpr std::size_t kRangeSize = 16;  ///< of a range whose size the tolerance decides
+constexpr double kOpaque_k = 1e-6;      ///< of a base of which no light comes back
+
+const LutKind& kind_of(std::string_view name) {
+    return **std::ranges::find(lut_kinds(), name, &LutKind::name);
+}
+
+std::vector<double> samples_of(const ValueRange& range) {
+    if (range.is_one()) return {range.first};
+    return equally_spaced(range.first, range.last, kRangeSize);
+}
+
+/// Cosines from the largest angle to the smallest, so that they ascend.
+std::vector<double> cosines_of(const ValueRange& angles_deg) {
+    return samples_of({cos_of_incidence(angles_deg.last), cos_of_incidence(angles_deg.first)});
+}
+
+std::string in_text(const ValueRange& range) {
+    return to_text(range.first) + " to " + to_text(range.last);
+}
+
+/// Plans one material after the other.
+class Planner {
+public:
+    Planner(const Scene& scene, const Execution& execution)
+        : scene_(scene),
+          execution_(execution),
+          sensitivity_(std::make_shared<Sensitivity>(observer(scene.observer_deg),
+                                                     illuminant(scene.illuminant))) {}
+
+    ScenePlan run() {
+        for (const SceneMaterial& material : scene_.materials) {
+            MaterialPlan& plan = result_.materials.emplace_back();
+            plan.name = material.name;
+            plan.shading = material.shading;
+            const std::size_t omissions = result_.omissions.size();
+            try {
+                plan_material(material, plan);
+            } catch (const std::runtime_error& error) {  // InputError, DomainError, LutError
+                plan.fault = error.what();
+                plan.tables.clear();
+                result_.omissions.resize(omissions);
+            }
+        }
+        drop_unused();
+        return std::move(result_);
+    }
+
+private:
+    void plan_material(const SceneMaterial& material, MaterialPlan& plan) {
+        for (const HeldRange& held : held_ranges(material.document.stack, *sensitivity_))
+            if (!held.usable)
+                throw InputError(material.source.file,
+                                 material.document.material_pointers[held.material],
+                                 "a colour needs a material known from 400 to 700 nm");
+        const ValueRange all_angles{0, 90};
+        if (material.angles_deg.first > all_angles.first ||
+            material.angles_deg.last < all_angles.last)
+            omit(material, "angles",
+                 "those outside of " + in_text(material.angles_deg) + " degrees never occur");
+        for (const VariedRange& vary : material.vary)
+            if (vary.range.is_one())
+                omit(material, vary.path, "is always " + to_text(vary.range.first));
+        switch (material.shading) {
+            case Shading::color:
+                return plan_color(material, plan);
+            case Shading::fourier:
+                return plan_fourier(material, plan);
+            case Shading::bragg:
+                return plan_bragg(material, plan);
+            case Shading::rough_layers:
+                return plan_rough_layers(material, plan);
+            case Shading::albedo:
+                return plan_albedo(material, plan);
+        }
+    }
+
+    void omit(const SceneMaterial& material, const std::string& what, const std::string& reason) {
+        result_.omissions.push_back({material.name, what, reason});
+    }
+
+    /// What a kind is asked, but for its own options.
+    LutRequest request_of(const SceneMaterial& material) const {
+        LutRequest request;
+        request.execution = execution_;
+        request.source = material.source;
+        request.document = material.document;
+        request.sensitivity = sensitivity_;
+        request.illuminant = scene_.illuminant;
+        request.observer = std::to_string(scene_.observer_deg);
+        request.color.simd = execution_.simd;
+        request.space = &rgb_space(scene_.space);
+        request.adaptation = scene_.adaptation == "none" ? Adaptation::none : Adaptation::bradford;
+        for (const VariedRange& vary : material.vary)
+            if (!vary.range.is_one()) request.vary.push_back({vary.path, samples_of(vary.range)});
+        return request;
+    }
+
+    LutMaking making_of(bool is_color) const {
+        LutMaking making;
+        making.sizing.tolerance = is_color ? scene_.delta_e : scene_.relative;
+        for (const LutType type : {LutType::f16, LutType::f32, LutType::f64})
+            if (name_of(type) == scene_.type) making.type = type;
+        making.mips = scene_.format == "ktx2";
+        return making;
+    }
+
+    /// Adds a table, or finds it among those that there are.
+    void use(const SceneMaterial& material, MaterialPlan& plan, const std::string& role,
+             std::string_view kind, LutRequest request, const LutMaking& making) {
+        SceneTable table;
+        table.kind = &kind_of(kind);
+        table.request = std::move(request);
+        table.making = making;
+        table.inputs = inputs_of(table);
+        table.id = sha256_of(table.inputs.dump()).substr(0, 16);
+        table.file = std::string(kind) + "-" + table.id + "." + scene_.format;
+        const auto same = std::ranges::find(result_.tables, table.id, &SceneTable::id);
+        const auto place = static_cast<std::size_t>(same - result_.tables.begin());
+        if (same == result_.tables.end()) result_.tables.push_back(std::move(table));
+        std::vector<std::string>& users = result_.tables[place].materials;
+        if (!users.empty() && users.front() != material.name)
+            omit(material, role, "the same physics as " + users.front() + ": one table for both");
+        users.push_back(material.name);
+        plan.tables.push_back({role, place});
+    }
+
+    /// All that a table's values depend on.
+    json inputs_of(const SceneTable& table) const {
+        const LutRequest& request = table.request;
+        json inputs = {{"numbers", kNumbersVersion},
+                       {"kind", table.kind->name},
+                       {"tolerance", *table.making.sizing.tolerance},
+                       {"type", name_of(table.making.type)},
+                       {"mips", table.making.mips},
+                       {"format", scene_.format}};
+        for (const auto& [name, value] : request.options)
+            std::visit([&](const auto& v) { inputs["options"][name] = v; }, value);
+        if (table.kind->stack) inputs["stack"] = canonical_stack(request.document.stack);
+        for (const VariedValue& vary : request.vary)
+            inputs["vary"][vary.path] = {vary.values.front(), vary.values.back()};
+        if (table.kind->light) inputs["light"] = {request.illuminant, request.observer};
+        if (table.kind->color)
+            inputs["color"] = {request.space->name, request.adaptation == Adaptation::none,
+                               request.color.sides.front() == Side::reflected,
+                               static_cast<int>(request.color.light)};
+        return inputs;
+    }
+
+    // --- colours ----------------------------------------------------------------------------
+
+    bool is_opaque(const SceneMaterial& material) const {
+        const Stack held = held_stack(material.document.stack, *sensitivity_);
+        return index_at(held.materials[held.substrate], kMiddle_nm).imag() > kOpaque_k;
+    }
+
+    void plan_color(const SceneMaterial& material, MaterialPlan& plan) {
+        LutRequest request = request_of(material);
+        request.options["cos"] = cosines_of(material.angles_deg);
+        if (material.angles_deg.last == 0) {
+            request.color.light = Light::s;
+            omit(material, "polarization p", "at normal incidence both are the same");
+        }
+        plan_spread(material, request);
+        use(material, plan, "reflection", "color", request, making_of(true));
+        plan.snippets = {"color"};
+        if (!material.transmission) {
+            omit(material, "transmission", "was not asked for");
+        } else if (is_opaque(material)) {
+            omit(material, "transmission", "the base absorbs all that enters it");
+        } else {
+            request.color.sides = {Side::transmitted};
+            use(material, plan, "transmission", "color", request, making_of(true));
+        }
+    }
+
+    /// Levels of the thickness's spread, for mips.
+    void plan_spread(const SceneMaterial& material, LutRequest& request) {
+        const double spread = material.thickness_spread_nm;
+        if (spread == 0) return omit(material, "mip levels", "no spread is given");
+        if (request.vary.size() != 1 || !request.vary.front().path.ends_with("thickness_nm"))
+            return omit(material, "mip levels", "the one value that varies must be a thickness");
+        request.options["sigma"] = std::vector{0.0, spread / 4, spread / 2, spread};
+    }
+
+    // --- the series in the shader -----------------------------------------------------------
+
+    /// Films at the ends and in the middle of what varies, with the indices of shaders.
+    std::vector<Film> films_of(const SceneMaterial& material) const {
+        const LutRequest request = request_of(material);
+        std::vector<std::string> paths;
+        for (const VariedValue& vary : request.vary) paths.push_back(vary.path);
+        const VariedStack varied(material.source, paths);
+        std::vector<Film> films;
+        const std::size_t steps = paths.empty() ? 1 : kRangeSize;
+        for (std::size_t i = 0; i < steps * (paths.size() > 1 ? steps : 1); ++i) {
+            std::vector<double> values;
+            if (!paths.empty()) values.push_back(request.vary[0].values[i % steps]);
+            if (paths.size() > 1) values.push_back(request.vary[1].values[i / steps]);
+            const Stack stack = varied.at(values);
+            const std::string fault = stack.elements.empty() ? "no layer" : film_fault(stack);
+            if (!fault.empty())
+                throw InputError(
+                    material.source.file, "",
+                    "fourier needs one coherent film of a real index (got " + fault + ")");
+            const Layer layer = only_film(stack);
+            const IndexTable table(stack, {kMiddle_nm});
+            films.push_back({table.n(stack.incident)[0], table.n(layer.material)[0],
+                             table.index(stack.substrate, 0), layer.thickness_nm});
+        }
+        return films;
+    }
+
+    void plan_fourier(const SceneMaterial& material, MaterialPlan& plan) {
+        const std::vector<Film> films = films_of(material);
+        const bool is_real =
+            std::ranges::all_of(films, [](const Film& f) { return f.base.imag() == 0; });
+        const Film& first = films.front();
+        plan.constants = {{"n1", first.incident},
+                          {"n2", first.film},
+                          {"n3", {first.base.real(), first.base.imag()}},
+                          {"thickness_nm", first.thickness_nm},
+                          {"at_nm", kMiddle_nm}};
+        plan.snippets = {"fourier"};
+        double longest_nm = 0;
+        const int orders = orders_of(material, films, longest_nm);
+        plan.constants["orders"] = orders;
+        if (orders == 0)
+            return omit(material, "sensitivity",
+                        "no fringes are left at these optical paths: C_0 only");
+        omit(material, "orders from " + std::to_string(orders + 1), "are below the tolerance");
+        LutRequest request = request_of(material);
+        request.vary.clear();
+        request.options["opd"] = equally_spaced(0, longest_nm, kRangeSize);
+        request.options["opd-max"] = longest_nm;
+        request.options["sigma"] = sigmas_of(material, longest_nm);
+        if (is_real) {
+            request.options["real"] = std::string("true");
+            omit(material, "imaginary half", "the base does not absorb: its phase is 0 or pi");
+        } else {
+            request.options["carrier"] = std::string("true");
+        }
+        use(material, plan, "sensitivity", "sensitivity", std::move(request), making_of(false));
+    }
+
+    /// The last order that matters anywhere, and the longest path m D among those that do.
+    int orders_of(const SceneMaterial& material, const std::vector<Film>& films,
+                  double& longest_nm) const {
+        constexpr int most = 1000, angles = 17;
+        const SensitivityTransform& transform = this->transform();
+        int orders = 0;
+        for (const double angle_deg :
+             equally_spaced(material.angles_deg.first, material.angles_deg.last, angles))
+            for (const Film& film : films)
+                for (const Polarization p : {Polarization::s, Polarization::p}) {
+                    const auto series = film_series(film, cos_of_incidence(angle_deg), p);
+                    if (!series) continue;
+                    for (int m = 1; m <= most; ++m) {
+                        const double path = m * series->opd_nm;
+                        const double size = 2 * std::abs(series->coefficient(false, m));
+                        if (size < scene_.relative) break;
+                        if (size * transform.bound(path) < scene_.relative) continue;
+                        orders = std::max(orders, m);
+                        longest_nm = std::max(longest_nm, path);
+                    }
+                }
+        longest_nm = std::max(1.0, std::ceil(longest_nm));
+        return orders;
+    }
+
+    std::vector<double> sigmas_of(const SceneMaterial& material, double longest_nm) {
+        const double spread = material.thickness_spread_nm;
+        if (spread == 0) {
+            omit(material, "mip levels", "no spread is given");
+            return {0};
+        }
+        // of the path of the first order: 2 n2 sigma, at most what blurs all fringes
+        const double most = std::min(longest_nm, 4 * spread);
+        return {0, most / 4, most / 2, most};
+    }
+
+    const SensitivityTransform& transform() const {
+        constexpr double opd_max_nm = 2e5, accuracy = 1e-8;
+        if (!transform_)
+            transform_ =
+                std::make_shared<SensitivityTransform>(*sensitivity_, opd_max_nm, accuracy);
+        return *transform_;
+    }
+
+    // --- Yeh's reflectance in the shader ------------------------------------------------------
+
+    void plan_bragg(const SceneMaterial& material, MaterialPlan& plan) {
+        const Stack& stack = material.document.stack;
+        const auto* group =
+            stack.elements.size() == 1 ? std::get_if<Group>(&stack.elements[0].value) : nullptr;
+        if (!group || group->elements.size() != 2 ||
+            !std::ranges::all_of(group->elements, [](const Element& e) {
+                return std::holds_alternative<Layer>(e.value);
+            }))
+            throw InputError(material.source.file, "",
+                             "bragg needs one repeated group of two layers and nothing else");
+        const auto& first = std::get<Layer>(group->elements[0].value);
+        const auto& second = std::get<Layer>(group->elements[1].value);
+        if (first.material != stack.incident || first.material != stack.substrate)
+            throw InputError(material.source.file, "",
+                             "bragg needs the first layer's material on both sides of the mirror");
+        const IndexTable table(stack, {kMiddle_nm});
+        if (table.index(second.material, 0).imag() != 0)
+            throw InputError(material.source.file, "", "bragg needs layers that do not absorb");
+        plan.constants = {{"n1", table.n(first.material)[0]},  {"d1_nm", first.thickness_nm},
+                          {"n2", table.n(second.material)[0]}, {"d2_nm", second.thickness_nm},
+                          {"periods", group->repeat},          {"at_nm", kMiddle_nm}};
+        plan.snippets = {"bragg", "cumulative"};
+        omit(material, "color", "closed form in the shader: snippet bragg");
+        LutRequest request = request_of(material);
+        request.vary.clear();
+        request.options["wavelengths"] = equally_spaced(
+            sensitivity_->support().first_nm, sensitivity_->support().last_nm, kRangeSize);
+        use(material, plan, "cumulative", "cumulative", std::move(request), making_of(false));
+    }
+
+    // --- rough surfaces -----------------------------------------------------------------------
+
+    void require_rough(const SceneMaterial& material) const {
+        if (!material.is_rough)
+            throw InputError(scene_.file, "/materials",
+                             material.name + ": " + std::string(name_of(material.shading)) +
+                                 " needs a roughness");
+    }
+
+    void require_fixed(const SceneMaterial& material) const {
+        for (const VariedRange& vary : material.vary)
+            if (!vary.range.is_one())
+                throw InputError(scene_.file, "/materials",
+                                 material.name + ": nothing may vary with the shading " +
+                                     std::string(name_of(material.shading)));
+    }
+
+    void plan_rough_layers(const SceneMaterial& material, MaterialPlan& plan) {
+        require_rough(material);
+        require_fixed(material);
+        plan.snippets = {"transmissivity"};
+        const std::vector<double> angles = samples_of(
+            {material.angles_deg.first, std::min(material.angles_deg.last, kGrazing_deg)});
+        if (material.alpha.is_one()) {
+            LutRequest request = request_of(material);
+            request.options["alpha"] = std::vector{material.alpha.first};
+            request.options["theta-i"] = angles;
+            request.options["theta-d"] = equally_spaced(0, kGrazing_deg, kRangeSize);
+            use(material, plan, "falpha", "falpha", std::move(request), making_of(false));
+            plan.snippets.emplace_back("falpha");
+        } else {
+            omit(material, "falpha", "closed form in the shader: snippet falpha-closed");
+            plan.snippets.emplace_back("falpha-closed");
+        }
+        LutRequest request = request_of(material);
+        request.options["alpha"] = samples_of(material.alpha);
+        request.options["theta-i"] = angles;
+        request.options["wavelengths"] = equally_spaced(
+            sensitivity_->support().first_nm, sensitivity_->support().last_nm, kRangeSize);
+        request.options["polarization"] = std::string("u");
+        use(material, plan, "transmissivity", "transmissivity", std::move(request),
+            making_of(false));
+    }
+
+    void plan_albedo(const SceneMaterial& material, MaterialPlan& plan) {
+        if (!material.is_rough) {
+            omit(material, "alpha", "the surface is smooth: its albedo is its colour");
+            return plan_color(material, plan);
+        }
+        require_fixed(material);
+        LutRequest request = request_of(material);
+        request.options["cos-theta"] = cosines_of(material.angles_deg);
+        request.options["alpha"] = samples_of(material.alpha);
+        use(material, plan, "albedo", "albedo", std::move(request), making_of(true));
+        plan.snippets = {"albedo"};
+        omit(material, "transmission",
+             material.transmission ? "an albedo is of reflected light" : "was not asked for");
+    }
+
+    /// Tables of materials that failed.
+    void drop_unused() {
+        std::vector<SceneTable> kept;
+        std::map<std::size_t, std::size_t> places;
+        for (MaterialPlan& material : result_.materials)
+            for (MaterialPlan::Use& used : material.tables) {
+                const auto [place, is_new] = places.try_emplace(used.table, kept.size());
+                if (is_new) kept.push_back(std::move(result_.tables[used.table]));
+                used.table = place->second;
+            }
+        result_.tables = std::move(kept);
+    }
+
+    static constexpr double kGrazing_deg = 89.75;
+
+    const Scene& scene_;
+    Execution execution_;
+    std::shared_ptr<const Sensitivity> sensitivity_;
+    mutable std::shared_ptr<const SensitivityTransform> transform_;
+    ScenePlan result_;
+};
+
+}  // namespace
+
+ScenePlan plan_scene(const Scene& scene, const Execution& execution) {
+    return Planner(scene, execution).run();
+}
+
+const LutFormat& format_of(const Scene& scene) {
+    return *find_lut_format(scene.format);
+}
+
+}  // namespace irido

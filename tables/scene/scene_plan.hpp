@@ -1,0 +1,64 @@
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "schemas/scene_document.hpp"
+#include "tables/lut_format.hpp"
+#include "tables/lut_kind.hpp"
+#include "tables/lut_maker.hpp"
+
+namespace irido {
+
+/// Changes whenever irido computes other numbers for the same request: tables made before are then
+/// made again.
+inline constexpr int kNumbersVersion = 1;
+
+/// A table that a scene needs, before its size is known.
+struct SceneTable {
+    std::string id;    ///< 16 hexadecimal digits of a hash of all that its values depend on
+    std::string file;  ///< KIND-ID.FORMAT
+    const LutKind* kind = nullptr;
+    LutRequest request;
+    LutMaking making;
+    nlohmann::json inputs;               ///< what the id is made of
+    std::vector<std::string> materials;  ///< that use it
+};
+
+/// Something that a material does without, and why.
+struct Omission {
+    std::string material;
+    std::string what;    ///< transmission, mip levels, layers.0.thickness_nm, ...
+    std::string reason;  ///< in words
+};
+
+/// What an engine needs for one material.
+struct MaterialPlan {
+    struct Use {
+        std::string role;  ///< reflection, transmission, sensitivity, falpha, ...
+        std::size_t table = 0;
+    };
+    std::string name;
+    Shading shading = Shading::color;
+    std::vector<Use> tables;
+    nlohmann::json constants = nlohmann::json::object();
+    std::vector<std::string> snippets;  ///< of irido lut shader
+    std::string fault;                  ///< why it cannot be, "" if it can
+};
+
+struct ScenePlan {
+    std::vector<SceneTable> tables;
+    std::vector<MaterialPlan> materials;
+    std::vector<Omission> omissions;
+};
+
+/// What a scene needs: tables with their axes and tolerances, numbers in place of tables, and all
+/// that is left out. Equal tables are one. Depends on the scene alone.
+ScenePlan plan_scene(const Scene& scene, const Execution& execution);
+
+/// The layout that the scene's format and type ask for.
+const LutFormat& format_of(const Scene& scene);
+
+}  // namespace irido

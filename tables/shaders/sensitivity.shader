@@ -1,0 +1,47 @@
+//! use: common
+// One level of irido_sensitivity(): the real parts fill the left half, the imaginary parts the
+// right half.
+void irido_sensitivity_level(TEXTURE2D(table), float3 opd_axis, float3 carrier_nm, float opd_nm,
+                             float level, out float3 re, out float3 im)
+{
+    float3 axis = float3(opd_axis.xy, max(1.0, floor(opd_axis.z / exp2(level) + 0.001)));
+    float u = 0.5 * irido_texel(opd_nm, axis);
+    float3 a = SAMPLE2D(table, float2(u, 0.5), level).rgb;
+    float3 b = SAMPLE2D(table, float2(u + 0.5, 0.5), level).rgb;
+    if (carrier_nm.x > 0.0)
+    {
+        float3 turn = 6.28318530718 * fract(float3(opd_nm, opd_nm, opd_nm) / carrier_nm);
+        re = a * cos(turn) - b * sin(turn);
+        im = a * sin(turn) + b * cos(turn);
+    }
+    else
+    {
+        re = a;
+        im = b;
+    }
+}
+
+// H_X, H_Y, H_Z at an optical path in nm: the real parts and the imaginary parts.
+// carrier_nm  the metadata's request.carrier_nm; 0 for a table that has its carrier
+// level       of the table's spreads, 0 being the first; in between, two levels are mixed
+void irido_sensitivity(TEXTURE2D(table), float3 opd_axis, float3 carrier_nm, float opd_nm,
+                       float level, out float3 re, out float3 im)
+{
+    float low = floor(level);
+    float3 re_high, im_high;
+    irido_sensitivity_level(PASS2D(table), opd_axis, carrier_nm, opd_nm, low, re, im);
+    if (level > low)
+    {
+        irido_sensitivity_level(PASS2D(table), opd_axis, carrier_nm, opd_nm, low + 1.0, re_high,
+                                im_high);
+        re = lerp(re, re_high, level - low);
+        im = lerp(im, im_high, level - low);
+    }
+}
+
+// The real parts, of a table made with --real.
+float3 irido_sensitivity_real(TEXTURE2D(table), float3 opd_axis, float opd_nm, float level)
+{
+    float3 axis = float3(opd_axis.xy, max(1.0, floor(opd_axis.z / exp2(level) + 0.001)));
+    return SAMPLE2D(table, float2(irido_texel(opd_nm, axis), 0.5), level).rgb;
+}

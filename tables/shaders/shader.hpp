@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace irido {
+
+/// Names of the snippets of shader code: one for each kind of table and those that need no table.
+std::vector<std::string_view> shader_names();
+
+/// Names of the languages: glsl (ES 3.00 and later) and hlsl (shader model 4 and later).
+std::vector<std::string_view> shader_languages();
+
+/// A snippet with all that it uses, as a file to include. The names must be known.
+std::string shader_source(std::string_view name, std::string_view language);
+
+}  // namespace irido
