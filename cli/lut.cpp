@@ -201,13 +201,22 @@ int run_lut(const LutKind& kind, const LutCommand& command) {
     }
     progress.clear();
     for (const auto& text : lut.facts["notes"]) note(text.get<std::string>(), command.quiet);
+    if (command.output.file.empty()) {
+        const std::vector<LutFile> files = format.write(lut, command.layout);
+        const auto table = std::ranges::find(files, std::string(), &LutFile::suffix);
+        write_bytes(table->bytes, command.output, format.is_binary);
+    } else {
+        write_lut(lut, command.output.file, format, command.layout);
+    }
     if (command.layout.layers)
         note("three.js reads the first of a file's array layers only", command.quiet);
-    if (command.output.file.empty())
-        write_bytes(format.write(lut, command.layout).front().bytes, command.output,
-                    format.is_binary);
-    else
-        write_lut(lut, command.output.file, format, command.layout);
+    if (format.name == "ktx2" || format.name == "exr")
+        for (const LutAxis& axis : lut.axes)
+            if (!axis.is_linear() && !(lut.mips && &axis == &lut.axes.front()))
+                note(axis.name +
+                         ": not equally spaced, so look its samples up one by one: nothing "
+                         "in between means anything to a texture's filter",
+                     command.quiet);
     return 0;
 }
 

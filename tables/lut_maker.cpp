@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
@@ -12,7 +13,10 @@ namespace irido {
 namespace {
 
 constexpr std::size_t kMostSamplesOfAxis = 8192, kMostValues = 1U << 27;
-constexpr std::size_t kChunks = 64;  ///< of the work, whatever the number of threads
+constexpr std::size_t kChunks = 64;            ///< of the work, whatever the number of threads
+constexpr std::size_t kMostFitted = 1U << 20;  ///< samples of a table whose size is looked for
+constexpr double kHelpful = 0.9;               ///< of the error, after a step that helped
+constexpr int kMostIdle = 3;
 constexpr std::size_t kFirstSize = 4;
 constexpr std::size_t kDroppedSamples = 65;  ///< along an axis that has one sample
 constexpr std::size_t kFineSamples = 9;      ///< along each side of the worst cell
@@ -286,35 +290,45 @@ private:
     }
 
     void grow() {
+        double before = std::numeric_limits<double>::infinity();
+        int idle = 0;  // steps that did not help
         for (InterpolationError error = error_now(); error.value > tolerance_;
              error = error_now()) {
-            double largest = 0;
-            for (std::size_t a = 0; a < plan_.axes.size(); ++a)
-                if (is_free(a)) largest = std::max(largest, error.of_axis[a]);
-            bool has_grown = false;
-            for (std::size_t a = 0; a < plan_.axes.size(); ++a) {
-                // errors of the axes add up: each may take its share
-                if (!is_free(a) || !(error.of_axis[a] > largest / 2)) continue;
-                const std::size_t count = lut_.axes[a].count();
-                if (count >= kMostSamplesOfAxis) continue;
-                // the error falls with the square of the spacing, once it is small
-                const std::size_t factor = error.of_axis[a] > 16 * tolerance_ ? 4 : 2;
-                lut_.axes[a] = range(a, std::max(kFirstSize, count * factor));
-                has_grown = true;
-            }
-            if (!has_grown || size_of(lut_.axes, 0, lut_.axes.size()) > kMostValues)
-                throw LutToleranceError(
-                    "no table of a reasonable size has an interpolation error of " +
-                    to_text(tolerance_) + " (" + plan_.measure.name + "); of " + size_text() +
-                    " samples it is " + to_text(error.value));
+            idle = error.value > kHelpful * before ? idle + 1 : 0;
+            before = error.value;
+            if (idle == kMostIdle || !has_grown(error) ||
+                size_of(lut_.axes, 0, lut_.axes.size()) > kMostFitted)
+                give_up(error);
         }
     }
 
-    std::string size_text() const {
-        std::string text;
-        for (const LutAxis& axis : lut_.axes)
-            text += (text.empty() ? "" : " x ") + std::to_string(axis.count());
-        return text;
+    /// Larger sizes along the axes that matter most, if there is room.
+    bool has_grown(const InterpolationError& error) {
+        double largest = 0;
+        for (std::size_t a = 0; a < plan_.axes.size(); ++a)
+            if (is_free(a)) largest = std::max(largest, error.of_axis[a]);
+        bool has_grown = false;
+        for (std::size_t a = 0; a < plan_.axes.size(); ++a) {
+            // errors of the axes add up: each may take its share
+            const std::size_t count = lut_.axes[a].count();
+            if (!is_free(a) || !(error.of_axis[a] > largest / 2) || count >= kMostSamplesOfAxis)
+                continue;
+            // the error falls with the square of the spacing, once it is small
+            const std::size_t factor = error.of_axis[a] > 16 * tolerance_ ? 4 : 2;
+            lut_.axes[a] = range(a, std::max(kFirstSize, count * factor));
+            has_grown = true;
+        }
+        return has_grown;
+    }
+
+    [[noreturn]] void give_up(const InterpolationError& error) const {
+        std::string place;
+        for (std::size_t a = 0; a < lut_.axes.size(); ++a)
+            place += (a > 0 ? ", " : "") + lut_.axes[a].name + " " + to_text(error.at[a]);
+        throw LutToleranceError(
+            "no table of a reasonable size has an interpolation error of " + to_text(tolerance_) +
+            " (" + plan_.measure.name + "): the function is too steep at " + place + ", where " +
+            to_text(error.value) + " is left; a range without that place may do");
     }
 
     /// Fewer samples along one axis after the other, the largest first, while the error allows.

@@ -84,8 +84,8 @@ json made_entry(const SceneTable& table, const LutFormat& format, const BakeRequ
         return entry;
     }
     const std::vector<LutFile> files = format.write(lut, {});
-    for (auto file = files.rbegin(); file != files.rend(); ++file)  // companions first
-        write_file(request.folder + "/" + table.file + file->suffix, file->bytes);
+    for (const LutFile& file : files)  // companions first
+        write_file(request.folder + "/" + table.file + file.suffix, file.bytes);
     entry["file"] = table.file;
     entry["bytes"] = size_of_files(files);
     return entry;

@@ -5,3 +5,9 @@ float irido_texel(float x, float3 axis)
     float t = axis.z > 1.0 ? clamp((x - axis.x) / (axis.y - axis.x), 0.0, 1.0) : 0.0;
     return (0.5 + (axis.z - 1.0) * t) / axis.z;
 }
+
+// The same axis in a mip level, which has half as many samples between the same ends.
+float3 irido_axis_of_level(float3 axis, float level)
+{
+    return float3(axis.xy, max(1.0, floor(axis.z / exp2(level) + 0.001)));
+}

@@ -4,8 +4,7 @@
 void irido_sensitivity_level(TEXTURE2D(table), float3 opd_axis, float3 carrier_nm, float opd_nm,
                              float level, out float3 re, out float3 im)
 {
-    float3 axis = float3(opd_axis.xy, max(1.0, floor(opd_axis.z / exp2(level) + 0.001)));
-    float u = 0.5 * irido_texel(opd_nm, axis);
+    float u = 0.5 * irido_texel(opd_nm, irido_axis_of_level(opd_axis, level));
     float3 a = SAMPLE2D(table, float2(u, 0.5), level).rgb;
     float3 b = SAMPLE2D(table, float2(u + 0.5, 0.5), level).rgb;
     if (carrier_nm.x > 0.0)
@@ -39,9 +38,19 @@ void irido_sensitivity(TEXTURE2D(table), float3 opd_axis, float3 carrier_nm, flo
     }
 }
 
+float3 irido_sensitivity_real_level(TEXTURE2D(table), float3 opd_axis, float opd_nm, float level)
+{
+    float u = irido_texel(opd_nm, irido_axis_of_level(opd_axis, level));
+    return SAMPLE2D(table, float2(u, 0.5), level).rgb;
+}
+
 // The real parts, of a table made with --real.
 float3 irido_sensitivity_real(TEXTURE2D(table), float3 opd_axis, float opd_nm, float level)
 {
-    float3 axis = float3(opd_axis.xy, max(1.0, floor(opd_axis.z / exp2(level) + 0.001)));
-    return SAMPLE2D(table, float2(irido_texel(opd_nm, axis), 0.5), level).rgb;
+    float low = floor(level);
+    float3 re = irido_sensitivity_real_level(PASS2D(table), opd_axis, opd_nm, low);
+    if (level > low)
+        re = lerp(re, irido_sensitivity_real_level(PASS2D(table), opd_axis, opd_nm, low + 1.0),
+                  level - low);
+    return re;
 }

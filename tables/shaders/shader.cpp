@@ -33,7 +33,7 @@ constexpr Word kWords[] = {
     {"lerp", "mix", "lerp"},
     {"fract", "fract", "frac"},
     {"atan2", "atan", "atan2"},
-    {"TEXTURE2D", "sampler2D $", "Texture2D $, SamplerState $_sampler"},
+    {"TEXTURE2D", "highp sampler2D $", "Texture2D $, SamplerState $_sampler"},
     {"TEXTURE3D", "highp sampler3D $", "Texture3D $, SamplerState $_sampler"},
     {"PASS2D", "$", "$, $_sampler"},
     {"SAMPLE2D", "textureLod($&)", "$.SampleLevel($_sampler&)"},

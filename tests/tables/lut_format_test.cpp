@@ -30,7 +30,7 @@ struct Shape {
 
 const std::array kShapes{
     Shape{{1}, false},       Shape{{5}, false},   Shape{{40, 8}, false},   Shape{{1, 7}, false},
-    Shape{{3, 4, 8}, false}, Shape{{3, 8}, true}, Shape{{4, 16, 8}, true},
+    Shape{{3, 4, 8}, false}, Shape{{3, 8}, true}, Shape{{4, 16, 8}, true}, Shape{{1, 4, 8}, false},
 };
 
 bool holds(const LutFormat& format, LutType type, const Shape& shape) {

@@ -9,7 +9,8 @@
 // row,
 //   which is the file's first line. (three's EXRLoader turns the rows round: its data begin with
 //   the bottom row and flipY is false, so that v = 1 is the first sample.)
-// - A third axis is stacked: its slices lie below each other; the key `stacked` tells how many.
+// - A third axis is stacked: its slices lie below each other; the key `stacked` tells how many, if
+//   there are several.
 // - There are no mip levels: a table that has them is refused.
 // - Attributes: `irido.metadata` (JSON), `irido.kind`, `irido.error` (if measured), and
 //   `chromaticities` if the values are colours of an RGB space.
@@ -73,7 +74,8 @@ Picture picture_of(const Lut& lut) {
 std::string metadata_for(const Lut& lut) {
     nlohmann::json metadata = metadata_of(lut);
     if (texel_blocks(lut).count > 1) metadata["blocks"] = texel_blocks(lut).count;
-    if (lut.axes.size() == 3) metadata["stacked"] = lut.axes.front().count();
+    if (lut.axes.size() == 3 && lut.axes.front().count() > 1)
+        metadata["stacked"] = lut.axes.front().count();
     return metadata_text(metadata);
 }
 

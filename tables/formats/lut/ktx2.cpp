@@ -5,7 +5,8 @@
 // - The last axis is x, the one before y, the first sample in row 0. One axis makes a 2D texture of
 //   height 1, not a 1D one: WebGL, OpenGL ES and Godot have no 1D textures, and three.js makes of
 //   one an image of height 0. A third axis is the depth of a 3D texture or, if asked for, the
-//   layers of an array (three.js reads only the first layer).
+//   layers of an array (three.js reads only the first layer). One sample along it is no depth: then
+//   the texture is 2D.
 // - Mip levels, if the table has them, belong to 2D textures (three.js uploads none of 3D ones).
 //   Level l of a texture of width w has max(1, w >> l) columns; so side by side blocks need counts
 //   that halve evenly.
@@ -14,6 +15,8 @@
 //   descriptor's bytesPlane0 stays that of the texels (KTX-Software 5 warns about the 0 that the
 //   specification asked for before).
 // - The metadata is the value of the key `irido.metadata`: UTF-8 JSON without a NUL at the end.
+// - The descriptor names the primaries of the colour space. three.js knows BT.709 only: it warns of
+//   others, and throws when it draws Display P3 unless texture.colorSpace is set to NoColorSpace.
 // - Nothing depends on the time or the machine: the same table makes the same bytes.
 // Read back are only files as they are written here.
 // Source: KTX File Format Specification 2.0; Khronos Data Format Specification 1.3.
@@ -93,8 +96,10 @@ Texture texture_of(const Lut& lut, const LutLayout& layout) {
     texture.type_size = static_cast<std::uint32_t>(bytes_of(lut.type));
     texture.width = checked_size(texel_blocks(lut).count * axes.back().count());
     texture.height = axes.size() > 1 ? checked_size(axes[axes.size() - 2].count()) : 1;
-    if (axes.size() == 3)
-        (layout.layers ? texture.layers : texture.depth) = checked_size(axes.front().count());
+    if (layout.layers)
+        texture.layers = checked_size(axes.front().count());
+    else if (axes.size() == 3 && axes.front().count() > 1)
+        texture.depth = checked_size(axes.front().count());
     texture.levels = static_cast<std::uint32_t>(lut.levels());
     texture.scheme = layout.zstd ? kZstandard : 0;
     if (lut.mips) check_mips_halve(lut, texture);

@@ -34,3 +34,10 @@ TEST_CASE("exr says in attributes what it holds", "[tables][lut]") {
     lut.facts.erase("error");
     CHECK(files_of(lut, "exr").bytes.find("irido.error") == std::string::npos);
 }
+
+TEST_CASE("one slice is not stacked", "[tables][lut]") {
+    const Lut lut = sample_lut(LutType::f16, 1, {1, 4, 8});
+    const std::string bytes = files_of(lut, "exr").bytes;
+    CHECK(bytes.find("stacked") == std::string::npos);
+    CHECK(find_lut_format("exr")->read(bytes, "").values == lut.values);
+}

@@ -130,3 +130,15 @@ TEST_CASE("blocks of three channels lie side by side", "[tables][lut]") {
                                        12, 13, 14, 1, 18, 19, 20, 1, 15, 16, 17, 1, 21, 22, 23, 1};
     CHECK(values_from_bytes(bytes.substr(u64_at(bytes, 80)), LutType::f32) == expected);
 }
+
+TEST_CASE("one sample along a third axis is no depth", "[tables][lut]") {
+    const Lut lut = sample_lut(LutType::f16, 1, {1, 4, 8});
+    const std::string plain = files_of(lut, "ktx2").bytes;
+    CHECK(u32_at(plain, 28) == 0);
+    CHECK(u32_at(plain, 32) == 0);
+    CHECK(plain.find(std::string("KTXorientation\0rd\0", 18)) != std::string::npos);
+    CHECK(find_lut_format("ktx2")->read(plain, "").values == lut.values);
+    const std::string layers = files_of(lut, "ktx2", {false, true}).bytes;  // asked for
+    CHECK(u32_at(layers, 28) == 0);
+    CHECK(u32_at(layers, 32) == 1);
+}

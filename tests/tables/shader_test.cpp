@@ -1,0 +1,40 @@
+#include "tables/shaders/shader.hpp"
+
+#include <catch2/catch.hpp>
+#include <regex>
+#include <utility>
+
+using namespace irido;
+using Catch::Matchers::Contains;
+
+TEST_CASE("samplers of GLSL have the precision of the tables", "[tables][lut]") {
+    // ES would take lowp, the default of sampler2D, and halves of 32-bit tables with it
+    const std::regex without_precision("[^p] sampler[23]D");
+    for (const std::string_view name : shader_names()) {
+        const std::string source = shader_source(name, "glsl");
+        INFO(name);
+        CHECK_FALSE(std::regex_search(source, without_precision));
+    }
+    CHECK_THAT(shader_source("color", "glsl"), Contains("(highp sampler2D table, "));
+}
+
+TEST_CASE("every layout of a table of colours has a function that reads it", "[tables][lut]") {
+    const std::string source = shader_source("color", "hlsl");
+    for (const char* name :
+         {"irido_color(", "irido_color_of_angle(", "irido_color_of_two(", "irido_color_of_spread("})
+        CHECK_THAT(source, Contains(name));
+    CHECK_THAT(shader_source("transmissivity", "hlsl"), Contains("irido_transmissivity_volume("));
+}
+
+TEST_CASE("snippets mix the mip levels on both sides of a level", "[tables][lut]") {
+    for (const auto& [snippet, function] :
+         {std::pair{"sensitivity", "void irido_sensitivity("},
+          std::pair{"sensitivity", "vec3 irido_sensitivity_real("},
+          std::pair{"color", "vec3 irido_color_of_spread("}}) {
+        const std::string source = shader_source(snippet, "glsl");
+        const std::size_t start = source.find(function);
+        const std::string body = source.substr(start, source.find("\n}", start) - start);
+        INFO(function);
+        CHECK_THAT(body, Contains("floor(level)") && Contains("mix(") && Contains("low + 1.0"));
+    }
+}
