@@ -7,13 +7,12 @@
 #include <thread>
 
 #include "cli/bench.hpp"
+#include "cli/bench_speed.hpp"
 #include "cli/stopwatch.hpp"
 #include "core/interference/bragg.hpp"
 #include "core/interference/spectrum.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/vector_math.hpp"
-#include "core/rough/filter.hpp"
-#include "core/rough/filter_reference.hpp"
 #include "core/stability/reference.hpp"
 
 namespace irido {
@@ -27,20 +26,20 @@ struct SpeedOptions {
     unsigned threads = 0;
 };
 
-/// A stack and what is asked of it, at 380:780:1 nm and the angles 0.5:89.5:1 or 0 degrees; or the
-/// transmission filter of a roughness alpha.
-struct SpeedCase {
-    std::string_view name;
-    int layers;
-    std::string_view summary;
-    Stack (*stack)(int layers);
-    bool normal = false;
-    bool only_R = false;
-    double alpha = 0;
-};
-
 constexpr SpeedCase filter_case(double alpha, std::string_view name, std::string_view summary) {
-    return {name, 0, summary, nullptr, false, false, alpha};
+    SpeedCase result{name, 0, summary};
+    result.alpha = alpha;
+    return result;
+}
+
+constexpr SpeedCase table_case(std::string_view name, int layers, std::string_view summary,
+                               const char* stack, const char* path, double first, double last) {
+    SpeedCase result{name, layers, summary};
+    result.expression = stack;
+    result.path = path;
+    result.first = first;
+    result.last = last;
+    return result;
 }
 
 Material constant(double n, double k = 0) {
@@ -119,27 +118,13 @@ constexpr std::array kCases{
     filter_case(0.2, "falpha_0.2", "of roughness 0.2"),
     filter_case(0.5, "falpha_0.5", "of roughness 0.5"),
     filter_case(1, "falpha_1", "of roughness 1"),
+    table_case("lut_film", 1, "colour table of a film, 64 x 512, cos theta x thickness",
+               "1 | 1.33@400 | 1.9+1.5i", "layers.0.thickness_nm", 0, 1000),
+    table_case("lut_mirror", 40, "the same of a mirror of 40 layers",
+               "1 | (2.3@60 | 1.46@94)^20 | 1.52", "layers.0.layers.0.thickness_nm", 40, 80),
 };
 
 using Clock = std::chrono::steady_clock;
-
-/// F_alpha as FPB24 compute it: their eq. 29 by the midpoint rule over psi.
-double filter_by_sum(double alpha, double theta_i_deg, double theta_d_deg) {
-    constexpr int kSamples = 1000;
-    constexpr double kPi = std::numbers::pi;
-    const double ti = theta_i_deg * kPi / 180, td = theta_d_deg * kPi / 180;
-    const double a2 = alpha * alpha, cc = std::cos(ti) * std::cos(td),
-                 ss = std::sin(ti) * std::sin(td);
-    const double psi_max = ti + td > kPi / 2 ? std::acos(std::max(-1.0, -cc / ss)) : kPi;
-    double sum = 0;
-    for (int k = 0; k < kSamples; ++k) {
-        const double x = cc + ss * std::cos(psi_max * (k + 0.5) / kSamples);
-        const double spread = 1 - (1 - a2) * x * x;
-        sum += a2 / (kPi * spread * spread);
-    }
-    const double G1 = 2 / (1 + std::sqrt(1 + a2 * std::tan(ti) * std::tan(ti)));
-    return 2 * G1 * G1 * std::cos(td) / std::cos(ti) * std::sin(td) * sum * psi_max / kSamples;
-}
 
 /// Multiply-adds of doubles a second.
 double machine_limit(SimdLevel level, unsigned threads) {
@@ -161,13 +146,6 @@ std::vector<double> case_wavelengths() {
     return wavelengths;
 }
 
-struct Row {
-    std::string name, method;
-    double layers = 0, threads = 1, points = 0, rate = 0, worst_R = 0;
-    double operations = 0, limit = 0;
-    double worst_F = 0;
-};
-
 /// One case with what its rows share.
 class Measurement {
 public:
@@ -188,8 +166,8 @@ public:
         }
     }
 
-    Row by_kernel(const Execution& execution) const {
-        Row row = new_row(std::string(name_of(execution.simd)));
+    SpeedRow by_kernel(const Execution& execution) const {
+        SpeedRow row = new_row(std::string(name_of(execution.simd)));
         row.threads = execution.threads;
         // a slow kernel gets fewer angles
         const double one_angle = seconds_of([&] { run(1, execution); });
@@ -201,8 +179,8 @@ public:
         return row;
     }
 
-    Row by_long_double() const {
-        Row row = new_row("long_double");
+    SpeedRow by_long_double() const {
+        SpeedRow row = new_row("long_double");
         std::size_t done = 0;
         const double seconds = seconds_of([&] {
             const Clock::time_point start = Clock::now();
@@ -230,8 +208,8 @@ private:
         std::size_t wavelength, angle;
     };
 
-    Row new_row(std::string method) const {
-        Row row;
+    SpeedRow new_row(std::string method) const {
+        SpeedRow row;
         row.name = case_.name;
         row.method = std::move(method);
         row.layers = case_.layers;
@@ -280,86 +258,8 @@ private:
     mutable Spectra out_;
 };
 
-/// The filter of one roughness at the angles 0:89.75:0.25, both.
-class FilterMeasurement {
-public:
-    FilterMeasurement(const SpeedCase& of, double budget)
-        : case_(of), budget_(budget), filter_(of.alpha), axis_(angles(), "theta_d_deg") {
-        for (std::size_t i = 0; i < kSamples; ++i) {
-            // every second one in the peak, the others anywhere
-            const std::size_t theta_i = 1 + (i * 37 + 5) % (kAngles - 1);
-            const auto width = static_cast<std::size_t>(of.alpha * 180 / std::numbers::pi * 4);
-            const std::size_t theta_d = i % 2 == 0 ? theta_i + i % (width + 2) : i * 89;
-            samples_.push_back({theta_i, 1 + theta_d % (kAngles - 1)});
-            exact_.push_back(reference_filter(of.alpha, angle(samples_.back().theta_i),
-                                              angle(samples_.back().theta_d)));
-        }
-    }
-
-    Row by_closed_form(SimdLevel level) const {
-        std::vector<double> row(kAngles);
-        return measured(std::string(name_of(level)), [&](std::size_t theta_i) {
-            filter_.row(angle(theta_i), axis_, row, level);
-            return std::span<const double>(row);
-        });
-    }
-
-    Row by_sum() const {
-        std::vector<double> row(kAngles);
-        return measured("sum_1000", [&](std::size_t theta_i) {
-            for (std::size_t d = 0; d < kAngles; ++d)
-                row[d] = filter_by_sum(case_.alpha, angle(theta_i), angle(d));
-            return std::span<const double>(row);
-        });
-    }
-
-private:
-    static constexpr std::size_t kAngles = 360, kSamples = 60;
-    /// Indices of two angles.
-    struct Sample {
-        std::size_t theta_i, theta_d;
-    };
-
-    static double angle(std::size_t index) { return 0.25 * static_cast<double>(index); }
-
-    static std::vector<double> angles() {
-        std::vector<double> all(kAngles);
-        for (std::size_t i = 0; i < kAngles; ++i) all[i] = angle(i);
-        return all;
-    }
-
-    /// row_of(theta_i) gives F at all theta_d; a slow way gets fewer theta_i.
-    template <class RowOf>
-    Row measured(std::string method, const RowOf& row_of) const {
-        volatile double sink = 0;
-        const double one_row = seconds_of([&] { sink = row_of(kAngles / 2).front(); });
-        const auto affordable = static_cast<std::size_t>(std::max(1.0, budget_ / one_row));
-        const std::size_t rows = std::min(affordable, kAngles);
-        Row row;
-        row.name = case_.name;
-        row.method = std::move(method);
-        row.points = static_cast<double>(rows * kAngles);
-        row.rate = row.points / best_seconds(budget_, [&] {
-                       for (std::size_t i = 0; i < rows; ++i)
-                           sink = row_of(kAngles * i / rows).back();
-                   });
-        for (std::size_t i = 0; i < kSamples; ++i) {
-            const double F = row_of(samples_[i].theta_i)[samples_[i].theta_d];
-            row.worst_F = std::max(row.worst_F, std::abs(F / exact_[i] - 1));
-        }
-        return row;
-    }
-
-    SpeedCase case_;
-    double budget_;
-    TransmissionFilter filter_;
-    FilterAxis axis_;
-    std::vector<Sample> samples_;
-    std::vector<double> exact_;
-};
-
 /// Sine and cosine together, of 4096 phases up to 1e5, beside the C library's.
-Row sine_row(SimdLevel level, double budget) {
+SpeedRow sine_row(SimdLevel level, double budget) {
     std::vector<double> x(4096), sine(x.size()), cosine(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
         x[i] = 1e5 * std::fmod(std::numbers::phi * static_cast<double>(i), 1);
@@ -370,7 +270,7 @@ Row sine_row(SimdLevel level, double budget) {
         }
     };
     const auto by_vectors = [&] { sin_cos(x, sine, cosine, level); };
-    Row row;
+    SpeedRow row;
     row.name = "sin_cos";
     row.method = name_of(level);
     row.points = static_cast<double>(x.size());
@@ -418,7 +318,7 @@ ThreeLandmarks landmarks_by_dichotomy(const BraggPeriod& period, double order, d
 }
 
 /// Edges and Airy points of the first 8 gaps of 64 mirrors, one thread and one at a time.
-Row landmarks_row(bool by_newton, double budget) {
+SpeedRow landmarks_row(bool by_newton, double budget) {
     constexpr int kMirrors = 64, kOrders = 8;
     std::array<BraggPeriod, kMirrors> mirrors;
     for (int i = 0; i < kMirrors; ++i)
@@ -434,7 +334,7 @@ Row landmarks_row(bool by_newton, double budget) {
                                   : landmarks_by_dichotomy(mirror, order, above))[1];
         }
     });
-    Row row;
+    SpeedRow row;
     row.name = "landmarks";
     row.method = by_newton ? "newton" : "dichotomy";
     row.layers = 2;
@@ -443,9 +343,9 @@ Row landmarks_row(bool by_newton, double budget) {
     return row;
 }
 
-Records to_records(const std::vector<Row>& rows) {
+Records to_records(const std::vector<SpeedRow>& rows) {
     Column::Texts names, methods;
-    for (const Row& row : rows) {
+    for (const SpeedRow& row : rows) {
         names.push_back(row.name);
         methods.push_back(row.method);
     }
@@ -453,16 +353,16 @@ Records to_records(const std::vector<Row>& rows) {
     const auto add = [&](std::string name, auto value) {
         add_numbers(records, std::move(name), rows, value);
     };
-    add("threads", [](const Row& r) { return r.threads; });
-    add("layers", [](const Row& r) { return r.layers; });
-    add("points", [](const Row& r) { return r.points; });
-    add("points_per_s", [](const Row& r) { return r.rate; });
-    add("ns_per_point", [](const Row& r) { return 1e9 / r.rate; });
-    add("worst_R", [](const Row& r) { return r.worst_R; });
-    add("operations_per_point", [](const Row& r) { return r.operations; });
-    add("limit_per_s", [](const Row& r) { return r.limit; });
-    add("fraction_of_limit", [](const Row& r) { return r.rate * r.operations / r.limit; });
-    add("worst_F", [](const Row& r) { return r.worst_F; });
+    add("threads", [](const SpeedRow& r) { return r.threads; });
+    add("layers", [](const SpeedRow& r) { return r.layers; });
+    add("points", [](const SpeedRow& r) { return r.points; });
+    add("points_per_s", [](const SpeedRow& r) { return r.rate; });
+    add("ns_per_point", [](const SpeedRow& r) { return 1e9 / r.rate; });
+    add("worst_R", [](const SpeedRow& r) { return r.worst_R; });
+    add("operations_per_point", [](const SpeedRow& r) { return r.operations; });
+    add("limit_per_s", [](const SpeedRow& r) { return r.limit; });
+    add("fraction_of_limit", [](const SpeedRow& r) { return r.rate * r.operations / r.limit; });
+    add("worst_F", [](const SpeedRow& r) { return r.worst_F; });
     return records;
 }
 
@@ -473,11 +373,11 @@ int run_speed(const SpeedOptions& options) {
     const unsigned all_threads =
         options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
     const SimdLevel widest = execution_of(all_threads).simd;
-    std::vector<Row> rows;
+    std::vector<SpeedRow> rows;
     // clocks change: the limit is measured on both sides of the rate
     const auto add = [&](SimdLevel level, unsigned threads, const auto& measure) {
         const double before = machine_limit(level, threads);
-        Row row = measure();
+        SpeedRow row = measure();
         row.limit = std::max(before, machine_limit(level, threads));
         rows.push_back(std::move(row));
     };
@@ -489,10 +389,17 @@ int run_speed(const SpeedOptions& options) {
         add(SimdLevel::plain, 1, [&] { return landmarks_row(by_newton, budget); });
     for (const SpeedCase& one : cases) {
         if (one.alpha > 0) {
-            const FilterMeasurement measurement(one, budget);
-            add(SimdLevel::plain, 1, [&] { return measurement.by_sum(); });
+            add(SimdLevel::plain, 1, [&] { return filter_sum_row(one, budget); });
             for (const SimdLevel level : levels)
-                add(level, 1, [&] { return measurement.by_closed_form(level); });
+                add(level, 1, [&] { return filter_row(one, level, budget); });
+            continue;
+        }
+        if (!one.expression.empty()) {
+            add(widest, 1, [&] { return table_row(one, {1, widest}, budget); });
+            if (all_threads > 1)
+                add(widest, all_threads, [&] {
+                    return table_row(one, {all_threads, widest}, budget);
+                });
             continue;
         }
         const Measurement measurement(one, budget);
@@ -533,7 +440,8 @@ void add_bench_speed(CLI::App& bench, Run& run) {
         "edges and Airy points of 64 Bragg mirrors a second, by irido's Newton steps and\n"
         "by halving cos KL between modes, as Fourneau et al. (2024) do. falpha is F_alpha\n"
         "of theta_i and theta_d, both 0:89.75:0.25, in closed form, and as sum_1000 by\n"
-        "1000 samples of psi; worst_F is its largest relative error at 60 points.");
+        "1000 samples of psi; worst_F is its largest relative error at 60 points. lut_:\n"
+        "points are samples of a table.");
     command->callback([options, &run] { run = [options] { return run_speed(*options); }; });
 }
 

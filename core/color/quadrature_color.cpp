@@ -1,6 +1,7 @@
 #include "core/color/quadrature_color.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -176,6 +177,7 @@ private:
     void integrate(const SpectrumKernel& kernel, const Stack& stack, double cos_theta,
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
+        if (cos_theta == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
         const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.media));
         const PanelTree::Start& start = start_of(path);
         // at normal incidence one polarization stands for both
@@ -193,6 +195,27 @@ private:
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = {scratch.integrals[i].xyz, scratch.integrals[i].error,
                          scratch.integrals[i].evaluations, ColorMethod::Kind::quadrature};
+    }
+
+    /// Whether nothing enters the stack at 90 degrees, at any wavelength, as is so unless nothing
+    /// reflects at any angle.
+    bool reflects_all(const SpectrumKernel& kernel, Scratch& scratch) const {
+        if (std::ranges::find(amplifies_, true) != amplifies_.end()) return false;
+        const double grazing = 0;
+        kernel(on_path_, {&grazing, 1}, scratch.spectra, scratch.memory);
+        const auto is_one = [](double R) { return R == 1; };
+        const auto is_zero = [](double T) { return T == 0; };
+        return std::ranges::all_of(
+            std::array{&scratch.spectra.s, &scratch.spectra.p}, [&](const Spectrum* of) {
+                return std::ranges::all_of(of->R, is_one) && std::ranges::all_of(of->T, is_zero);
+            });
+    }
+
+    void fill_with_white(std::span<StackColor> colors) const {
+        constexpr double rounding = 1e-15;
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = {request_.sides[i] == Side::reflected ? sensitivity_.white() : Triple{},
+                         rounding, on_path_.wavelength_nm().size(), ColorMethod::Kind::quadrature};
     }
 
     const PanelTree::Start& start_of(std::size_t path) const {
