@@ -323,7 +323,8 @@ std::vector<std::string> problems_of(const std::string& file) {
             problems = (*kind)->problems(lut);
         return problems;
     } catch (const LutError& error) {
-        return {error.what()};
+        const std::string text = error.what(), name = file + ": ";
+        return {text.starts_with(name) ? text.substr(name.size()) : text};
     } catch (const nlohmann::json::exception&) {
         return {"the metadata misses what its kind has"};
     }
