@@ -12,6 +12,8 @@ namespace irido {
 
 namespace {
 
+constexpr double kWorstError = 1e-4;  ///< of X, Y, Z
+
 /// Everything that the table's function needs for as long as it is called.
 struct Source {
     ColorTables tables;
@@ -50,6 +52,10 @@ LutPlan plan(const LutRequest& request) {
             const std::vector<RoughAlbedo::Value> column =
                 source->albedo(axes[1].values[a], axes[0].values);
             for (std::size_t i = 0; i < column.size(); ++i) {
+                if (!(column[i].error <= kWorstError))
+                    throw DomainError("the albedo at cos_theta " + to_text(axes[0].values[i]) +
+                                      " is known to " + to_text(column[i].error) +
+                                      " only, a table needs " + to_text(kWorstError));
                 const Triple rgb = source->values(column[i].xyz);
                 for (std::size_t c = 0; c < 3; ++c) values[(i * alphas + a) * 3 + c] = rgb[c];
             }

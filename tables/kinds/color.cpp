@@ -90,6 +90,15 @@ private:
         levels_.push_back(std::move(level));
     }
 
+    /// A colour that is not known well enough for any table has no place in one.
+    static void require_known(const StackColor& color, double angle_deg) {
+        constexpr double worst = 1e-4;
+        if (!(color.error <= worst))
+            throw DomainError("the colour at " + to_text(angle_deg) +
+                              " degrees is known to " + to_text(color.error) +
+                              " only, a table needs " + to_text(worst));
+    }
+
     /// [angle][values][channel]
     std::vector<double> level_colors(const Level& level, std::span<const LutAxis> axes) const {
         std::vector<double> angles_deg;
@@ -106,6 +115,7 @@ private:
             else
                 (*color_algorithm(*tables_, stack, {}, color_))(stack, angles_deg, colors);
             for (std::size_t i = 0; i < colors.size(); ++i) {
+                require_known(colors[i], angles_deg[i]);
                 const Triple value = values_(colors[i].xyz);
                 const std::size_t to = (i * combinations + combination) * 3;
                 std::ranges::copy(value, values.begin() + static_cast<std::ptrdiff_t>(to));

@@ -1,6 +1,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/error.hpp"
 #include "core/interference/coherent.hpp"
 #include "core/rough/ggx.hpp"
 #include "core/rough/transmissivity.hpp"
@@ -10,6 +11,8 @@
 namespace irido {
 
 namespace {
+
+constexpr double kWorstError = 1e-6;  ///< of any value, as the integration states it
 
 Light light_of(const LutRequest& request) {
     if (!request.has("polarization")) return Light::unpolarized;
@@ -33,6 +36,7 @@ LutPlan plan(const LutRequest& request) {
         request.document.stack, light_of(request), request.execution.simd);
     const std::vector<double>& wavelengths = plan.axes[2].axis.values;
     plan.facts["stack"] = canonical_stack(request.document.stack);
+    plan.facts["request"]["integration_error"] = kWorstError;
     plan.facts["request"]["polarization"] = letter_of(light_of(request));
     if (amplifies(request.document.stack, wavelengths)) plan.facts["request"]["amplifies"] = true;
     layer->prepare(wavelengths, request.execution.threads);
@@ -40,8 +44,14 @@ LutPlan plan(const LutRequest& request) {
         std::vector<double> values;
         values.reserve(axes[0].count() * axes[1].count() * axes[2].count());
         for (const double alpha_value : axes[0].values)
-            for (const auto& [value, error] : (*layer)(alpha_value, axes[1].values, axes[2].values))
+            for (const auto& [value, error] :
+                 (*layer)(alpha_value, axes[1].values, axes[2].values)) {
+                if (!(error <= kWorstError))
+                    throw DomainError("the transmissivity at alpha " + to_text(alpha_value) +
+                                      " is known to " + to_text(error) + " only, a table needs " +
+                                      to_text(kWorstError));
                 values.push_back(value);
+            }
         return values;
     };
     plan.measure = relative_to("relative to G1", [](double alpha, double theta_i_deg) {
