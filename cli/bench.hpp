@@ -12,6 +12,7 @@ namespace irido {
 void add_bench_speed(CLI::App& bench, Run& run);
 void add_bench_stability(CLI::App& bench, Run& run);
 void add_bench_pareto(CLI::App& bench, Run& run);
+void add_bench_scene(CLI::App& bench, Run& run);
 
 /// The cases of "a,b" or "all" in that order; `bench` is the subcommand whose help lists them.
 /// Throws UsageError.

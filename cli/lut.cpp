@@ -45,6 +45,11 @@ std::vector<std::string_view> format_names() {
 
 const LutFormat& resolved_lut_format(const OutputOptions& output) {
     const std::string name = resolved_format(output);
+    const std::size_t dot = output.file.find_last_of('.');
+    const std::string extension = dot == std::string::npos ? "" : output.file.substr(dot + 1);
+    if (!output.format.empty() && extension != name && find_lut_format(extension))
+        throw UsageError("--format: " + name + " into a file named ." + extension +
+                         " could not be read again");
     if (const LutFormat* format = find_lut_format(name)) return *format;
     throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                      not_one_of(format_names(), name));
@@ -94,6 +99,8 @@ LutOptions parse_options(const LutKind& kind, const LutCommand& command) {
             continue;
         }
         const std::string& text = command.options.find(option.name)->second;
+        if (option.name == "theta" && !text.empty() && !command.options.find("cos")->second.empty())
+            throw UsageError("--theta: gives the angles instead of --cos, not beside it");
         const std::string used = text.empty() ? std::string(option.fallback) : text;
         if (!used.empty()) parse_option(option, used, values);
     }
@@ -171,6 +178,8 @@ LutMaking making_of(const LutCommand& command, const LutFormat& format, std::siz
     LutMaking making;
     making.sizing.counts = parse_size(command.size, axes);
     making.sizing.power_of_two = !command.any_size;
+    if (command.any_size && command.tolerance.empty())
+        throw UsageError("--any-size: is for sizes by --tolerance");
     if (!command.tolerance.empty()) {
         if (!making.sizing.counts.empty())
             throw UsageError("--tolerance: finds the size, so leave out --size");
@@ -267,8 +276,9 @@ void add_lut_kind(CLI::App& lut, const LutKind& kind, Run& run) {
         ->type_name("SIZE");
     command
         ->add_option("--tolerance", typed->tolerance,
-                     "the smallest size with this interpolation error instead; axes that do\n"
-                     "not matter get one sample. Exit status 1 if it cannot be met")
+                     "the smallest size with this interpolation error instead (of colours\n"
+                     "in CIEDE2000, else as said below); axes that do not matter get one\n"
+                     "sample. Exit status 1 if it cannot be met")
         ->type_name("E");
     command->add_flag("--any-size", typed->any_size,
                       "with --tolerance: sizes that are no powers of two, too");
@@ -331,16 +341,22 @@ std::vector<std::string> problems_of(const std::string& file) {
 }
 
 int check_files(const std::vector<std::string>& files) {
-    bool all_fine = true;
+    constexpr int unreadable = 2;
+    int status = 0;
     std::string text;
     for (const std::string& file : files) {
-        const std::vector<std::string> problems = problems_of(file);
-        if (problems.empty()) text += file + ": ok\n";
-        for (const std::string& problem : problems) text += file + ": " + problem + "\n";
-        all_fine = all_fine && problems.empty();
+        try {
+            const std::vector<std::string> problems = problems_of(file);
+            if (problems.empty()) text += file + ": ok\n";
+            for (const std::string& problem : problems) text += file + ": " + problem + "\n";
+            if (!problems.empty()) status = std::max(status, kCheckFailed);
+        } catch (const InputError& error) {
+            std::cerr << "irido: error: " << error.what() << '\n';
+            status = unreadable;
+        }
     }
     write_stdout(text);
-    return all_fine ? 0 : kCheckFailed;
+    return status;
 }
 
 void add_info(CLI::App& lut, Run& run) {

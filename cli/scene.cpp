@@ -22,7 +22,7 @@ constexpr int kMaterialFailed = 1;
 struct SceneCommand {
     std::string scene, folder;
     std::string format = "text", explained;
-    bool force = false, prune = false;
+    bool force = false, verify = false, prune = false;
     unsigned threads = 0;
     bool quiet = false;
 };
@@ -95,13 +95,14 @@ PlannedScene planned(const Scene& scene, const SceneCommand& command) {
     for (std::size_t t = 0; t < result.plan.tables.size(); ++t) {
         SceneTable& table = result.plan.tables[t];
         const auto old = before.find(table.id);
-        const bool kept = old != before.end() && is_kept(old->second, command.folder);
         try {
+            const bool kept =
+                old != before.end() && is_kept(table, old->second, command.folder, false);
             table.making.threads = command.threads;
             json entry = kept ? old->second : planned_entry(table);
             result.rows.push_back(row_of(scene, result.plan, t, entry, kept));
             result.entries[table.id] = std::move(entry);
-        } catch (const LutError& error) {
+        } catch (const std::runtime_error& error) {  // LutError, InputError, DomainError
             for (const std::string& name : table.materials) result.faults[name] = error.what();
         }
     }
@@ -141,6 +142,7 @@ void append_cells(std::string& out, const std::vector<std::string>& cells,
         line += cells[c];
         if (c + 1 < cells.size()) line.append(widths[c] + 2 - cells[c].size(), ' ');
     }
+    line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
 }
 
@@ -168,7 +170,7 @@ std::string text_of(const PlannedScene& scene) {
     std::vector<std::vector<std::string>> skipped;
     for (const Omission& omission : all_omissions(scene))
         skipped.push_back({"  " + omission.material, omission.what, omission.reason});
-    if (!skipped.empty()) out += "\nskipped:\n" + aligned(skipped);
+    if (!skipped.empty()) out += "skipped:\n" + aligned(skipped);
     return out;
 }
 
@@ -263,8 +265,9 @@ int run_bake(const SceneCommand& command) {
     const Scene scene = scene_of(command);
     const ScenePlan plan = plan_scene(scene, execution_of(command.threads));
     Progress progress(command.quiet);
-    BakeRequest request{command.folder, command.force, command.prune, command.threads,
-                        [&progress](double done) { progress.set(done); }};
+    BakeRequest request{command.folder,  command.force,
+                        command.verify,  command.prune,
+                        command.threads, [&progress](double done) { progress.set(done); }};
     const BakeResult result = bake(scene, plan, request);
     progress.clear();
     if (!command.quiet) {
@@ -313,12 +316,16 @@ void add_bake_command(CLI::App& program, Run& run) {
         ->type_name("DIR")
         ->required();
     command->add_flag("--force", typed->force, "make every table again");
+    command->add_flag("--verify", typed->verify,
+                      "read the tables that are kept and compare their checksums");
     command->add_flag("--prune", typed->prune, "remove tables that no material needs");
     set_examples(
         *command,
         {"irido bake vehicle.json -o tables", "irido bake vehicle.json -o tables --prune --quiet"},
-        "Tables whose inputs are unchanged stay as they are. If a material fails, the\n"
-        "others are made, the old manifest stays and the exit status is 1.");
+        "Tables whose inputs are unchanged stay as they are: files of the size that the\n"
+        "manifest says and not newer than it are believed, newer ones are read, and all\n"
+        "with --verify. A bake that was interrupted goes on where it was. If a material\n"
+        "fails, the others are made, the old manifest stays and the exit status is 1.");
     command->callback([typed, &run] { run = [typed] { return run_bake(*typed); }; });
 }
 

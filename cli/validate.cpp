@@ -1,23 +1,63 @@
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "cli/command.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/json_document.hpp"
+#include "schemas/nearest.hpp"
+#include "schemas/scene_document.hpp"
+#include "schemas/text_file.hpp"
 #include "tables/atomic_file.hpp"
+#include "tables/lut_metadata.hpp"
+#include "tables/scene/bake.hpp"
 
 namespace irido {
 
 namespace {
 
+using nlohmann::json;
+
 constexpr int kInvalid = 1, kUnreadable = 2;
+
+struct SchemaText {
+    std::string_view name;
+    const char* (*text)();
+};
+
+constexpr std::array<SchemaText, 4> kSchemas{{{"stack", stack_schema_text},
+                                              {"scene", scene_schema_text},
+                                              {"manifest", manifest_schema_text},
+                                              {"lut", lut_schema_text}}};
+
+/// What has keys of a stack is one, whatever else is in it by mistake.
+bool is_stack(const json& document) {
+    return !document.is_object() || !document.contains("materials") ||
+           document.contains("layers") || document.contains("incident") ||
+           document.contains("substrate");
+}
+
+std::vector<std::string> problems_of(const std::string& path) {
+    const std::string text = read_text(path), file = shown_path(path);
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    json document;
+    try {
+        document = parse_json(text, file);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+    if (is_stack(document)) return stack_problems(document, file, folder);
+    if (document.contains("tables")) return manifest_problems(document, file);
+    return scene_problems(document, file, folder);
+}
 
 int run_validate(const std::vector<std::string>& files) {
     std::string out;
     int status = 0;
     for (const std::string& file : files) {
         try {
-            const std::vector<std::string> problems = validate_stack_file(file);
+            const std::vector<std::string> problems = problems_of(file);
             for (const std::string& line : problems) out += line + '\n';
             if (problems.empty()) out += file + ": ok\n";
             if (!problems.empty()) status = std::max(status, kInvalid);
@@ -30,27 +70,43 @@ int run_validate(const std::vector<std::string>& files) {
     return status;
 }
 
+int print_schema(const std::string& name) {
+    const auto found = std::ranges::find(kSchemas, name, &SchemaText::name);
+    if (found == kSchemas.end()) {
+        std::vector<std::string> names;
+        for (const SchemaText& schema : kSchemas) names.emplace_back(schema.name);
+        throw UsageError("--schema: must be one of stack, scene, manifest, lut (got '" + name +
+                         "')" + did_you_mean(name, names));
+    }
+    write_stdout(found->text());
+    return 0;
+}
+
 }  // namespace
 
 void add_validate_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "validate", "Check stack files: every error of every file, or FILE: ok.");
+        "validate", "Check stacks, scenes, manifests: every error of every file, or FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
-    const auto schema = std::make_shared<bool>(false);
-    CLI::Option* flag = command->add_flag(
-        "--schema", *schema, "print the JSON Schema of stack files, which explains every key");
-    command->add_option("FILE", *files, "stack files (.json), - for standard input")
-        ->excludes(flag);
-    set_examples(*command,
-                 {"irido validate schemas/examples/*.json", "irido validate - < stack.json"});
+    const auto schema = std::make_shared<std::string>();
+    CLI::Option* option =
+        command
+            ->add_option("--schema", *schema,
+                         "print the JSON Schema of stack, scene or manifest files or of a\n"
+                         "lut's metadata, which explains every key [stack]")
+            ->type_name("[NAME]")
+            ->expected(0, 1);
+    command
+        ->add_option("FILE", *files,
+                     "stack or scene files or manifests (.json), - for standard input")
+        ->excludes(option);
+    set_examples(*command, {"irido validate schemas/examples/*.json",
+                            "irido validate - < stack.json", "irido validate --schema scene"});
     command->footer(command->get_footer() +
                     "\n\nExit status: 0 if all are right, 1 if not, 2 if a file cannot be read.");
-    command->callback([files, schema, &run] {
-        if (*schema) {
-            run = [] {
-                write_stdout(stack_schema_text());
-                return 0;
-            };
+    command->callback([files, schema, option, &run] {
+        if (option->count() > 0 || !option->empty()) {
+            run = [schema] { return print_schema(schema->empty() ? "stack" : *schema); };
         } else if (files->empty()) {
             throw UsageError("validate: FILE is required (see irido validate --help)");
         } else {

@@ -76,8 +76,8 @@ private:
                 result.vary.push_back(
                     {path, ascending(range_of(value), pointer + "/vary" + pointer_step(path))});
         // the stack at both ends of what varies
-        result.document = read(result, &ValueRange::last);
-        result.document = read(result, &ValueRange::first);
+        result.document = read(result, &ValueRange::last, object["stack"].is_object(), pointer);
+        result.document = read(result, &ValueRange::first, object["stack"].is_object(), pointer);
         for (const std::string& note : result.document.notes) scene_.notes.push_back(note);
         if (object.contains("angles_deg"))
             result.angles_deg = ascending(range_of(object["angles_deg"]), pointer + "/angles_deg");
@@ -92,6 +92,9 @@ private:
     StackSource source(const json& stack, const std::string& pointer) const {
         if (stack.is_object()) return {stack, file_ + ": " + pointer, folder_};
         const std::string text = stack.get<std::string>();
+        if (text.empty() || text == "-")
+            throw InputError(file_, pointer,
+                             "must be a stack, a file or an expression (got \"" + text + "\")");
         const bool is_expression = text.find('|') != std::string::npos;
         try {
             StackSource loaded = load_stack(
@@ -103,15 +106,27 @@ private:
         }
     }
 
-    static StackDocument read(SceneMaterial& material, double ValueRange::*end) {
+    /// The stack with one end of what varies. An error inside of an inline stack gets a pointer
+    /// into the scene.
+    StackDocument read(SceneMaterial& material, double ValueRange::*end, bool is_inline,
+                       const std::string& pointer) const {
         for (const VariedRange& vary : material.vary) {
             try {
                 set_value(material.source.document, vary.path, vary.range.*end);
             } catch (const InputError& error) {
-                throw InputError(material.source.file, "", error.what());
+                throw InputError(
+                    file_, pointer + "/vary" + pointer_step(vary.path),
+                    "names no number of the stack (" + std::string(error.what()) + ")");
             }
         }
-        return read_stack(material.source.document, material.source.file, material.source.folder);
+        try {
+            return read_stack(material.source.document, material.source.file,
+                              material.source.folder);
+        } catch (const InputError& error) {
+            const bool is_pointer = error.where.empty() || error.where.starts_with('/');
+            if (!is_inline || !is_pointer || error.file != material.source.file) throw;
+            throw InputError(file_, pointer + "/stack" + error.where, error.message);
+        }
     }
 
     ValueRange ascending(ValueRange range, const std::string& pointer) const {
@@ -137,6 +152,21 @@ const char* scene_schema_text() {
     return
 #include "scene_schema.inc"
         ;
+}
+
+std::vector<std::string> scene_problems(const json& document, const std::string& file,
+                                        const std::string& folder) {
+    static const json schema = json::parse(scene_schema_text());
+    std::vector<std::string> lines;
+    for (const Problem& problem : check(schema, document))
+        lines.emplace_back(InputError(file, problem.pointer, problem.message).what());
+    if (!lines.empty()) return lines;
+    try {
+        Reader(document, file, folder).read();
+    } catch (const InputError& error) {
+        lines.emplace_back(error.what());
+    }
+    return lines;
 }
 
 Scene read_scene(const std::string& path) {

@@ -60,6 +60,11 @@ struct Scene {
 /// wrong, in the scene or in one of its stacks.
 Scene read_scene(const std::string& path);
 
+/// The broken rules of scene.schema.json, one line each; of a scene that breaks none, the first
+/// thing that is wrong with its stacks; nothing if it can be used.
+std::vector<std::string> scene_problems(const nlohmann::json& document, const std::string& file,
+                                        const std::string& folder);
+
 /// The text of scene.schema.json.
 const char* scene_schema_text();
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -119,14 +121,29 @@ struct Builder : valijson::ConstraintBuilder {
     }
 };
 
-ValidationResults validate(const json& schema, const json& document) {
+/// A schema made ready for use: that takes longer than to check a small document, of which a scene
+/// has hundreds. The last few are kept.
+std::shared_ptr<const valijson::Schema> rules_of(const json& schema) {
+    constexpr std::size_t most = 8;
+    static std::mutex mutex;
+    static std::vector<std::pair<json, std::shared_ptr<const valijson::Schema>>> ready;
+    const std::lock_guard lock(mutex);
+    for (const auto& [of, rules] : ready)
+        if (of == schema) return rules;
     valijson::SchemaParser parser;
     parser.addConstraintBuilder("properties", new Builder<KnownKeys>);  // the parser deletes it
     parser.addConstraintBuilder("errorMessage", new Builder<RuleInWords>);
-    valijson::Schema rules;
-    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), rules);
+    const auto rules = std::make_shared<valijson::Schema>();
+    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), *rules);
+    if (ready.size() == most) ready.erase(ready.begin());
+    ready.emplace_back(schema, rules);
+    return rules;
+}
+
+ValidationResults validate(const json& schema, const json& document) {
+    const auto rules = rules_of(schema);
     ValidationResults results;
-    valijson::Validator().validate(rules, valijson::adapters::NlohmannJsonAdapter(document),
+    valijson::Validator().validate(*rules, valijson::adapters::NlohmannJsonAdapter(document),
                                    &results);
     return results;
 }

@@ -399,18 +399,28 @@ StackDocument read_stack(const StackRequest& request) {
     return read_stack(source.document, source.file, source.folder);
 }
 
-std::vector<std::string> validate_stack_file(const std::string& path) {
-    const std::string text = read_text(path);
+std::vector<std::string> stack_problems(const json& document, const std::string& file,
+                                        const std::string& folder) {
     std::vector<std::string> lines;
     try {
-        const nlohmann::json document = parse_json(text, shown_path(path));
-        Reader reader(document, shown_path(path), folder_of(path));
+        Reader reader(document, file, folder);
         reader.read();
         for (const InputError& problem : reader.problems) lines.emplace_back(problem.what());
     } catch (const InputError& error) {
         lines.emplace_back(error.what());
     }
     return lines;
+}
+
+std::vector<std::string> validate_stack_file(const std::string& path) {
+    const std::string text = read_text(path);
+    json document;
+    try {
+        document = parse_json(text, shown_path(path));
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+    return stack_problems(document, shown_path(path), folder_of(path));
 }
 
 }  // namespace irido

@@ -41,8 +41,12 @@ StackDocument read_stack(const nlohmann::json& document, const std::string& file
 /// Both of the above.
 StackDocument read_stack(const StackRequest& request);
 
-/// Everything that is wrong with a stack file ("-" for standard input), one line each,
-/// "FILE: POINTER: message"; nothing if it can be used. Throws InputError if it cannot be read.
+/// Everything that is wrong with a stack document, one line each, "FILE: POINTER: message"; nothing
+/// if it can be used.
+std::vector<std::string> stack_problems(const nlohmann::json& document, const std::string& file,
+                                        const std::string& folder);
+
+/// The same of a file ("-" for standard input). Throws InputError if it cannot be read.
 std::vector<std::string> validate_stack_file(const std::string& path);
 
 /// The text of stack.schema.json.

@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "core/color/difference.hpp"
+#include "core/color/held_stack.hpp"
 #include "core/error.hpp"
 #include "schemas/canonical_stack.hpp"
+#include "tables/kind_parts.hpp"
 #include "tables/light_facts.hpp"
 
 namespace irido {
@@ -74,12 +76,17 @@ nlohmann::json color_facts(const LutRequest& request) {
                                                                                 : "u"},
                              {"adaptation", is_adapted(request) ? "bradford" : "none"},
                              {"color_tolerance", request.color.tolerance}});
+    const WavelengthRange seen = request.sensitivity->support();
+    if (amplifies(held_stack(request.document.stack, *request.sensitivity),
+                  equally_spaced(seen.first_nm, seen.last_nm, 101)))
+        facts["request"]["amplifies"] = true;
     return facts;
 }
 
 std::vector<std::string> color_problems(const Lut& lut) {
     constexpr double rounding = 1e-2, largest_rgb = 4;  // spectral colours in small spaces
     std::vector<std::string> problems;
+    if (lut.facts.at("request").contains("amplifies")) return problems;  // no upper bound
     const bool is_xyz = lut.channels.front() == "X";
     const auto& white = lut.facts.at("request").at("white_xyz");
     for (std::size_t i = 0; i < lut.values.size() && problems.empty(); ++i) {
@@ -87,7 +94,8 @@ std::vector<std::string> color_problems(const Lut& lut) {
         const double most = is_xyz ? white[i % 3].get<double>() : largest_rgb;
         const double least = is_xyz ? 0 : -largest_rgb;
         if (value < least - rounding || value > most + rounding)
-            problems.push_back(lut.channels[i % 3] + " of sample " + std::to_string(i / 3) +
+            problems.push_back(lut.channels[i % 3] +
+                               (lut.mips ? "" : " at " + place_in(lut, i / 3)) +
                                " is no colour of light that was reflected or transmitted (" +
                                to_text(value) + ")");
     }

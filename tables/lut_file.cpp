@@ -53,6 +53,8 @@ void write_lut(const Lut& lut, const std::string& file, const LutFormat& format,
                const LutLayout& layout) {
     std::vector<LutFile> files = format.write(lut, layout);
     std::ranges::stable_partition(files, [](const LutFile& f) { return !f.suffix.empty(); });
+    if (file.starts_with("/dev/"))  // nothing lies beside a device
+        std::erase_if(files, [](const LutFile& f) { return !f.suffix.empty(); });
     std::vector<std::string> added;
     try {
         for (const LutFile& part : files) {
@@ -86,6 +88,9 @@ std::vector<std::string> lut_problems(const Lut& lut) {
     } else if (const std::string actual = checksum_of(lut); *claimed != actual) {
         problems.push_back("the checksum is not that of the values: " + claimed->dump() + ", not " +
                            actual);
+    } else if (const nlohmann::json metadata = metadata_of(lut);
+               lut.facts.value("metadata_checksum", "") != metadata["metadata_checksum"]) {
+        problems.emplace_back("the metadata is not what was written: metadata_checksum");
     }
     return problems;
 }

@@ -76,6 +76,7 @@ struct AxisPlan {
     bool fixed = false;  ///< samples were typed, or are not a range: never resized
     /// Beyond its last sample the function may become constant: the range may be cut there.
     bool may_end_early = false;
+    std::string_view end_reason{};  ///< why, in words; "" if it is not known
 };
 
 /// How far two rows of samples are apart, at most.

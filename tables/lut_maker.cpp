@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
@@ -19,7 +20,8 @@ constexpr double kHelpful = 0.9;               ///< of the error, after a step t
 constexpr int kMostIdle = 3;
 constexpr std::size_t kFirstSize = 4;
 constexpr std::size_t kDroppedSamples = 65;  ///< along an axis that has one sample
-constexpr std::size_t kFineSamples = 9;      ///< along each side of the worst cell
+constexpr std::size_t kWorstCells = 8;       ///< that are looked at on a finer grid
+constexpr std::size_t kFineSamples = 9;      ///< along each side of these
 constexpr std::size_t kEndSamples = 1025;    ///< along a range that may end early
 
 std::size_t size_of(const std::vector<LutAxis>& axes, std::size_t first, std::size_t last) {
@@ -101,8 +103,13 @@ public:
         return equally_spaced(planned.values.front(), planned.values.back(), kDroppedSamples);
     }
 
-    /// The largest difference at the samples of `targets`, and where.
-    std::pair<double, std::vector<double>> largest(const std::vector<LutAxis>& targets) const {
+    struct Difference {
+        double value = 0;
+        std::vector<double> at;
+    };
+
+    /// The largest differences at the samples of `targets`, the largest first, and where.
+    std::vector<Difference> largest(const std::vector<LutAxis>& targets, std::size_t most) const {
         std::vector<LutAxis> axes = axes_;
         std::vector<double> approximate = stored_;
         for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -112,18 +119,34 @@ public:
         }
         const std::vector<double> exact = evaluated(plan_, targets, threads_);
         const std::vector<double> d = plan_.measure.differences(targets, exact, approximate);
-        const auto worst = std::ranges::max_element(d);
-        auto place = static_cast<std::size_t>(worst - d.begin());
-        std::vector<double> at(axes.size());
-        for (std::size_t a = axes.size(); a-- > 0; place /= axes[a].count())
-            at[a] = axes[a].values[place % axes[a].count()];
-        return {*worst, at};
+        std::vector<std::size_t> order(d.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        most = std::min(most, order.size());
+        std::ranges::partial_sort(
+            order, order.begin() + static_cast<std::ptrdiff_t>(most),
+            [&](std::size_t i, std::size_t j) { return d[i] > d[j] || (d[i] == d[j] && i < j); });
+        std::vector<Difference> result;
+        for (std::size_t i = 0; i < most; ++i) {
+            std::size_t place = order[i];
+            Difference& one = result.emplace_back(Difference{d[place], {}});
+            one.at.resize(axes.size());
+            for (std::size_t a = axes.size(); a-- > 0; place /= axes[a].count())
+                one.at[a] = axes[a].values[place % axes[a].count()];
+        }
+        return result;
     }
 
     InterpolationError error() const {
         InterpolationError result;
         result.of_axis.resize(axes_.size());
         std::vector<LutAxis> all = axes_;
+        std::vector<Difference> worst;
+        const auto look_at = [&](const std::vector<LutAxis>& targets) {
+            const std::vector<Difference> found = largest(targets, kWorstCells);
+            worst.insert(worst.end(), found.begin(), found.end());
+            keep(result, found.front());
+            return found.front().value;
+        };
         std::size_t ranges = 0;
         for (std::size_t a = 0; a < axes_.size(); ++a) {
             const std::vector<double> samples = between(a);
@@ -131,34 +154,27 @@ public:
             std::vector<LutAxis> targets = axes_;
             targets[a].values = all[a].values = samples;
             ++ranges;
-            const auto [value, at] = largest(targets);
-            result.of_axis[a] = value;
-            keep(result, value, at);
+            result.of_axis[a] = look_at(targets);
         }
-        if (ranges == 0) {  // what the type rounds off
-            const auto [value, at] = largest(axes_);
-            keep(result, value, at);
-            return result;
-        }
-        if (ranges > 1) {
-            const auto [value, at] = largest(all);
-            keep(result, value, at);
-        }
-        const auto [value, at] = largest(worst_cell(result.at));
-        keep(result, value, at);
+        if (ranges != 1) look_at(all);  // of no ranges: what the type rounds off
+        if (ranges == 0) return result;
+        std::ranges::stable_sort(worst, std::ranges::greater(), &Difference::value);
+        worst.resize(std::min(worst.size(), kWorstCells));
+        for (const Difference& one : worst) keep(result, largest(cell_of(one.at), 1).front());
         return result;
     }
 
 private:
     std::size_t channels() const { return plan_.channels.size(); }
 
-    static void keep(InterpolationError& result, double value, const std::vector<double>& at) {
-        if (!result.at.empty() && !(value > result.value)) return;
-        result.value = value;
-        result.at = at;
+    static void keep(InterpolationError& result, const Difference& one) {
+        if (!result.at.empty() && !(one.value > result.value)) return;
+        result.value = one.value;
+        result.at = one.at;
     }
 
-    std::vector<LutAxis> worst_cell(const std::vector<double>& at) const {
+    /// A fine grid over the cell around a place.
+    std::vector<LutAxis> cell_of(const std::vector<double>& at) const {
         std::vector<LutAxis> cell = axes_;
         for (std::size_t a = 0; a < axes_.size(); ++a) {
             const std::vector<double>& x = axes_[a].values;
@@ -234,6 +250,8 @@ private:
         std::vector<LutAxis> axes;
         for (std::size_t a = 0; a < plan_.axes.size(); ++a)
             axes.push_back(is_free(a) ? range(a, coarse_samples) : plan_.axes[a].axis);
+        // larger spreads only leave less to see
+        if (lut_.mips) axes.front().values.resize(1);
         return axes;
     }
 
@@ -258,12 +276,13 @@ private:
         std::vector<LutAxis> axes = coarse();
         axes[a] = range(a, kEndSamples);
         const std::size_t last = last_different(a, axes, kEndSamples - 1);
-        if (last + kEndSamples / 16 >= kEndSamples) return;
+        if (last == 0 || last + kEndSamples / 16 >= kEndSamples) return;
         LutAxis& axis = plan_.axes[a].axis;
         const double end = axis.values.back();
-        axis.values = {axis.values.front(), axes[a].values[std::max<std::size_t>(last, 1)]};
-        note(axis.name + ": constant from " + to_text(axis.values.back()) + " to " + to_text(end) +
-             ", the range ends there");
+        axis.values = {axis.values.front(), axes[a].values[last]};
+        const std::string reason(plan_.axes[a].end_reason);
+        note(axis.name + ": " + (reason.empty() ? "" : reason + ", ") + "constant from " +
+             to_text(axis.values.back()) + " to " + to_text(end) + ", the range ends there");
     }
 
     /// One sample for an axis that does not matter, few for others.
@@ -271,14 +290,19 @@ private:
         std::vector<LutAxis> axes = coarse();
         axes[a] = range(a, kDroppedSamples);
         const LutAxis whole = range(a, 3);
-        if (last_different(a, axes, kDroppedSamples / 2) == 0) {
+        // parts side by side cannot be told apart in one texel
+        const bool is_needed = lut_.mips && lut_.channels.size() > 4 && a + 1 == lut_.axes.size();
+        if (!is_needed && last_different(a, axes, kDroppedSamples / 2) == 0) {
             lut_.axes[a].values = {whole.values[1]};
             note(whole.name + ": does not matter from " + to_text(whole.values.front()) + " to " +
                  to_text(whole.values.back()) + ", one sample");
         } else {
-            lut_.axes[a] = range(a, kFirstSize);
+            lut_.axes[a] = range(a, std::max(kFirstSize, least()));
         }
     }
+
+    /// Samples along an axis that matters: two at least, in the last mip level, too.
+    std::size_t least() const { return lut_.mips ? std::size_t{2} << (lut_.levels() - 1) : 2; }
 
     /// Of the first mip level, where there are any.
     InterpolationError error_now() {
@@ -340,8 +364,9 @@ private:
                                  [&](std::size_t a) { return lut_.axes[a].count(); });
         for (const std::size_t a : order) {
             std::size_t enough = lut_.axes[a].count();
-            while (enough > 2 && suffices(a, enough / 2)) enough /= 2;
-            if (!making_.sizing.power_of_two && enough > 2) enough = fewest(a, enough / 2, enough);
+            while (enough > least() && suffices(a, enough / 2)) enough /= 2;
+            if (!making_.sizing.power_of_two && enough > least())
+                enough = fewest(a, enough / 2, enough);
             lut_.axes[a] = range(a, enough);
         }
     }

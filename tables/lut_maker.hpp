@@ -34,7 +34,7 @@ struct LutMaking {
 
 /// How far a table, interpolated linearly along all axes that are ranges, is from its function:
 /// measured at the middles of the cells along each axis and along all of them, and on a finer grid
-/// in the worst of these cells. Samples are taken as stored.
+/// in the eight worst of these cells: a sampled maximum, not a bound. Samples are taken as stored.
 struct InterpolationError {
     double value = 0;
     std::vector<double> at;       ///< the place, one number an axis

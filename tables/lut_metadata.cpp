@@ -17,6 +17,13 @@ using nlohmann::json;
 /// Keys that follow from the table or from a file's layout, not from the facts.
 constexpr std::array kDerivedKeys{"kind", "axes", "channels", "dtype", "mips", "blocks", "stacked"};
 
+constexpr const char* kMetadataChecksum = "metadata_checksum";
+
+/// One line, keys sorted.
+std::string dumped(const json& metadata) {
+    return metadata.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
 json axis_metadata(const LutAxis& axis) {
     json metadata{{"name", axis.name},
                   {"unit", axis.unit},
@@ -93,11 +100,13 @@ json metadata_of(const Lut& lut) {
     metadata["dtype"] = name_of(lut.type);
     if (lut.mips) metadata["mips"] = true;
     metadata["checksum"] = checksum_of(lut);
+    metadata.erase(kMetadataChecksum);
+    metadata[kMetadataChecksum] = "sha256:" + sha256_of(dumped(metadata));
     return metadata;
 }
 
 std::string metadata_text(const json& metadata) {
-    std::string text = metadata.dump(-1, ' ', false, json::error_handler_t::replace);
+    std::string text = dumped(metadata);
     parsed_metadata(text);  // what is written can be read
     return text;
 }

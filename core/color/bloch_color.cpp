@@ -171,8 +171,9 @@ private:
             error += share[k] * sum.error;
             points += sum.points;
         }
-        Lighting{tables_.sensitivity().white(), request_.sides, ColorMethod::Kind::bloch, points}
-            .store(T, error, colors);
+        const Triple& white = tables_.sensitivity().white();
+        for (std::size_t c = 0; c < 3; ++c) T[c] = std::clamp(T[c], 0.0, white[c]);
+        Lighting{white, request_.sides, ColorMethod::Kind::bloch, points}.store(T, error, colors);
     }
 
     /// Doubles the points until the error is below the tolerance: the last change, and that before

@@ -1,7 +1,6 @@
 #include <cmath>
 #include <memory>
 
-#include "core/color/held_stack.hpp"
 #include "core/error.hpp"
 #include "core/rough/albedo.hpp"
 #include "core/rough/ggx.hpp"
@@ -64,10 +63,6 @@ LutPlan plan(const LutRequest& request) {
     };
     plan.measure = color_measure(request);
     plan.facts = color_facts(request);
-    const WavelengthRange seen = request.sensitivity->support();
-    if (amplifies(held_stack(request.document.stack, *request.sensitivity),
-                  equally_spaced(seen.first_nm, seen.last_nm, 101)))
-        plan.facts["request"]["amplifies"] = true;
     return plan;
 }
 
@@ -104,7 +99,7 @@ extern const LutKind lut_kind_albedo = {
         "The light that leaves in any direction after one reflection:\n"
         "    E(theta_i) = integral of D G2 R / (4 cos_i cos_o) cos_o over all directions o\n"
         "with GGX's D, Smith's height-correlated G2 and the stack's reflectance R at the\n"
-        "half angle. alpha 0 is the smooth stack's colour. Error of X, Y, Z about --tolerance.",
+        "half angle. alpha 0 is the smooth stack's colour. --tolerance is a CIEDE2000.",
     .examples = {"albedo \"1 | 1.33@400 | 1.5+3i\" -o albedo.ktx2",
                  "albedo mirror.json --alpha 0.05,0.1,0.4 --space xyz"},
     .stack = true,

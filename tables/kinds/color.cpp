@@ -94,9 +94,8 @@ private:
     static void require_known(const StackColor& color, double angle_deg) {
         constexpr double worst = 1e-4;
         if (!(color.error <= worst))
-            throw DomainError("the colour at " + to_text(angle_deg) +
-                              " degrees is known to " + to_text(color.error) +
-                              " only, a table needs " + to_text(worst));
+            throw DomainError("the colour at " + to_text(angle_deg) + " degrees is known to " +
+                              to_text(color.error) + " only, a table needs " + to_text(worst));
     }
 
     /// [angle][values][channel]
@@ -135,6 +134,9 @@ private:
 LutPlan plan(const LutRequest& request) {
     const bool by_cosine = !request.has("theta");
     LutPlan result;
+    if (request.has("sigma") &&
+        !std::ranges::is_sorted(request.list("sigma"), std::ranges::less_equal()))
+        throw DomainError("the spreads must ascend");
     if (request.has("sigma") && request.list("sigma").size() > 1) {
         if (request.vary.size() > 1)
             throw DomainError("a table has a spread or a second value that varies, not both");
@@ -146,6 +148,7 @@ LutPlan plan(const LutRequest& request) {
     for (const VariedValue& vary : request.vary) {
         result.axes.push_back({{vary.path, unit_of_path(vary.path), vary.values}});
         result.axes.back().may_end_early = vary.path.ends_with("thickness_nm");
+        result.axes.back().end_reason = "no fringes are left";
     }
     result.split_axis = result.axes.size() - 1;
     std::size_t colors = 1;

@@ -90,7 +90,8 @@ extern const LutKind lut_kind_falpha = {
         "F is per radian of theta_d, from its closed form, relative error below 1e-14:\n"
         "    ft_cos(theta_i) = integral of T(theta_d) F(theta_i, theta_d) dtheta_d\n"
         "is the light that a rough layer lets straight through, and G1(theta_i) where\n"
-        "T = 1. GGX distribution of facets. FPB24: Fourneau, Pacanowski and Barla,\n"
+        "T = 1. GGX distribution of facets. The error is\n"
+        "relative to G1/alpha, the size of a row. FPB24: Fourneau, Pacanowski and Barla,\n"
         "CGF 43(2), 2024, eq. 29.",
     .examples = {"falpha -o falpha.npy", "falpha --alpha 0.05,0.1,0.2 --theta-i 0:85:5",
                  "falpha --alpha 0.2 --theta-i 20,60 --theta-d 15,45,75 --dtype f64"},

@@ -71,7 +71,7 @@ LutPlan plan(const LutRequest& request) {
         throw DomainError("the real part alone has its carrier: leave out --real or --carrier");
     LutPlan result;
     result.axes = {{{"opd_sigma_nm", "nm", request.list("sigma")}, true},
-                   {{"opd_nm", "nm", opd_nm}, false, true}};
+                   {{"opd_nm", "nm", opd_nm}, false, true, "no fringes are left"}};
     result.axes[1].fixed = !result.axes[1].axis.is_linear();
     result.channels = {"X_re", "Y_re", "Z_re"};
     if (!request.has("real"))

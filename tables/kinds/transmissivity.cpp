@@ -83,7 +83,8 @@ extern const LutKind lut_kind_transmissivity = {
         "of its sides, so that light is not refracted:\n"
         "    ft_cos(theta_i) = integral of T(theta_d) F_alpha(theta_i, theta_d) dtheta_d,\n"
         "error below 1e-9 of G1(theta_i), which it is where T = 1. What is missing from 1\n"
-        "is reflected, absorbed or shadowed. FPB24: Fourneau, Pacanowski and Barla,\n"
+        "is reflected, absorbed or shadowed. The error is relative to G1. FPB24: Fourneau, "
+        "Pacanowski and Barla,\n"
         "CGF 43(2), 2024, eq. 28; p_trans and sample weights follow from it by eqs. 31\n"
         "to 33.",
     .examples = {"transmissivity \"1 | (1@250 | 1.5@250)^10 | 1\" --alpha 0.05,0.1 -o bragg.npy",

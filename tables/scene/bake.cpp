@@ -115,6 +115,21 @@ bool is_table_file(const std::string& name) {
     return std::regex_match(name, pattern);
 }
 
+/// Files of write_file() that a bake has left which was killed; nobody else writes here now.
+void remove_unfinished(const std::string& folder) {
+    std::vector<fs::path> left;
+    for (const auto& file : fs::directory_iterator(folder)) {
+        const std::string name = file.path().filename().string();
+        const std::size_t part = name.rfind(".part");
+        if (part == std::string::npos ||
+            name.find_first_not_of("0123456789", part + 5) != std::string::npos)
+            continue;
+        const std::string target = name.substr(0, part);
+        if (target == kManifest || is_table_file(target)) left.push_back(file.path());
+    }
+    for (const fs::path& file : left) fs::remove(file);
+}
+
 std::vector<std::string> pruned_files(const std::string& folder, const TableEntries& entries) {
     std::set<std::string> needed;
     for (const auto& [id, entry] : entries)
@@ -135,10 +150,14 @@ std::vector<std::string> pruned_files(const std::string& folder, const TableEntr
 json material_entry(const ScenePlan& plan, const MaterialPlan& material,
                     const TableEntries& entries) {
     json result = {{"shading", name_of(material.shading)},
+                   {"angles_deg", {material.angles_deg.first, material.angles_deg.last}},
+                   {"vary", json::object()},
                    {"tables", json::object()},
                    {"constants", material.constants},
                    {"snippets", material.snippets},
                    {"skipped", json::array()}};
+    for (const VariedRange& vary : material.vary)
+        result["vary"][vary.path] = {vary.range.first, vary.range.last};
     for (const Omission& omission : plan.omissions)
         if (omission.material == material.name)
             result["skipped"].push_back({{"what", omission.what}, {"reason", omission.reason}});
@@ -164,8 +183,7 @@ json material_entry(const ScenePlan& plan, const MaterialPlan& material,
 json read_manifest(const std::string& folder) {
     try {
         json manifest = json::parse(read_text(folder + "/" + kManifest));
-        static const json schema = json::parse(manifest_schema_text());
-        if (check(schema, manifest).empty()) return manifest;
+        if (manifest_problems(manifest, kManifest).empty()) return manifest;
     } catch (const InputError&) {
     } catch (const json::exception&) {
     }
@@ -180,6 +198,14 @@ const char* manifest_schema_text() {
         ;
 }
 
+std::vector<std::string> manifest_problems(const json& document, const std::string& file) {
+    static const json schema = json::parse(manifest_schema_text());
+    std::vector<std::string> lines;
+    for (const Problem& problem : check(schema, document))
+        lines.emplace_back(InputError(file, problem.pointer, problem.message).what());
+    return lines;
+}
+
 TableEntries baked_tables(const std::string& folder) {
     TableEntries entries;
     const json manifest = read_manifest(folder);
@@ -188,15 +214,21 @@ TableEntries baked_tables(const std::string& folder) {
     return entries;
 }
 
-bool is_kept(const json& entry, const std::string& folder) {
+bool is_kept(const SceneTable& table, const json& entry, const std::string& folder, bool verify) {
     if (!entry.contains("file")) return entry.contains("values");
     const std::string path = folder + "/" + entry["file"].get<std::string>();
     std::error_code error;
     std::size_t bytes = fs::file_size(path, error);
     if (error) return false;
+    auto written = fs::last_write_time(path, error);
     const std::size_t companion = fs::file_size(path + ".json", error);
-    if (!error) bytes += companion;
-    return bytes == entry["bytes"].get<std::size_t>();
+    if (!error) {
+        bytes += companion;
+        written = std::max(written, fs::last_write_time(path + ".json", error));
+    }
+    if (bytes != entry["bytes"].get<std::size_t>()) return false;
+    const bool is_older = written <= fs::last_write_time(folder + "/" + kManifest, error) && !error;
+    return (is_older && !verify) || found_entry(table, folder) == entry;
 }
 
 json planned_entry(const SceneTable& table) {
@@ -236,7 +268,9 @@ json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& 
                        {"adaptation", scene.adaptation},
                        {"tolerance", {{"delta_e", scene.delta_e}, {"relative", scene.relative}}},
                        {"format", scene.format},
-                       {"dtype", scene.type}}},
+                       {"dtype", scene.type},
+                       {"white_xyz", plan.white_xyz},
+                       {"rgb_from_xyz", plan.rgb_from_xyz}}},
                      {"tables", json::object()},
                      {"materials", json::object()}};
     for (const SceneTable& table : plan.tables) manifest["tables"][table.id] = entries.at(table.id);
@@ -248,6 +282,7 @@ json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& 
 BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& request) {
     make_folder(request.folder);
     const Lock lock(request.folder);
+    remove_unfinished(request.folder);
     BakeResult result;
     for (const MaterialPlan& material : plan.materials)
         if (!material.fault.empty()) result.faults[material.name] = material.fault;
@@ -259,9 +294,10 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
         const auto old = before.find(table.id);
         json entry;
         if (!request.force)
-            entry = old != before.end() && is_kept(old->second, request.folder)
-                        ? old->second
-                        : found_entry(table, request.folder);
+            entry =
+                old != before.end() && is_kept(table, old->second, request.folder, request.verify)
+                    ? old->second
+                    : found_entry(table, request.folder);
         const bool is_new = entry.is_null();
         try {
             if (is_new) entry = made_entry(table, format, request);
@@ -282,7 +318,8 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
     const std::string text = manifest_of(scene, plan, entries).dump(2) + "\n";
     const std::string path = request.folder + "/" + kManifest;
     std::error_code ignored;
-    if (!fs::exists(path, ignored) || read_text(path) != text) {
+    // after new files, too: what is not newer than the manifest need not be read next time
+    if (!result.made.empty() || !fs::exists(path, ignored) || read_text(path) != text) {
         write_file(path, text);
         result.manifest_written = true;
     }

@@ -17,8 +17,10 @@ using TableEntries = std::map<std::string, nlohmann::json>;
 /// read.
 TableEntries baked_tables(const std::string& folder);
 
-/// True if the folder still has what the entry says.
-bool is_kept(const nlohmann::json& entry, const std::string& folder);
+/// True if the folder still has what the entry says: files of its size that are not newer than the
+/// manifest are believed; newer ones, and all with `verify`, are read, and must have its checksum.
+bool is_kept(const SceneTable& table, const nlohmann::json& entry, const std::string& folder,
+             bool verify);
 
 /// A table's entry without its values' file, size found by the tolerance: for a plan.
 /// Throws LutToleranceError.
@@ -26,8 +28,9 @@ nlohmann::json planned_entry(const SceneTable& table);
 
 struct BakeRequest {
     std::string folder;
-    bool force = false;  ///< make every table again
-    bool prune = false;  ///< remove tables that no material needs
+    bool force = false;   ///< make every table again
+    bool verify = false;  ///< read the tables that are kept
+    bool prune = false;   ///< remove tables that no material needs
     unsigned threads = 0;
     std::function<void(double done)> progress;
 };
@@ -45,6 +48,9 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
 
 /// What a scene's manifest says, from its tables' entries.
 nlohmann::json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& entries);
+
+/// The broken rules of manifest.schema.json, one line each.
+std::vector<std::string> manifest_problems(const nlohmann::json& document, const std::string& file);
 
 /// The text of manifest.schema.json.
 const char* manifest_schema_text();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "core/color/film_color.hpp"
 #include "core/color/held_stack.hpp"
@@ -26,6 +27,7 @@ using nlohmann::json;
 constexpr double kMiddle_nm = 550;      ///< where the constants of shaders are taken
 constexpr std::size_t kRangeSize = 16;  ///< of a range whose size the tolerance decides
 constexpr double kOpaque_k = 1e-6;      ///< of a base of which no light comes back
+constexpr double kRed_nm = 700;         ///< the fringes of longer waves are hardly seen
 
 const LutKind& kind_of(std::string_view name) {
     return **std::ranges::find(lut_kinds(), name, &LutKind::name);
@@ -41,6 +43,10 @@ std::vector<double> cosines_of(const ValueRange& angles_deg) {
     return samples_of({cos_of_incidence(angles_deg.last), cos_of_incidence(angles_deg.first)});
 }
 
+double square(double x) {
+    return x * x;
+}
+
 std::string in_text(const ValueRange& range) {
     return to_text(range.first) + " to " + to_text(range.last);
 }
@@ -54,11 +60,19 @@ public:
           sensitivity_(std::make_shared<Sensitivity>(observer(scene.observer_deg),
                                                      illuminant(scene.illuminant))) {}
 
+    LutRequest color_request(const SceneMaterial& material) const {
+        LutRequest request = request_of(material);
+        request.options["cos"] = cosines_of(material.angles_deg);
+        return request;
+    }
+
     ScenePlan run() {
         for (const SceneMaterial& material : scene_.materials) {
             MaterialPlan& plan = result_.materials.emplace_back();
             plan.name = material.name;
             plan.shading = material.shading;
+            plan.angles_deg = material.angles_deg;
+            plan.vary = material.vary;
             const std::size_t omissions = result_.omissions.size();
             try {
                 plan_material(material, plan);
@@ -69,6 +83,16 @@ public:
             }
         }
         drop_unused();
+        result_.white_xyz = sensitivity_->white();
+        const RgbTransform transform(
+            rgb_space(scene_.space), result_.white_xyz,
+            scene_.adaptation == "none" ? Adaptation::none : Adaptation::bradford);
+        for (std::size_t column = 0; column < 3; ++column) {
+            Triple unit{};
+            unit[column] = 1;
+            const Triple rgb = scene_.space == "xyz" ? unit : transform(unit);
+            for (std::size_t row = 0; row < 3; ++row) result_.rgb_from_xyz[row][column] = rgb[row];
+        }
         return std::move(result_);
     }
 
@@ -87,6 +111,7 @@ private:
         for (const VariedRange& vary : material.vary)
             if (vary.range.is_one())
                 omit(material, vary.path, "is always " + to_text(vary.range.first));
+        plan_ignored(material);
         switch (material.shading) {
             case Shading::color:
                 return plan_color(material, plan);
@@ -99,6 +124,29 @@ private:
             case Shading::albedo:
                 return plan_albedo(material, plan);
         }
+    }
+
+    /// What is given and has no part in this shading.
+    void plan_ignored(const SceneMaterial& material) {
+        const Shading shading = material.shading;
+        const std::string name(name_of(shading));
+        if (material.is_rough &&
+            (shading == Shading::color || shading == Shading::fourier || shading == Shading::bragg))
+            omit(material, "roughness", "the shading " + name + " is of smooth surfaces");
+        if (material.thickness_spread_nm != 0 &&
+            (shading == Shading::bragg || shading == Shading::rough_layers ||
+             (shading == Shading::albedo && material.is_rough)))
+            omit(material, "mip levels", "the shading " + name + " has no spread of a thickness");
+        const bool has_constants = shading == Shading::fourier || shading == Shading::bragg;
+        const bool has_dispersion = !std::ranges::all_of(
+            material.document.stack.materials, [](const Material& m) { return is_constant(m); });
+        if (has_constants && has_dispersion)
+            omit(material, "dispersion",
+                 "the shader takes the indices of " + to_text(kMiddle_nm) + " nm");
+    }
+
+    void omit_transmission(const SceneMaterial& material, const std::string& reason) {
+        omit(material, "transmission", material.transmission ? reason : "was not asked for");
     }
 
     void omit(const SceneMaterial& material, const std::string& what, const std::string& reason) {
@@ -165,12 +213,25 @@ private:
         if (table.kind->stack) inputs["stack"] = canonical_stack(request.document.stack);
         for (const VariedValue& vary : request.vary)
             inputs["vary"][vary.path] = {vary.values.front(), vary.values.back()};
+        if (table.kind->stack && !request.vary.empty()) inputs["stack_at_end"] = end_of(request);
         if (table.kind->light) inputs["light"] = {request.illuminant, request.observer};
         if (table.kind->color)
             inputs["color"] = {request.space->name, request.adaptation == Adaptation::none,
                                request.color.sides.front() == Side::reflected,
                                static_cast<int>(request.color.light)};
         return inputs;
+    }
+
+    /// The stack at the other end of what varies: a path may reach more than its own value, as that
+    /// of a material which several layers share.
+    static json end_of(const LutRequest& request) {
+        std::vector<std::string> paths;
+        std::vector<double> last;
+        for (const VariedValue& vary : request.vary) {
+            paths.push_back(vary.path);
+            last.push_back(vary.values.back());
+        }
+        return canonical_stack(VariedStack(request.source, paths).at(last));
     }
 
     // --- colours ----------------------------------------------------------------------------
@@ -181,8 +242,7 @@ private:
     }
 
     void plan_color(const SceneMaterial& material, MaterialPlan& plan) {
-        LutRequest request = request_of(material);
-        request.options["cos"] = cosines_of(material.angles_deg);
+        LutRequest request = color_request(material);
         if (material.angles_deg.last == 0) {
             request.color.light = Light::s;
             omit(material, "polarization p", "at normal incidence both are the same");
@@ -229,10 +289,7 @@ private:
                 throw InputError(
                     material.source.file, "",
                     "fourier needs one coherent film of a real index (got " + fault + ")");
-            const Layer layer = only_film(stack);
-            const IndexTable table(stack, {kMiddle_nm});
-            films.push_back({table.n(stack.incident)[0], table.n(layer.material)[0],
-                             table.index(stack.substrate, 0), layer.thickness_nm});
+            films.push_back(shader_film(stack));
         }
         return films;
     }
@@ -251,15 +308,26 @@ private:
         double longest_nm = 0;
         const int orders = orders_of(material, films, longest_nm);
         plan.constants["orders"] = orders;
+        omit_transmission(material, is_real ? "what is not reflected is transmitted"
+                                            : "the base absorbs all that enters it");
         if (orders == 0)
             return omit(material, "sensitivity",
                         "no fringes are left at these optical paths: C_0 only");
+        if (std::ranges::any_of(films, [&](const Film& f) {
+                return f.incident *
+                           std::sqrt(1 - square(cos_of_incidence(material.angles_deg.last))) >=
+                       f.film;
+            }))
+            omit(material, "light past the film's critical angle",
+                 "the series has none: the shader gives white, the shading color what tunnels too");
         omit(material, "orders from " + std::to_string(orders + 1), "are below the tolerance");
         LutRequest request = request_of(material);
         request.vary.clear();
         request.options["opd"] = equally_spaced(0, longest_nm, kRangeSize);
         request.options["opd-max"] = longest_nm;
-        request.options["sigma"] = sigmas_of(material, longest_nm);
+        const std::vector<double> sigmas = sigmas_of(material, films, orders);
+        request.options["sigma"] = sigmas;
+        plan.constants["level_sigma_nm"] = sigmas.size() > 1 ? sigmas : std::vector<double>(4, 0.0);
         if (is_real) {
             request.options["real"] = std::string("true");
             omit(material, "imaginary half", "the base does not absorb: its phase is 0 or pi");
@@ -294,14 +362,25 @@ private:
         return orders;
     }
 
-    std::vector<double> sigmas_of(const SceneMaterial& material, double longest_nm) {
+    /// Spreads of the optical path. That of order m is m 2 n2 cos(theta2) sigma, sigma being the
+    /// spread of the thickness: the shader looks for each order's own among these levels. The last
+    /// one is the largest that occurs, or leaves no fringes at all.
+    std::vector<double> sigmas_of(const SceneMaterial& material, const std::vector<Film>& films,
+                                  int orders) {
         const double spread = material.thickness_spread_nm;
         if (spread == 0) {
             omit(material, "mip levels", "no spread is given");
             return {0};
         }
-        // of the path of the first order: 2 n2 sigma, at most what blurs all fringes
-        const double most = std::min(longest_nm, 4 * spread);
+        double largest = 0;
+        for (const Film& film : films) largest = std::max(largest, 2 * film.film * orders * spread);
+        // exp(-2 pi^2 sigma^2 / lambda^2) is below the tolerance
+        const double gone =
+            kRed_nm * std::sqrt(std::log(1 / scene_.relative) / 2) / std::numbers::pi;
+        if (largest > gone && gone > 0)
+            omit(material, "spreads from " + to_text(std::ceil(gone)) + " nm of path",
+                 "no fringes are left there");
+        const double most = std::max(1.0, std::ceil(std::min(largest, gone)));
         return {0, most / 4, most / 2, most};
     }
 
@@ -338,6 +417,7 @@ private:
                           {"periods", group->repeat},          {"at_nm", kMiddle_nm}};
         plan.snippets = {"bragg", "cumulative"};
         omit(material, "color", "closed form in the shader: snippet bragg");
+        omit_transmission(material, "what is not reflected is transmitted");
         LutRequest request = request_of(material);
         request.vary.clear();
         request.options["wavelengths"] = equally_spaced(
@@ -366,6 +446,7 @@ private:
         require_rough(material);
         require_fixed(material);
         plan.snippets = {"transmissivity"};
+        omit_transmission(material, "rough-layers is of reflected light");
         const std::vector<double> angles = samples_of(
             {material.angles_deg.first, std::min(material.angles_deg.last, kGrazing_deg)});
         if (material.alpha.is_one()) {
@@ -400,8 +481,7 @@ private:
         request.options["alpha"] = samples_of(material.alpha);
         use(material, plan, "albedo", "albedo", std::move(request), making_of(true));
         plan.snippets = {"albedo"};
-        omit(material, "transmission",
-             material.transmission ? "an albedo is of reflected light" : "was not asked for");
+        omit_transmission(material, "an albedo is of reflected light");
     }
 
     /// Tables of materials that failed.
@@ -430,6 +510,18 @@ private:
 
 ScenePlan plan_scene(const Scene& scene, const Execution& execution) {
     return Planner(scene, execution).run();
+}
+
+LutRequest color_request_of(const Scene& scene, const SceneMaterial& material,
+                            const Execution& execution) {
+    return Planner(scene, execution).color_request(material);
+}
+
+Film shader_film(const Stack& stack) {
+    const Layer layer = only_film(stack);
+    const IndexTable table(stack, {kMiddle_nm});
+    return {table.n(stack.incident)[0], table.n(layer.material)[0], table.index(stack.substrate, 0),
+            layer.thickness_nm};
 }
 
 const LutFormat& format_of(const Scene& scene) {

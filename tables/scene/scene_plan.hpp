@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/color/space.hpp"
+#include "core/interference/film.hpp"
 #include "schemas/scene_document.hpp"
 #include "tables/lut_format.hpp"
 #include "tables/lut_kind.hpp"
@@ -42,6 +44,8 @@ struct MaterialPlan {
     };
     std::string name;
     Shading shading = Shading::color;
+    ValueRange angles_deg;
+    std::vector<VariedRange> vary;
     std::vector<Use> tables;
     nlohmann::json constants = nlohmann::json::object();
     std::vector<std::string> snippets;  ///< of irido lut shader
@@ -52,11 +56,20 @@ struct ScenePlan {
     std::vector<SceneTable> tables;
     std::vector<MaterialPlan> materials;
     std::vector<Omission> omissions;
+    Triple white_xyz{};          ///< of the scene's light
+    ColorMatrix rgb_from_xyz{};  ///< to the scene's space, with its adaptation; rows
 };
 
 /// What a scene needs: tables with their axes and tolerances, numbers in place of tables, and all
 /// that is left out. Equal tables are one. Depends on the scene alone.
 ScenePlan plan_scene(const Scene& scene, const Execution& execution);
+
+/// What the kind `color` is asked for a material's reflected light, however it is shaded.
+LutRequest color_request_of(const Scene& scene, const SceneMaterial& material,
+                            const Execution& execution);
+
+/// One film with the indices that shaders take, those of 550 nm.
+Film shader_film(const Stack& stack);
 
 /// The layout that the scene's format and type ask for.
 const LutFormat& format_of(const Scene& scene);

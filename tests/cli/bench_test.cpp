@@ -177,3 +177,29 @@ TEST_CASE("bench speed refuses what it does not know in one line", "[cli][bench]
     CHECK_THAT(run_irido({"bench", "speed", "--help"}).out,
                Contains("40_absorbing: 40 absorbing films") && Contains("[0.1]"));
 }
+
+TEST_CASE("bench scene compares a bake with tables of everything", "[cli][bench]") {
+    const TemporaryFolder folder;
+    write_text(folder / "one.json", R"({"materials": [
+        {"name": "a", "stack": "1 | 1.33@300 | 1.5+3i", "angles_deg": [0, 70],
+         "vary": {"layers.0.thickness_nm": [280, 300]}, "shading": "color"}]})");
+    const Outcome outcome = run_irido({"bench", "scene", folder / "one.json", "-n", "200"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const auto rows = parse_csv(outcome.out);
+    REQUIRE(rows.size() == 4);
+    CHECK(rows[0] == std::vector<std::string>{"case", "method", "tables", "bytes", "seconds",
+                                              "worst_delta_e", "files_written",
+                                              "worst_delta_e_levels"});
+    CHECK(rows[1][1] == "irido");
+    CHECK(rows[2][1] == "irido again");
+    CHECK(rows[3][1] == "fixed 256");
+    for (const auto& row : rows) CHECK(row[0] == (&row == &rows[0] ? "case" : "one"));
+    CHECK(rows[1][2] == "1");
+    CHECK(rows[1][6] == "2");  // the table and the manifest
+    CHECK(rows[2][6] == "0");
+    CHECK(std::stod(rows[1][5]) <= 0.5);
+    CHECK(std::stod(rows[1][3]) < 0.01 * std::stod(rows[3][3]));
+    check_refused(run_irido({"bench", "scene", "-n", "0"}), "--count");
+    check_refused(run_irido({"bench", "scene", "missing.json"}), "missing.json");
+}

@@ -55,22 +55,21 @@ TEST_CASE("falpha covers 0:89.75:0.25 by default", "[cli][lut]") {
 }
 
 TEST_CASE("transmissivity has the columns of the contract", "[cli][lut]") {
-    const auto rows = parse_csv(
-        run_irido({"lut", "transmissivity", "1 | (1@250 | 1.5@250)^10 | 1", "--alpha", "0.1",
-                   "--theta-i", "0,40", "-w", "500,600", "--dtype", "f64"})
-            .out);
+    const auto rows =
+        parse_csv(run_irido({"lut", "transmissivity", "1 | (1@250 | 1.5@250)^10 | 1", "--alpha",
+                             "0.1", "--theta-i", "0,40", "-w", "500,600", "--dtype", "f64"})
+                      .out);
     REQUIRE(rows.size() == 5);
-    CHECK(rows[0] ==
-          std::vector<std::string>{"alpha", "theta_i_deg", "wavelength_nm", "ft_cos"});
+    CHECK(rows[0] == std::vector<std::string>{"alpha", "theta_i_deg", "wavelength_nm", "ft_cos"});
     CHECK(rows[4][1] == "40");
     CHECK(rows[4][2] == "600");
 }
 
 TEST_CASE("samples of a colour table are irido color's", "[cli][lut]") {
-    const auto table = parse_csv(run_irido({"lut", "color", kFilm, "--vary",
-                                            "layers.0.thickness_nm=100,300", "--theta", "0,60",
-                                            "--dtype", "f64"})
-                                     .out);
+    const auto table =
+        parse_csv(run_irido({"lut", "color", kFilm, "--vary", "layers.0.thickness_nm=100,300",
+                             "--theta", "0,60", "--dtype", "f64"})
+                      .out);
     REQUIRE(table.size() == 5);
     CHECK(table[0] ==
           std::vector<std::string>{"theta_deg", "layers.0.thickness_nm", "R", "G", "B"});
@@ -95,12 +94,12 @@ TEST_CASE("the space xyz gives X, Y and Z as irido color prints them", "[cli][lu
 }
 
 TEST_CASE("sensitivity at a path of 0 is the white, cumulative ends there", "[cli][lut]") {
-    const auto h = parse_csv(run_irido({"lut", "sensitivity", "--opd", "0,550", "--sigma", "0,50",
-                                        "--dtype", "f64"})
-                                 .out);
+    const auto h = parse_csv(
+        run_irido({"lut", "sensitivity", "--opd", "0,550", "--sigma", "0,50", "--dtype", "f64"})
+            .out);
     REQUIRE(h.size() == 5);
-    CHECK(h[0] == std::vector<std::string>{"opd_sigma_nm", "opd_nm", "X_re", "Y_re", "Z_re",
-                                           "X_im", "Y_im", "Z_im"});
+    CHECK(h[0] == std::vector<std::string>{"opd_sigma_nm", "opd_nm", "X_re", "Y_re", "Z_re", "X_im",
+                                           "Y_im", "Z_im"});
     CHECK(std::abs(number(h[1][3]) - 1) < 1e-12);
     CHECK(number(h[1][6]) == Approx(0).margin(1e-12));
     // one wave of 550 nm is nearly in phase for all of Y; a spread of 50 nm takes some of it
@@ -126,8 +125,10 @@ TEST_CASE("carrier and table give back the sensitivity", "[cli][lut]") {
     for (std::size_t j = 0; j < 3; ++j) {
         const double turn = 2 * std::numbers::pi * 1234 / carrier[j].get<double>();
         const double re = number(with[2][2 + j]), im = number(with[2][5 + j]);
-        CHECK(std::abs(re * std::cos(turn) - im * std::sin(turn) - number(plain[2][2 + j])) < 1e-11);
-        CHECK(std::abs(re * std::sin(turn) + im * std::cos(turn) - number(plain[2][5 + j])) < 1e-11);
+        CHECK(std::abs(re * std::cos(turn) - im * std::sin(turn) - number(plain[2][2 + j])) <
+              1e-11);
+        CHECK(std::abs(re * std::sin(turn) + im * std::cos(turn) - number(plain[2][5 + j])) <
+              1e-11);
     }
 }
 
@@ -145,9 +146,9 @@ TEST_CASE("a tolerance is kept by the smallest power of two", "[cli][lut]") {
     CHECK(fit["error"]["value"].get<double>() <= 1);
     const int rows = fit["axes"][0]["count"], columns = fit["axes"][1]["count"];
     for (const auto& [r, c] : {std::pair{rows / 2, columns}, {rows, columns / 2}}) {
-        REQUIRE(with({"--size", std::to_string(r) + "x" + std::to_string(c), "-o",
-                      folder / "half.npy"})
-                    .status == 0);
+        REQUIRE(
+            with({"--size", std::to_string(r) + "x" + std::to_string(c), "-o", folder / "half.npy"})
+                .status == 0);
         CHECK(info(folder / "half.npy")["error"]["value"].get<double>() > 1);
     }
     REQUIRE(with({"--tolerance", "1", "--any-size", "-o", folder / "any.npy"}).status == 0);
@@ -157,8 +158,8 @@ TEST_CASE("a tolerance is kept by the smallest power of two", "[cli][lut]") {
 
 TEST_CASE("the stated error is what interpolation is off by", "[cli][lut]") {
     TemporaryFolder folder;
-    REQUIRE(run_irido({"lut", "cumulative", "-w", "360:830/64", "--dtype", "f64", "-o",
-                       folder / "c.csv"})
+    REQUIRE(run_irido(
+                {"lut", "cumulative", "-w", "360:830/64", "--dtype", "f64", "-o", folder / "c.csv"})
                 .status == 0);
     const auto table = parse_csv(read_file(folder / "c.csv"));
     const auto exact =
@@ -184,14 +185,13 @@ TEST_CASE("fringes that are gone end a table early, and it says so", "[cli][lut]
         run_irido({"lut", "color", "1 | 1.5@400 | 1.9+1.5i", "--theta", "0:60/8", "--vary",
                    "layers.0.thickness_nm=0:100000/8", "--tolerance", "1", "-o", folder / "t.npy"});
     REQUIRE(outcome.status == 0);
-    CHECK_THAT(outcome.err, Contains("layers.0.thickness_nm: constant from "));
+    CHECK_THAT(outcome.err, Contains("layers.0.thickness_nm: no fringes are left, constant from "));
     const json axis = info(folder / "t.npy")["axes"][1];
     CHECK(axis["last"].get<double>() < 30000);
     // the same of the thickness itself, once all of it is so thick
-    const Outcome thick =
-        run_irido({"lut", "color", "1 | 1.5@400 | 1.9+1.5i", "--theta", "0:60/8", "--vary",
-                   "layers.0.thickness_nm=60000:100000/8", "--tolerance", "1", "-o",
-                   folder / "u.npy"});
+    const Outcome thick = run_irido({"lut", "color", "1 | 1.5@400 | 1.9+1.5i", "--theta", "0:60/8",
+                                     "--vary", "layers.0.thickness_nm=60000:100000/8",
+                                     "--tolerance", "1", "-o", folder / "u.npy"});
     REQUIRE(thick.status == 0);
     CHECK(info(folder / "u.npy")["axes"][1]["count"] == 1);
 }
@@ -244,6 +244,48 @@ TEST_CASE("check finds what was altered, truncated or foreign", "[cli][lut]") {
     }
 }
 
+TEST_CASE("metadata that was edited is found", "[cli][lut]") {
+    TemporaryFolder folder;
+    const std::string file = folder / "t.npy";
+    REQUIRE(run_irido({"lut", "cumulative", "-o", file}).status == 0);
+    std::string text = read_file(file + ".json");
+    const std::string from = "\"illuminant\":\"D65\"";
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), "\"illuminant\":\"A\"");
+    write_text(file + ".json", text);
+    const Outcome outcome = run_irido({"lut", "check", file});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Contains("the metadata is not what was written"));
+}
+
+TEST_CASE("check goes on past a file that is not there", "[cli][lut]") {
+    TemporaryFolder folder;
+    REQUIRE(run_irido({"lut", "cumulative", "-o", folder / "a.npy"}).status == 0);
+    const Outcome outcome =
+        run_irido({"lut", "check", folder / "a.npy", folder / "none.npy", folder / "a.npy"});
+    CHECK(outcome.status == 2);
+    const std::string ok = (folder / "a.npy") + ": ok\n";
+    CHECK(outcome.out == ok + ok);
+    CHECK_THAT(outcome.err, Contains("none.npy"));
+}
+
+TEST_CASE("tables of stacks that amplify pass their check", "[cli][lut]") {
+    TemporaryFolder folder;
+    REQUIRE(
+        run_irido({"lut", "color", "1 | 1.33-0.1i@400 | 1.5", "--vary",
+                   "layers.0.thickness_nm=0:2000/16", "--theta", "0:60/4", "-o", folder / "a.npy"})
+            .status == 0);
+    CHECK(run_irido({"lut", "check", folder / "a.npy"}).status == 0);
+}
+
+TEST_CASE("a mirror that reflects nothing has no colour", "[cli][color]") {
+    const auto rows = parse_csv(run_irido({"color", "1 | (1@60 | 1@94)^1000 | 1"}).out);
+    for (std::size_t c = 2; c < 5; ++c) {
+        CHECK(number(rows[1][c]) >= 0);
+        CHECK(number(rows[1][c]) < 1e-6);
+    }
+}
+
 TEST_CASE("values that were edited are found", "[cli][lut]") {
     TemporaryFolder folder;
     const std::string file = folder / "f.csv";
@@ -286,6 +328,13 @@ TEST_CASE("tables that cannot be are refused", "[cli][lut]") {
                   "f64");
     check_refused(run_irido({"lut", "sensitivity", "--real", "--carrier"}), "--real or --carrier");
     check_refused(run_irido({"lut", "shader", "colour"}), "must be one of");
+    check_refused(run_irido({"lut", "falpha", "-f", "exr", "-o", folder / "x.ktx2"}),
+                  "exr into a file named .ktx2");
+    check_refused(run_irido({"lut", "falpha", "--any-size"}), "--any-size: ");
+    check_refused(run_irido({"lut", "color", kFilm, "--cos", "0,1", "--theta", "0,9"}),
+                  "--theta: gives the angles instead");
+    check_refused(run_irido({"lut", "color", kFilm, "--vary", vary, "--sigma", "5,0"}),
+                  "the spreads must ascend");
     check_refused(run_irido({"lut", "info", folder / "none.ktx2"}), "none.ktx2");
     CHECK(std::filesystem::is_empty(folder.path()));
 }
@@ -309,7 +358,6 @@ TEST_CASE("list and shader come from the registries", "[cli][lut]") {
         const std::string glsl = run_irido({"lut", "shader", kind}).out;
         CHECK_THAT(glsl, Contains("MIT-0") && Contains("irido_"));
         CHECK(glsl.find("float3") == std::string::npos);
-        CHECK_THAT(run_irido({"lut", "shader", "--language", "hlsl", kind}).out,
-                   !Contains("vec3"));
+        CHECK_THAT(run_irido({"lut", "shader", "--language", "hlsl", kind}).out, !Contains("vec3"));
     }
 }

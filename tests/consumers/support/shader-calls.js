@@ -20,7 +20,12 @@ export const calls = {
         `float4(irido_falpha_volume($volume, ${axis}, ${axis}, ${axis}, 0.1, x, y), 0.0, 0.0, 1.0)`,
     ],
     'falpha-closed': ['float4(irido_falpha_closed(0.2, x, y), 0.0, 0.0, 1.0)'],
-    fourier: [`float4(irido_film($table, ${axis}, float3(0.0, 0.0, 0.0), 1.0, 1.33, float2(1.5, 3.0), 400.0, x, 8, 0.0), 1.0)`],
+    fourier: [
+        `float4(irido_film($table, ${axis}, float3(0.0, 0.0, 0.0), float4(0.0, 10.0, 20.0, 40.0), 1.0, 1.33, float2(1.5, 3.0),
+            400.0, 5.0, x, 8), 1.0)`,
+        `float4(irido_film_real($table, ${axis}, float4(0.0, 0.0, 0.0, 0.0), 1.0, 1.33, 1.5, 400.0, 0.0, x, 8), 1.0)`,
+        'float4(irido_film_without_fringes(float3(0.95, 1.0, 1.09), 1.0, 1.33, float2(1.5, 3.0), x), 1.0)',
+    ],
     sensitivity: [
         `float4(irido_sensitivity_real($table, ${axis}, x, y), 1.0)`,
         `both($table, x, y)`,
