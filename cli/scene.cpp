@@ -109,29 +109,11 @@ PlannedScene planned(const Scene& scene, const SceneCommand& command) {
     return result;
 }
 
-/// Everything that is left out: by the plan, and what the tables' sizes came to.
 std::vector<Omission> all_omissions(const PlannedScene& scene) {
-    std::vector<Omission> all = scene.plan.omissions;
+    std::vector<Omission> all;
     for (const MaterialPlan& material : scene.plan.materials)
-        for (const MaterialPlan::Use& use : material.tables) {
-            const auto entry = scene.entries.find(scene.plan.tables[use.table].id);
-            if (entry == scene.entries.end()) continue;
-            for (const json& note : entry->second["notes"]) {
-                const std::string text = note.get<std::string>();
-                const std::size_t colon = text.find(": ");
-                if (colon != std::string::npos)
-                    all.push_back({material.name, use.role + " " + text.substr(0, colon),
-                                   text.substr(colon + 2)});
-            }
-            if (entry->second.contains("values"))
-                all.push_back({material.name, use.role + " table",
-                               "nothing matters at this tolerance: numbers in the manifest"});
-        }
-    const auto place = [&](const Omission& omission) {
-        return std::ranges::find(scene.plan.materials, omission.material, &MaterialPlan::name) -
-               scene.plan.materials.begin();
-    };
-    std::ranges::stable_sort(all, {}, place);
+        std::ranges::move(omissions_of(scene.plan, material, scene.entries),
+                          std::back_inserter(all));
     return all;
 }
 

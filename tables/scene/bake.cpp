@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <regex>
 #include <set>
 
@@ -158,24 +159,10 @@ json material_entry(const ScenePlan& plan, const MaterialPlan& material,
                    {"skipped", json::array()}};
     for (const VariedRange& vary : material.vary)
         result["vary"][vary.path] = {vary.range.first, vary.range.last};
-    for (const Omission& omission : plan.omissions)
-        if (omission.material == material.name)
-            result["skipped"].push_back({{"what", omission.what}, {"reason", omission.reason}});
-    for (const MaterialPlan::Use& use : material.tables) {
-        const SceneTable& table = plan.tables[use.table];
-        result["tables"][use.role] = table.id;
-        for (const json& note : entries.at(table.id)["notes"]) {
-            const std::string text = note.get<std::string>();
-            const std::size_t colon = text.find(": ");
-            if (colon != std::string::npos)
-                result["skipped"].push_back({{"what", use.role + " " + text.substr(0, colon)},
-                                             {"reason", text.substr(colon + 2)}});
-        }
-        if (entries.at(table.id).contains("values"))
-            result["skipped"].push_back(
-                {{"what", use.role + " table"},
-                 {"reason", "nothing matters at this tolerance: numbers in the manifest"}});
-    }
+    for (const MaterialPlan::Use& use : material.tables)
+        result["tables"][use.role] = plan.tables[use.table].id;
+    for (const Omission& omission : omissions_of(plan, material, entries))
+        result["skipped"].push_back({{"what", omission.what}, {"reason", omission.reason}});
     return result;
 }
 
@@ -191,6 +178,29 @@ json read_manifest(const std::string& folder) {
 }
 
 }  // namespace
+
+std::vector<Omission> omissions_of(const ScenePlan& plan, const MaterialPlan& material,
+                                   const TableEntries& entries) {
+    std::vector<Omission> all;
+    std::ranges::copy_if(plan.omissions, std::back_inserter(all), [&](const Omission& omission) {
+        return omission.material == material.name;
+    });
+    for (const MaterialPlan::Use& use : material.tables) {
+        const auto entry = entries.find(plan.tables[use.table].id);
+        if (entry == entries.end()) continue;
+        for (const json& note : entry->second["notes"]) {
+            const std::string text = note.get<std::string>();
+            const std::size_t colon = text.find(": ");
+            if (colon != std::string::npos)
+                all.push_back({material.name, use.role + " " + text.substr(0, colon),
+                               text.substr(colon + 2)});
+        }
+        if (entry->second.contains("values"))
+            all.push_back({material.name, use.role + " table",
+                           "nothing matters at this tolerance: numbers in the manifest"});
+    }
+    return all;
+}
 
 const char* manifest_schema_text() {
     return

@@ -46,6 +46,11 @@ struct BakeResult {
 /// folder at a time: the second throws OutputError. Throws OutputError for what cannot be written.
 BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& request);
 
+/// Everything that a material does without: by the plan, and what its tables' sizes came to, as far
+/// as there are entries.
+std::vector<Omission> omissions_of(const ScenePlan& plan, const MaterialPlan& material,
+                                   const TableEntries& entries);
+
 /// What a scene's manifest says, from its tables' entries.
 nlohmann::json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& entries);
 
