@@ -139,7 +139,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 
 std::string text_of(const PlannedScene& scene) {
     std::vector<std::vector<std::string>> cells{
-        {"material", "role", "table", "size", "bytes", "samples", "state"}};
+        {"material", "role", "table", "size", "bytes", "cost", "state"}};
     double bytes = 0, samples = 0;
     for (const PlanRow& row : scene.rows) {
         cells.push_back({row.materials, row.role, row.table, row.size, to_text(row.bytes),
@@ -164,7 +164,7 @@ json json_of(const PlannedScene& scene) {
                           {"table", row.table},
                           {"size", row.size},
                           {"bytes", row.bytes},
-                          {"samples", row.samples},
+                          {"cost", row.samples},
                           {"state", row.state}});
     for (const Omission& omission : all_omissions(scene))
         skipped.push_back({{"material", omission.material},
@@ -284,7 +284,7 @@ void add_plan_command(CLI::App& program, Run& run) {
     command->add_option("--explain", typed->explained, "the long form for one material")
         ->type_name("NAME");
     set_examples(*command, {"irido plan vehicle.json", "irido plan vehicle.json --explain rim"},
-                 "size: samples along the axes; samples: how often the table's function will be\n"
+                 "size: samples along the axes; cost: how often the table's function will be\n"
                  "computed; state: new, kept (with -o), or numbers in the manifest.");
     command->callback([typed, &run] { run = [typed] { return run_plan(*typed); }; });
 }
