@@ -110,7 +110,7 @@ TEST_CASE("a bake's bytes depend on the scene alone", "[cli][bake]") {
     CHECK(times_in(bakery.path("one")) == forced);
 }
 
-TEST_CASE("--prune removes tables that no material needs, and nothing else", "[cli][bake]") {
+TEST_CASE("bake --prune removes tables that no material needs, and nothing else", "[cli][bake]") {
     const Bakery bakery;
     bakery.baked("a");
     write_text(bakery.path("a/color-0123456789abcdef.ktx2"), "old");
