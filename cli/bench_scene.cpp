@@ -156,7 +156,7 @@ Row fixed(const std::string& name, const Scene& scene, const SceneBenchOptions& 
           const RandomPoints& points) {
     Row row{name, "fixed 256", 0, 0, 0, 0, 0, 0};
     const Execution execution = execution_of(options.threads);
-    const LutKind& kind = **std::ranges::find(lut_kinds(), "color", &LutKind::name);
+    const LutKind& kind = *find_lut_kind("color");
     for (const SceneMaterial& material : scene.materials) {
         LutRequest request = color_request_of(scene, material, execution);
         const std::vector<double> used = request.list("cos");

@@ -123,7 +123,7 @@ SpeedRow filter_sum_row(const SpeedCase& of, double budget) {
 
 SpeedRow table_row(const SpeedCase& of, const Execution& execution, double budget) {
     constexpr std::size_t angles = 64, values = 512;
-    const LutKind& kind = **std::ranges::find(lut_kinds(), "color", &LutKind::name);
+    const LutKind& kind = *find_lut_kind("color");
     LutRequest request;
     request.source = load_stack({std::string(of.expression), {}});
     request.document = read_stack({std::string(of.expression), {}});

@@ -326,11 +326,11 @@ std::vector<std::string> problems_of(const std::string& file) {
     try {
         const Lut lut = read_lut(file);
         std::vector<std::string> problems = lut_problems(lut);
-        const auto kind = std::ranges::find(lut_kinds(), lut.kind, &LutKind::name);
-        if (kind == lut_kinds().end())
+        const LutKind* const kind = find_lut_kind(lut.kind);
+        if (!kind)
             problems.push_back("there is no kind '" + lut.kind + "'");
-        else if (problems.empty() && (*kind)->problems)
-            problems = (*kind)->problems(lut);
+        else if (problems.empty() && kind->problems)
+            problems = kind->problems(lut);
         return problems;
     } catch (const LutError& error) {
         const std::string text = error.what(), name = file + ": ";

@@ -71,9 +71,7 @@ nlohmann::json color_facts(const LutRequest& request) {
     facts["color_space"] = request.space->name;
     facts["stack"] = canonical_stack(request.document.stack);
     facts["request"].update({{"side", request.color.sides.front() == Side::reflected ? "R" : "T"},
-                             {"polarization", request.color.light == Light::s   ? "s"
-                                              : request.color.light == Light::p ? "p"
-                                                                                : "u"},
+                             {"polarization", letter_of(request.color.light)},
                              {"adaptation", is_adapted(request) ? "bradford" : "none"},
                              {"color_tolerance", request.color.tolerance}});
     const WavelengthRange seen = request.sensitivity->support();

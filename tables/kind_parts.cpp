@@ -82,6 +82,10 @@ LutMeasure relative_to(std::string name,
             }};
 }
 
+std::string letter_of(Light light) {
+    return light == Light::s ? "s" : light == Light::p ? "p" : "u";
+}
+
 double rounding_of(LutType type) {
     return type == LutType::f16 ? 1e-3 : type == LutType::f32 ? 1e-6 : 1e-11;
 }

@@ -31,6 +31,9 @@ bool amplifies(const Stack& stack, std::vector<double> wavelength_nm);
 LutMeasure relative_to(std::string name,
                        std::function<double(double alpha, double theta_i_deg)> scale);
 
+/// s, p or u, as the command line has it.
+std::string letter_of(Light light);
+
 /// The values' relative rounding by the table's number format, and of sums over a row of them.
 double rounding_of(LutType type);
 

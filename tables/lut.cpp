@@ -52,6 +52,13 @@ bool LutAxis::is_linear() const {
     return true;
 }
 
+std::size_t LutAxis::cell_of(double x) const {
+    const bool falls = values.back() < values.front();
+    std::size_t i = 0;
+    while (i + 2 < count() && (falls ? x < values[i + 1] : x > values[i + 1])) ++i;
+    return i;
+}
+
 std::vector<double> equally_spaced(double first, double last, std::size_t count) {
     std::vector<double> values(count, first);
     const auto intervals = static_cast<double>(count - 1);

@@ -27,6 +27,8 @@ struct LutAxis {
     std::size_t count() const { return values.size(); }
     /// Equally spaced (to 1e-9 of the spacing): then only the ends and the count are written.
     bool is_linear() const;
+    /// The cell [values[i], values[i + 1]] around x, or the one next to it; 0 if there is none.
+    std::size_t cell_of(double x) const;
 };
 
 /// `count` values from one end to the other, both included; count 1 is `first` alone.

@@ -1,5 +1,6 @@
 #include "tables/lut_kind.hpp"
 
+#include <algorithm>
 #include <array>
 
 #define IRIDO_DECLARE(name) extern const LutKind name;
@@ -14,6 +15,17 @@ constexpr std::array kKinds{IRIDO_ALL};
 
 std::span<const LutKind* const> lut_kinds() {
     return kKinds;
+}
+
+const LutKind* find_lut_kind(std::string_view name) {
+    const auto* found = std::ranges::find(kKinds, name, &LutKind::name);
+    return found == kKinds.end() ? nullptr : *found;
+}
+
+std::vector<std::string> paths_of(std::span<const VariedValue> vary) {
+    std::vector<std::string> paths;
+    for (const VariedValue& one : vary) paths.push_back(one.path);
+    return paths;
 }
 
 const std::vector<double>& LutRequest::list(std::string_view name) const {

@@ -124,4 +124,10 @@ struct LutKind {
 /// All kinds, by name. The list is made from the files in tables/kinds/.
 std::span<const LutKind* const> lut_kinds();
 
+/// nullptr if there is none of that name.
+const LutKind* find_lut_kind(std::string_view name);
+
+/// The paths of what varies, in its order.
+std::vector<std::string> paths_of(std::span<const VariedValue> vary);
+
 }  // namespace irido

@@ -63,11 +63,9 @@ std::vector<double> resampled(const std::vector<double>& values, const std::vect
     const std::vector<double>& x = axes[a].values;
     const std::size_t outer = size_of(axes, 0, a);
     const std::size_t inner = size_of(axes, a + 1, axes.size()) * channels;
-    const bool falls = x.size() > 1 && x.back() < x.front();
     std::vector<double> result(outer * at.size() * inner);
     for (std::size_t j = 0; j < at.size(); ++j) {
-        std::size_t i = 0;
-        while (i + 2 < x.size() && (falls ? at[j] < x[i + 1] : at[j] > x[i + 1])) ++i;
+        const std::size_t i = axes[a].cell_of(at[j]);
         const std::size_t next = std::min(i + 1, x.size() - 1);
         const double w = next == i ? 0 : std::clamp((at[j] - x[i]) / (x[next] - x[i]), 0.0, 1.0);
         for (std::size_t o = 0; o < outer; ++o) {
@@ -180,8 +178,7 @@ private:
             const std::vector<double>& x = axes_[a].values;
             cell[a].values = {at[a]};
             if (x.size() < 2 || between(a).empty()) continue;
-            std::size_t i = 0;
-            while (i + 2 < x.size() && (at[a] - x[i + 1]) * (x.back() - x.front()) > 0) ++i;
+            const std::size_t i = axes_[a].cell_of(at[a]);
             cell[a].values = equally_spaced(x[i], x[i + 1], kFineSamples);
         }
         return cell;

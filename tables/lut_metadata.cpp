@@ -24,17 +24,6 @@ std::string dumped(const json& metadata) {
     return metadata.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-json axis_metadata(const LutAxis& axis) {
-    json metadata{{"name", axis.name},
-                  {"unit", axis.unit},
-                  {"first", axis.values.front()},
-                  {"last", axis.values.back()},
-                  {"count", axis.count()},
-                  {"mapping", axis.is_linear() ? "linear" : "list"}};
-    if (!axis.is_linear()) metadata["values"] = axis.values;
-    return metadata;
-}
-
 LutAxis axis_from(const json& metadata) {
     LutAxis axis;
     axis.name = metadata["name"];
@@ -85,6 +74,17 @@ const char* lut_schema_text() {
     return
 #include "lut_schema.inc"
         ;
+}
+
+json axis_metadata(const LutAxis& axis) {
+    json metadata{{"name", axis.name},
+                  {"unit", axis.unit},
+                  {"first", axis.values.front()},
+                  {"last", axis.values.back()},
+                  {"count", axis.count()},
+                  {"mapping", axis.is_linear() ? "linear" : "list"}};
+    if (!axis.is_linear()) metadata["values"] = axis.values;
+    return metadata;
 }
 
 json metadata_of(const Lut& lut) {

@@ -11,6 +11,9 @@ namespace irido {
 /// schemas/lut.schema.json.
 const char* lut_schema_text();
 
+/// name, unit, first, last, count, mapping, and the values of a list.
+nlohmann::json axis_metadata(const LutAxis& axis);
+
 /// Metadata as text: one line, keys sorted. Throws LutError if lut.schema.json forbids it.
 std::string metadata_text(const nlohmann::json& metadata);
 

@@ -75,14 +75,13 @@ private:
     void add_level(const LutRequest& request, double sigma) {
         StackSource source = request.source;
         if (sigma != 0) set_value(source.document, path_of_spread(request), sigma);
-        std::vector<std::string> paths;
         std::vector<double> first, last;
         for (const VariedValue& vary : request.vary) {
-            paths.push_back(vary.path);
             first.push_back(vary.values.front());
             last.push_back(vary.values.back());
         }
-        Level level{sigma, std::make_shared<VariedStack>(std::move(source), paths), nullptr};
+        Level level{sigma, std::make_shared<VariedStack>(std::move(source), paths_of(request.vary)),
+                    nullptr};
         level.stack->at(last);  // or it throws, and not later
         const Stack stack = level.stack->at(first);
         if (level.stack->varies_thickness_only())

@@ -20,10 +20,6 @@ Light light_of(const LutRequest& request) {
     return letter == "s" ? Light::s : letter == "p" ? Light::p : Light::unpolarized;
 }
 
-std::string letter_of(Light light) {
-    return light == Light::s ? "s" : light == Light::p ? "p" : "u";
-}
-
 LutPlan plan(const LutRequest& request) {
     LutPlan plan;
     plan.axes.push_back(alpha_axis(request));

@@ -17,6 +17,7 @@
 #include "schemas/text_file.hpp"
 #include "tables/atomic_file.hpp"
 #include "tables/lut_file.hpp"
+#include "tables/lut_metadata.hpp"
 
 namespace irido {
 
@@ -244,13 +245,7 @@ bool is_kept(const SceneTable& table, const json& entry, const std::string& fold
 json planned_entry(const SceneTable& table) {
     const Lut lut = sized_lut(*table.kind, table.kind->plan(table.request), table.making);
     json axes = json::array();
-    for (const LutAxis& axis : lut.axes)
-        axes.push_back({{"name", axis.name},
-                        {"unit", axis.unit},
-                        {"first", axis.values.front()},
-                        {"last", axis.values.back()},
-                        {"count", axis.count()},
-                        {"mapping", axis.is_linear() ? "linear" : "list"}});
+    for (const LutAxis& axis : lut.axes) axes.push_back(axis_metadata(axis));
     json entry = {{"kind", lut.kind},
                   {"axes", axes},
                   {"channels", lut.channels},

@@ -6,6 +6,7 @@
 
 #include "core/interference/film.hpp"
 #include "core/math/parallel.hpp"
+#include "core/math/random.hpp"
 #include "schemas/varied_stack.hpp"
 #include "tables/color_values.hpp"
 
@@ -13,31 +14,20 @@ namespace irido {
 
 namespace {
 
-constexpr std::size_t kChunk = 64;  ///< points that one thread takes at a time
+constexpr std::uint64_t kSeeds = 0x9e3779b97f4a7c15U;  ///< apart
+constexpr std::size_t kChunk = 64;                     ///< points that one thread takes at a time
 
-/// Numbers in [0, 1) of one point (SplitMix64).
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15U) {}
+double within(const LutAxis& axis, Random& random) {
+    return random.uniform(axis.values.front(), axis.values.back());
+}
 
-    double operator()() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15U;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-    double within(const LutAxis& axis) {
-        return axis.values.front() + (axis.values.back() - axis.values.front()) * (*this)();
-    }
-    double level_of(const LutAxis& axis, bool all) { return all ? one_of(axis) : axis.values[0]; }
-    double one_of(const LutAxis& axis) {
-        const auto i = static_cast<std::size_t>((*this)() * static_cast<double>(axis.count()));
-        return axis.values[std::min(i, axis.count() - 1)];
-    }
+double one_of(const LutAxis& axis, Random& random) {
+    return axis.values[random.below(axis.count())];
+}
 
-private:
-    std::uint64_t state_;
-};
+double level_of(const LutAxis& axis, bool all, Random& random) {
+    return all ? one_of(axis, random) : axis.values[0];
+}
 
 double worst_of(const RandomPoints& points, const std::function<double(Random&)>& difference) {
     const std::size_t chunks = (points.count + kChunk - 1) / kChunk;
@@ -45,7 +35,7 @@ double worst_of(const RandomPoints& points, const std::function<double(Random&)>
     parallel_for(chunks, points.threads, [&](std::size_t chunk) {
         const std::size_t last = std::min(points.count, (chunk + 1) * kChunk);
         for (std::size_t i = chunk * kChunk; i < last; ++i) {
-            Random random(points.seed + i);
+            Random random((points.seed + i) * kSeeds);
             worst[chunk] = std::max(worst[chunk], difference(random));
         }
     });
@@ -157,13 +147,9 @@ std::vector<double> sampled(const Lut& lut, std::size_t level, const std::vector
     std::vector<Corner> corners{{0, 1}};
     for (std::size_t a = 0; a < axes.size(); ++a) {
         const std::vector<double>& x = axes[a].values;
-        std::size_t i = 0;
-        double w = 0;
-        if (x.size() > 1) {
-            const bool falls = x.back() < x.front();
-            while (i + 2 < x.size() && (falls ? place[a] < x[i + 1] : place[a] > x[i + 1])) ++i;
-            w = std::clamp((place[a] - x[i]) / (x[i + 1] - x[i]), 0.0, 1.0);
-        }
+        const std::size_t i = axes[a].cell_of(place[a]);
+        const double w =
+            x.size() > 1 ? std::clamp((place[a] - x[i]) / (x[i + 1] - x[i]), 0.0, 1.0) : 0;
         std::vector<Corner> next;
         for (const Corner& corner : corners) {
             next.push_back({corner.index * x.size() + i, corner.weight * (1 - w)});
@@ -184,9 +170,9 @@ double worst_difference(const LutPlan& plan, const Lut& lut, const RandomPoints&
         std::vector<double> place;
         for (std::size_t a = 0; a < plan.axes.size(); ++a) {
             const LutAxis& axis = plan.axes[a].axis;
-            place.push_back(plan.mips && a == 0 ? random.level_of(axis, points.all_levels)
-                            : is_list(plan, a)  ? random.one_of(axis)
-                                                : random.within(axis));
+            place.push_back(plan.mips && a == 0 ? level_of(axis, points.all_levels, random)
+                            : is_list(plan, a)  ? one_of(axis, random)
+                                                : within(axis, random));
         }
         std::vector<double> approximate;
         if (lut.mips) {
@@ -210,18 +196,17 @@ double worst_fourier_difference(const Scene& scene, const SceneMaterial& materia
     if (has_spread)
         request.options["sigma"] =
             std::vector{0.0, material.thickness_spread_nm / 3, material.thickness_spread_nm};
-    const LutPlan exact = (*std::ranges::find(lut_kinds(), "color", &LutKind::name))->plan(request);
+    const LutPlan exact = find_lut_kind("color")->plan(request);
     const ColorValues values(request);
-    std::vector<std::string> paths;
-    for (const VariedValue& vary : request.vary) paths.push_back(vary.path);
+    const std::vector<std::string> paths = paths_of(request.vary);
     const VariedStack stack(request.source, paths);
     const auto table = sensitivity ? std::make_unique<TableOfSensitivity>(*sensitivity) : nullptr;
     return worst_of(points, [&](Random& random) {
         std::vector<double> place;
         for (std::size_t a = 0; a < exact.axes.size(); ++a) {
             const LutAxis& axis = exact.axes[a].axis;
-            place.push_back(exact.mips && a == 0 ? random.level_of(axis, points.all_levels)
-                                                 : random.within(axis));
+            place.push_back(exact.mips && a == 0 ? level_of(axis, points.all_levels, random)
+                                                 : within(axis, random));
         }
         const auto varied = place.end() - static_cast<std::ptrdiff_t>(paths.size());
         const Film film = shader_film(stack.at(std::vector<double>(varied, place.end())));

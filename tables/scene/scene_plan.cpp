@@ -29,10 +29,6 @@ constexpr std::size_t kRangeSize = 16;  ///< of a range whose size the tolerance
 constexpr double kOpaque_k = 1e-6;      ///< of a base of which no light comes back
 constexpr double kRed_nm = 700;         ///< the fringes of longer waves are hardly seen
 
-const LutKind& kind_of(std::string_view name) {
-    return **std::ranges::find(lut_kinds(), name, &LutKind::name);
-}
-
 std::vector<double> samples_of(const ValueRange& range) {
     if (range.is_one()) return {range.first};
     return equally_spaced(range.first, range.last, kRangeSize);
@@ -183,7 +179,7 @@ private:
     void use(const SceneMaterial& material, MaterialPlan& plan, const std::string& role,
              std::string_view kind, LutRequest request, const LutMaking& making) {
         SceneTable table;
-        table.kind = &kind_of(kind);
+        table.kind = find_lut_kind(kind);
         table.request = std::move(request);
         table.making = making;
         table.inputs = inputs_of(table);
@@ -225,13 +221,9 @@ private:
     /// The stack at the other end of what varies: a path may reach more than its own value, as that
     /// of a material which several layers share.
     static json end_of(const LutRequest& request) {
-        std::vector<std::string> paths;
         std::vector<double> last;
-        for (const VariedValue& vary : request.vary) {
-            paths.push_back(vary.path);
-            last.push_back(vary.values.back());
-        }
-        return canonical_stack(VariedStack(request.source, paths).at(last));
+        for (const VariedValue& vary : request.vary) last.push_back(vary.values.back());
+        return canonical_stack(VariedStack(request.source, paths_of(request.vary)).at(last));
     }
 
     // --- colours ----------------------------------------------------------------------------
@@ -274,8 +266,7 @@ private:
     /// Films at the ends and in the middle of what varies, with the indices of shaders.
     std::vector<Film> films_of(const SceneMaterial& material) const {
         const LutRequest request = request_of(material);
-        std::vector<std::string> paths;
-        for (const VariedValue& vary : request.vary) paths.push_back(vary.path);
+        const std::vector<std::string> paths = paths_of(request.vary);
         const VariedStack varied(material.source, paths);
         std::vector<Film> films;
         const std::size_t steps = paths.empty() ? 1 : kRangeSize;
