@@ -166,7 +166,7 @@ std::string percent(double fraction) {
 }  // namespace
 
 void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity, bool strict,
-                        bool quiet) {
+                        const std::function<void(const std::string&)>& say) {
     for (const HeldRange& held : held_ranges(document.stack, sensitivity)) {
         const std::string& pointer = document.material_pointers[held.material];
         if (!held.usable)
@@ -176,7 +176,7 @@ void report_held_ranges(const StackDocument& document, const Sensitivity& sensit
                                  percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
                                  percent(held.weight[2]) + " of the X, Y, Z weight";
         if (strict) throw InputError(document.file, pointer, text);
-        note(InputError(document.file, pointer, text).what(), quiet);
+        say(InputError(document.file, pointer, text).what());
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,6 @@ std::string_view letter(Side side);
 /// Says where a material holds its end values in colours, or refuses what no colour can be made of.
 /// strict  refuses both. Throws InputError.
 void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity, bool strict,
-                        bool quiet);
+                        const std::function<void(const std::string&)>& say);
 
 }  // namespace irido

@@ -29,6 +29,12 @@ void add_stack_options(CLI::App& command, StackRequest& request) {
         ->allow_extra_args(false);
 }
 
+StackDocument read_noted_stack(const StackRequest& request, bool quiet) {
+    StackDocument document = read_stack(request);
+    for (const std::string& text : document.notes) note(text, quiet);
+    return document;
+}
+
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats) {
     command
         .add_option("-o,--output", output.file,
@@ -122,8 +128,7 @@ void write_records(const Records& records, const OutputOptions& output) {
 
 void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary) {
     if (!output.file.empty()) return write_file(output.file, bytes);
-    if (is_binary && isatty(STDOUT_FILENO))
-        throw UsageError("--format: binary data does not go to a terminal, use --output FILE");
+    if (is_binary) check_binary_stdout();
     write_stdout(bytes);
 }
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ void add_spectrum_command(CLI::App& program, Run& run);
 void add_color_command(CLI::App& program, Run& run);
 void add_cm_command(CLI::App& program, Run& run);
 void add_bands_command(CLI::App& program, Run& run);
+/// `arguments` of the program: --compute decides which options there are. Throws UsageError.
+void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments);
 void add_lut_command(CLI::App& program, Run& run);
 void add_plan_command(CLI::App& program, Run& run);
 void add_bake_command(CLI::App& program, Run& run);
@@ -36,6 +39,9 @@ struct OutputOptions {
 
 /// STACK and --set.
 void add_stack_options(CLI::App& command, StackRequest& request);
+
+/// Reads the stack and says what is to be noted. Throws InputError.
+StackDocument read_noted_stack(const StackRequest& request, bool quiet);
 
 /// -o and -f; `formats` as the help shows them.
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);

@@ -161,7 +161,8 @@ LutRequest parse(const LutKind& kind, const LutCommand& command) {
         read_stack(request.source.document, request.source.file, request.source.folder);
     for (const std::string& text : request.document.notes) note(text, command.quiet);
     if (kind.light)
-        report_held_ranges(request.document, *request.sensitivity, false, command.quiet);
+        report_held_ranges(request.document, *request.sensitivity, false,
+                           [&](const std::string& text) { note(text, command.quiet); });
     return request;
 }
 

@@ -1,11 +1,10 @@
-#include <unistd.h>
-
 #include <algorithm>
-#include <csignal>
 #include <iostream>
 #include <new>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/questions/question.hpp"
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/nearest.hpp"
@@ -15,32 +14,19 @@ namespace {
 
 using namespace irido;
 
-constexpr int kUsageOrInput = 2;
-
-extern "C" void stop_on_signal(int signal) {
-    remove_unfinished_file();
-    _exit(128 + signal);
-}
-
-void handle_signals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-        if (std::signal(signal, stop_on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
-    // a closed pipe and a file that grows too large are errors of write(), handled there
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);
-}
+constexpr int kCheckFailed = 1, kUsageOrInput = 2;
 
 std::string version_text() {
     return std::string("irido ") + IRIDO_VERSION + ", " + IRIDO_COMPILER + ", SIMD " +
            std::string(name_of(execution_of().simd));
 }
 
-int fail(const std::string& text) {
+int fail(const std::string& text, int status = kUsageOrInput) {
     std::string line = text;
     for (char& c : line)
         if (c == '\n') c = ' ';
     std::cerr << "irido: error: " << line << '\n';
-    return kUsageOrInput;
+    return status;
 }
 
 std::vector<std::string> names_of(const std::vector<CLI::App*>& commands) {
@@ -76,6 +62,7 @@ int run_program(int argc, char** argv) {
     add_color_command(program, run);
     add_cm_command(program, run);
     add_bands_command(program, run);
+    add_sweep_command(program, run, {argv, static_cast<std::size_t>(argc)});
     add_lut_command(program, run);
     add_plan_command(program, run);
     add_bake_command(program, run);
@@ -104,6 +91,8 @@ int main(int argc, char** argv) {
         return run_program(argc, argv);
     } catch (const BrokenPipe&) {
         return 0;
+    } catch (const ToleranceError& error) {
+        return fail(error.what(), kCheckFailed);
     } catch (const std::bad_alloc&) {
         return fail("not enough memory for this request");
     } catch (const std::exception& error) {  // UsageError, InputError, DomainError, OutputError

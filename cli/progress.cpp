@@ -19,7 +19,7 @@ constexpr double kWidth = 40;
 Progress::Progress(bool quiet)
     : is_on_(!quiet && isatty(STDERR_FILENO) == 1), next_(Clock::now() + kPatience) {}
 
-void Progress::set(double done) {
+void Progress::set(double done, const std::string& text) {
     if (!is_on_) return;
     const std::lock_guard guard(lock_);
     if (Clock::now() < next_) return;
@@ -27,7 +27,8 @@ void Progress::set(double done) {
     is_shown_ = true;
     const double part = std::clamp(done, 0.0, 1.0);
     const std::string bar(static_cast<std::size_t>(kWidth * part), '=');
-    std::fprintf(stderr, "\r[%-40s] %3.0f %%", bar.c_str(), 100 * part);
+    std::fprintf(stderr, "\r[%-40s] %3.0f %%%s\033[K", bar.c_str(), 100 * part,
+                 text.empty() ? "" : ("  " + text).c_str());
 }
 
 void Progress::clear() {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <string>
 
 namespace irido {
 
@@ -15,7 +16,8 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     /// done  a fraction of the work, [0, 1]; from any thread
-    void set(double done);
+    /// text  behind the bar
+    void set(double done, const std::string& text = "");
     /// Takes the bar away.
     void clear();
 

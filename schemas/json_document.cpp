@@ -13,7 +13,9 @@
 
 #include "schemas/input_error.hpp"
 #include "schemas/nearest.hpp"
+#include "schemas/number.hpp"
 #include "schemas/stack_expression.hpp"
+#include "schemas/text_file.hpp"
 
 namespace irido {
 namespace {
@@ -163,17 +165,6 @@ bool Builder::parse_error(std::size_t position, const std::string& token,
     return refuse(words, has_token ? position - std::min(position, token.size()) : last);
 }
 
-/// "LINE:COLUMN" of a byte, in characters.
-std::string line_and_column(std::string_view text, std::size_t byte) {
-    const std::string_view before = text.substr(0, byte);
-    const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    const auto column = std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_start),
-                                      before.end(), [](char c) { return (c & 0xC0) != 0x80; }) +
-                        1;
-    return std::to_string(line) + ":" + std::to_string(column);
-}
-
 /// The first step of a dotted path, taken off it.
 std::string take_step(std::string_view& path) {
     const std::size_t end = std::min(path.find('.'), path.size());
@@ -198,24 +189,6 @@ json& element(json& array, const std::string& step, const std::string& path) {
     throw InputError(path, "",
                      "the index must be in [0, " + std::to_string(array.size() - 1) + "] (got \"" +
                          step + "\")");
-}
-
-/// VALUE of --set as JSON.
-json parse_value(std::string_view path, std::string_view value) {
-    constexpr std::array<std::string_view, 3> kMaterials{"material", "incident", "substrate"};
-    const std::string_view key = path.substr(path.rfind('.') + 1);
-    if (std::find(kMaterials.begin(), kMaterials.end(), key) != kMaterials.end()) {
-        json index = parse_index(value);
-        if (!index.is_null()) return index;
-    }
-    const std::string file = std::string(path) + "=" + std::string(value);
-    const bool must_be_json = !value.empty() && std::string_view("{[\"").find(value[0]) <= 2;
-    try {
-        return parse_json(value, file);
-    } catch (const InputError&) {
-        if (must_be_json) throw;
-        return std::string(value);
-    }
 }
 
 }  // namespace
@@ -256,6 +229,23 @@ void set_value(json& document, std::string_view path, json value) {
     *place = std::move(value);
 }
 
+json value_from_text(std::string_view path, std::string_view text) {
+    constexpr std::array<std::string_view, 3> kMaterials{"material", "incident", "substrate"};
+    const std::string_view key = path.substr(path.rfind('.') + 1);
+    if (std::find(kMaterials.begin(), kMaterials.end(), key) != kMaterials.end()) {
+        json index = parse_index(text);
+        if (!index.is_null()) return index;
+    }
+    const std::string file = std::string(path) + "=" + std::string(text);
+    const bool must_be_json = !text.empty() && std::string_view("{[\"").find(text[0]) <= 2;
+    try {
+        return parse_json(text, file);
+    } catch (const InputError&) {
+        if (must_be_json) throw;
+        return std::string(text);
+    }
+}
+
 void set_value(json& document, std::string_view path_equals_value) {
     const std::size_t equals = path_equals_value.find('=');
     if (equals == std::string_view::npos || equals == 0) {
@@ -263,7 +253,29 @@ void set_value(json& document, std::string_view path_equals_value) {
                          "must be PATH=VALUE, as in layers.0.thickness_nm=400");
     }
     const std::string_view path = path_equals_value.substr(0, equals);
-    set_value(document, path, parse_value(path, path_equals_value.substr(equals + 1)));
+    set_value(document, path, value_from_text(path, path_equals_value.substr(equals + 1)));
+}
+
+std::vector<std::string_view> split_values(std::string_view text) {
+    std::vector<std::string_view> values;
+    std::size_t start = 0;
+    int depth = 0;
+    bool in_quotes = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == ',' && depth <= 0 && !in_quotes) {
+            values.push_back(trimmed(text.substr(start, i - start)));
+            start = i + 1;
+        } else if (in_quotes && c == '\\') {
+            ++i;  // whatever it escapes
+        } else if (c == '"') {
+            in_quotes = !in_quotes;
+        } else if (!in_quotes) {
+            depth += (c == '[' || c == '{') - (c == ']' || c == '}');
+        }
+    }
+    values.push_back(trimmed(text.substr(start)));
+    return values;
 }
 
 }  // namespace irido

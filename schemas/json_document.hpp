@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace irido {
 
@@ -15,8 +16,16 @@ nlohmann::json parse_json(std::string_view text, const std::string& file);
 /// so must an index; a last key that is missing is added. Throws InputError("PATH", "", words).
 void set_value(nlohmann::json& document, std::string_view path, nlohmann::json value);
 
-/// The same for what follows --set, "PATH=VALUE". VALUE is JSON, or else text; where a material is
-/// expected, 1.9+1.5i is {"n": 1.9, "k": 1.5}.
+/// The same for what follows --set, "PATH=VALUE", with the value of that text.
 void set_value(nlohmann::json& document, std::string_view path_equals_value);
+
+/// The value that a text stands for at a dotted path: JSON, or else the text itself; where a
+/// material is expected, 1.9+1.5i is {"n": 1.9, "k": 1.5}. Throws InputError("PATH=TEXT", place,
+/// words) for a text that begins as JSON does ({, [ or ") and is none.
+nlohmann::json value_from_text(std::string_view path, std::string_view text);
+
+/// The parts of `Ag,1.9+1.5i,{"n":1.5,"k":0.1}`: split at the commas outside of brackets, braces
+/// and double quotes, blanks at their ends left out, empty ones among them.
+std::vector<std::string_view> split_values(std::string_view text);
 
 }  // namespace irido

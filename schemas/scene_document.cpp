@@ -39,7 +39,7 @@ public:
         : document_(document), file_(std::move(file)), folder_(std::move(folder)) {}
 
     Scene read() {
-        static const json schema = json::parse(scene_schema_text());
+        static const Schema schema(json::parse(scene_schema_text()));
         for (const Problem& problem : check(schema, document_))
             throw InputError(file_, problem.pointer, problem.message);
         scene_.file = file_;
@@ -156,7 +156,7 @@ const char* scene_schema_text() {
 
 std::vector<std::string> scene_problems(const json& document, const std::string& file,
                                         const std::string& folder) {
-    static const json schema = json::parse(scene_schema_text());
+    static const Schema schema(json::parse(scene_schema_text()));
     std::vector<std::string> lines;
     for (const Problem& problem : check(schema, document))
         lines.emplace_back(InputError(file, problem.pointer, problem.message).what());

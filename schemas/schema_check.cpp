@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <memory>
-#include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -121,30 +119,10 @@ struct Builder : valijson::ConstraintBuilder {
     }
 };
 
-/// A schema made ready for use: that takes longer than to check a small document, of which a scene
-/// has hundreds. The last few are kept.
-std::shared_ptr<const valijson::Schema> rules_of(const json& schema) {
-    constexpr std::size_t most = 8;
-    static std::mutex mutex;
-    static std::vector<std::pair<json, std::shared_ptr<const valijson::Schema>>> ready;
-    const std::lock_guard lock(mutex);
-    for (const auto& [of, rules] : ready)
-        if (of == schema) return rules;
-    valijson::SchemaParser parser;
-    parser.addConstraintBuilder("properties", new Builder<KnownKeys>);  // the parser deletes it
-    parser.addConstraintBuilder("errorMessage", new Builder<RuleInWords>);
-    const auto rules = std::make_shared<valijson::Schema>();
-    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), *rules);
-    if (ready.size() == most) ready.erase(ready.begin());
-    ready.emplace_back(schema, rules);
-    return rules;
-}
-
-ValidationResults validate(const json& schema, const json& document) {
-    const auto rules = rules_of(schema);
+ValidationResults validate(const Schema& schema, const json& document) {
     ValidationResults results;
-    valijson::Validator().validate(*rules, valijson::adapters::NlohmannJsonAdapter(document),
-                                   &results);
+    valijson::Validator().validate(schema.rules(),
+                                   valijson::adapters::NlohmannJsonAdapter(document), &results);
     return results;
 }
 
@@ -237,6 +215,15 @@ std::string with_value(std::string words, const json& value) {
 
 }  // namespace
 
+Schema::Schema(const json& document) : rules_(std::make_unique<valijson::Schema>()) {
+    valijson::SchemaParser parser;
+    parser.addConstraintBuilder("properties", new Builder<KnownKeys>);  // the parser deletes it
+    parser.addConstraintBuilder("errorMessage", new Builder<RuleInWords>);
+    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(document), *rules_);
+}
+
+Schema::~Schema() = default;
+
 std::string pointer_step(const std::string& key) {
     std::string step = "/";
     for (const char c : key) {
@@ -261,7 +248,7 @@ std::string short_text(const json& value) {
     return text.substr(0, end) + "...";
 }
 
-std::vector<Problem> check(const json& schema, const json& document) {
+std::vector<Problem> check(const Schema& schema, const json& document) {
     std::vector<Finding> findings;
     for (const auto& error : validate(schema, document)) {
         add_finding(error.context, error.description, findings);

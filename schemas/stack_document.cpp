@@ -1,11 +1,14 @@
 #include "schemas/stack_document.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory_resource>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -15,9 +18,7 @@
 #include "core/material/library.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/json_document.hpp"
-#include "schemas/material_csv.hpp"
 #include "schemas/nearest.hpp"
-#include "schemas/refractiveindex_info.hpp"
 #include "schemas/schema_check.hpp"
 #include "schemas/stack_expression.hpp"
 #include "schemas/text_file.hpp"
@@ -92,19 +93,23 @@ std::string index_text(double n, double k) {
 
 // --- equal materials ------------------------------------------------------------------------
 
-void mix(std::size_t& hash, double value) {
-    hash ^= std::hash<double>{}(value) + 0x9e3779b97f4a7c15U + (hash << 6U) + (hash >> 2U);
+void mix(std::uint64_t& hash, double value) {
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value + 0.0);  // -0 equals 0
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
+    hash ^= hash >> 32U;
 }
 
 struct HashOf {
-    std::size_t hash = 0;
+    std::uint64_t hash = 0;
 
     void operator()(const Constant& constant) { mix(hash, constant.value); }
     void operator()(const Formula& formula) {
         for (const double c : formula.coefficients) mix(hash, c);
     }
     void operator()(const Table& table) {
-        for (const double v : table.value) mix(hash, v);
+        constexpr std::size_t enough = 16;  // of long tables only some, as all are compared later
+        const std::size_t step = std::max<std::size_t>(table.value.size() / enough, 1);
+        for (std::size_t i = 0; i < table.value.size(); i += step) mix(hash, table.value[i]);
     }
     void operator()(const RefractiveIndex& index) {
         std::visit(*this, index.n);
@@ -116,11 +121,19 @@ struct HashOf {
     }
 };
 
-std::size_t hash_of(const Material& material) {
+std::uint64_t hash_of(const Material& material) {
     HashOf hash;
     std::visit(std::ref(hash), material.model);
     return hash.hash;
 }
+
+/// Values of a document by what they are, not by where.
+struct JsonHash {
+    std::size_t operator()(const json* value) const { return std::hash<json>{}(*value); }
+};
+struct JsonEqual {
+    bool operator()(const json* a, const json* b) const { return *a == *b; }
+};
 
 bool same_physics(const Material& a, const Material& b) {
     return a.model == b.model && a.outside == b.outside;
@@ -132,9 +145,10 @@ bool same_physics(const Material& a, const Material& b) {
 /// steps over the parts that break the schema.
 class Reader {
 public:
-    Reader(const json& document, std::string file, std::string folder)
-        : document_(document), file_(std::move(file)), folder_(std::move(folder)) {
-        static const json schema = json::parse(stack_schema_text());
+    Reader(const json& document, const std::string& file, const std::string& folder,
+           MaterialFiles& files)
+        : document_(document), file_(file), folder_(folder), files_(files) {
+        static const Schema schema(json::parse(stack_schema_text()));
         for (const Problem& problem : check(schema, document)) {
             broken_.insert(problem.pointer);
             problems.emplace_back(file_, problem.pointer, problem.message);
@@ -181,8 +195,9 @@ private:
         for (std::size_t i = 0; i < array.size(); ++i) {
             const std::string place = pointer + "/" + std::to_string(i);
             if (!array[i].is_object()) continue;
-            if (array[i].contains("layers")) {
-                result.push_back({group(array[i], place)});
+            const auto layers = array[i].find("layers");
+            if (layers != array[i].end()) {
+                result.push_back({group(array[i], *layers, place)});
             } else {
                 result.push_back({layer(array[i], place)});
             }
@@ -190,20 +205,20 @@ private:
         return result;
     }
 
-    Group group(const json& object, const std::string& pointer) {
+    Group group(const json& object, const json& layers, const std::string& pointer) {
         Group result;
         if (!is_broken(pointer)) {
             result.repeat = static_cast<std::uint64_t>(object["repeat"].get<double>());
         }
-        result.elements = elements(object["layers"], pointer + "/layers");
+        result.elements = elements(layers, pointer + "/layers");
         return result;
     }
 
     Layer layer(const json& object, const std::string& pointer) {
         ++layers_;
         Layer result;
-        if (object.contains("material")) {
-            result.material = material(object["material"], pointer + "/material");
+        if (const auto found = object.find("material"); found != object.end()) {
+            result.material = material(*found, pointer + "/material");
         }
         if (is_broken(pointer)) return result;
         result.thickness_nm = object["thickness_nm"].get<double>();
@@ -215,14 +230,14 @@ private:
     /// The place of a material in the stack's list, where it is put if it is new.
     std::size_t material(const json& value, const std::string& pointer) {
         if (is_broken(pointer)) return 0;
-        const auto [known, is_new] = by_text_.try_emplace(value, 0);
+        const auto [known, is_new] = by_text_.try_emplace(&value, 0);
         if (is_new) known->second = add(build(value, pointer), pointer);
         return known->second;
     }
 
     std::size_t add(Material built, const std::string& pointer) {
         std::vector<Material>& all = result_.stack.materials;
-        const std::size_t hash = hash_of(built);
+        const std::uint64_t hash = hash_of(built);
         const auto [first, last] = by_hash_.equal_range(hash);
         const auto same = std::find_if(
             first, last, [&](const auto& entry) { return same_physics(all[entry.second], built); });
@@ -277,29 +292,25 @@ private:
     }
 
     Material built_in(const std::string& name, const std::string& pointer) {
-        if (const auto found = find_material(name)) return found->material;
-        report(pointer, "there is no material \"" + name + "\"" +
+        if (auto found = find_material(name)) return std::move(found->material);
+        report(pointer, "there is no material " + short_text(name) +
                             did_you_mean(name, library_names_and_aliases()));
         return {name, RefractiveIndex{}};
     }
 
     Material from_file(const std::string& path, const std::string& pointer) {
         const std::filesystem::path place = std::filesystem::path(folder_) / path;
-        const std::string kind = place.extension().string();
-        const bool is_csv = kind == ".csv";
-        if (!is_csv && kind != ".yml" && kind != ".yaml") {
+        if (!is_material_file(place.string())) {
             report(pointer, "must end in .csv, .yml or .yaml (got \"" + path + "\")");
             return {path, RefractiveIndex{}};
         }
         try {
-            const std::string text = read_text(place.string());
-            MaterialFile read = is_csv ? read_material_csv(text, place.string())
-                                       : read_refractiveindex_info(text, place.string());
+            const MaterialFile& read = files_.read(place.string());
             for (const std::string& note : read.notes) {
                 result_.notes.push_back(place.string() + ": " + note);
             }
             note_gain(std::get<RefractiveIndex>(read.material.model), pointer);
-            return std::move(read.material);
+            return read.material;
         } catch (const InputError& error) {
             report(pointer, error.what());
             return {path, RefractiveIndex{}};
@@ -344,13 +355,16 @@ private:
     }
 
     const json& document_;
-    std::string file_;
-    std::string folder_;
+    const std::string& file_;
+    const std::string& folder_;
+    MaterialFiles& files_;
     std::set<std::string> broken_;
     StackDocument result_;
     std::size_t layers_ = 0;
-    std::unordered_map<json, std::size_t> by_text_;
-    std::unordered_multimap<std::size_t, std::size_t> by_hash_;
+    std::array<std::byte, 4096> first_room_;  ///< for what the maps hold: enough for most stacks
+    std::pmr::monotonic_buffer_resource room_{first_room_.data(), first_room_.size()};
+    std::pmr::unordered_map<const json*, std::size_t, JsonHash, JsonEqual> by_text_{&room_};
+    std::pmr::unordered_multimap<std::uint64_t, std::size_t> by_hash_{&room_};
 };
 
 std::string folder_of(const std::string& path) {
@@ -386,7 +400,13 @@ StackSource load_stack(const StackRequest& request) {
 }
 
 StackDocument read_stack(const json& document, const std::string& file, const std::string& folder) {
-    Reader reader(document, file, folder);
+    MaterialFiles files;
+    return read_stack(document, file, folder, files);
+}
+
+StackDocument read_stack(const json& document, const std::string& file, const std::string& folder,
+                         MaterialFiles& files) {
+    Reader reader(document, file, folder, files);
     if (!reader.problems.empty()) throw InputError(reader.problems.front());
     StackDocument result = reader.read();
     if (!reader.problems.empty()) throw InputError(reader.problems.front());
@@ -402,8 +422,9 @@ StackDocument read_stack(const StackRequest& request) {
 std::vector<std::string> stack_problems(const json& document, const std::string& file,
                                         const std::string& folder) {
     std::vector<std::string> lines;
+    MaterialFiles files;
     try {
-        Reader reader(document, file, folder);
+        Reader reader(document, file, folder, files);
         reader.read();
         for (const InputError& problem : reader.problems) lines.emplace_back(problem.what());
     } catch (const InputError& error) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/stack/stack.hpp"
+#include "schemas/material_file.hpp"
 
 namespace irido {
 
@@ -38,7 +39,11 @@ StackSource load_stack(const StackRequest& request);
 StackDocument read_stack(const nlohmann::json& document, const std::string& file,
                          const std::string& folder);
 
-/// Both of the above.
+/// The same; material files that `files` has read are not read again.
+StackDocument read_stack(const nlohmann::json& document, const std::string& file,
+                         const std::string& folder, MaterialFiles& files);
+
+/// The reading of a request and of its document.
 StackDocument read_stack(const StackRequest& request);
 
 /// Everything that is wrong with a stack document, one line each, "FILE: POINTER: message"; nothing

@@ -1,5 +1,6 @@
 #include "schemas/text_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -35,6 +36,16 @@ std::string read_text(const std::string& path) {
     }
     if (std::ferror(file) != 0) refuse(path, errno);
     return text;
+}
+
+std::string line_and_column(std::string_view text, std::size_t byte) {
+    const std::string_view before = text.substr(0, byte);
+    const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    const auto column = std::count_if(before.begin() + static_cast<std::ptrdiff_t>(line_start),
+                                      before.end(), [](char c) { return (c & 0xC0) != 0x80; }) +
+                        1;
+    return std::to_string(line) + ":" + std::to_string(column);
 }
 
 }  // namespace irido

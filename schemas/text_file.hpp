@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace irido {
 
@@ -9,5 +11,8 @@ std::string read_text(const std::string& path);
 
 /// What messages call a path: itself, or "<stdin>" for "-".
 std::string shown_path(const std::string& path);
+
+/// "LINE:COLUMN" of a byte of a text, both counted from 1 in characters.
+std::string line_and_column(std::string_view text, std::size_t byte);
 
 }  // namespace irido

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 namespace irido {
 
@@ -19,35 +20,12 @@ namespace {
 std::array<char, 4096> unfinished_name{};
 volatile std::sig_atomic_t is_unfinished = 0;
 
-[[noreturn]] void fail(const std::string& path, int error) {
-    throw OutputError(path + ": cannot be written: " + std::strerror(error));
-}
-
-/// 0, or the system's error number.
-int write_all(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t count = write(descriptor, bytes.data(), bytes.size());
-        if (count < 0 && errno != EINTR) return errno;
-        if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return 0;
-}
-
 void write_directly(const std::string& path, std::string_view bytes) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0) fail(path, errno);
+    if (descriptor < 0) fail_to_write(path, errno);
     int error = write_all(descriptor, bytes);
     if (close(descriptor) != 0 && error == 0) error = errno;
-    if (error == EPIPE) throw BrokenPipe{};
-    if (error != 0) fail(path, error);
-}
-
-/// Writes and closes a new file; 0, or the system's error number.
-int write_new(int descriptor, mode_t mode, std::string_view bytes) {
-    int error = fchmod(descriptor, mode) == 0 ? write_all(descriptor, bytes) : errno;
-    if (error == 0 && fsync(descriptor) != 0) error = errno;
-    if (close(descriptor) != 0 && error == 0) error = errno;
-    return error;
+    if (error != 0) fail_to_write(path, error);
 }
 
 mode_t default_mode() {
@@ -58,36 +36,79 @@ mode_t default_mode() {
 
 }  // namespace
 
-void write_file(const std::string& path, std::string_view bytes) {
-    std::error_code ignored;
-    std::string target = path;
-    if (std::filesystem::is_symlink(path, ignored)) {
-        const auto real = std::filesystem::canonical(path, ignored);
-        if (!ignored) target = real.string();
-    }
-    struct stat existing {};
-    const bool exists = stat(target.c_str(), &existing) == 0;
-    if (exists && S_ISDIR(existing.st_mode)) fail(path, EISDIR);
-    if (exists && !S_ISREG(existing.st_mode)) return write_directly(path, bytes);
-    if (exists && access(target.c_str(), W_OK) != 0) fail(path, errno);
+void fail_to_write(const std::string& path, int error) {
+    if (error == EPIPE) throw BrokenPipe{};
+    throw OutputError(path + ": cannot be written: " + std::strerror(error));
+}
 
-    const std::string temporary = target + ".part" + std::to_string(getpid());
-    if (temporary.size() >= unfinished_name.size()) fail(path, ENAMETOOLONG);
-    std::memcpy(unfinished_name.data(), temporary.c_str(), temporary.size() + 1);
-    const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (descriptor < 0) fail(path, errno);
+int write_all(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = write(descriptor, bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) return errno;
+        if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return 0;
+}
+
+std::string resolved_path(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_symlink(path, ignored)) return path;
+    const auto real = std::filesystem::canonical(path, ignored);
+    return ignored ? path : real.string();
+}
+
+OutputTarget output_target(const std::string& path) {
+    OutputTarget target{resolved_path(path)};
+    struct stat existing {};
+    if (stat(target.path.c_str(), &existing) != 0) {
+        target.mode = default_mode();
+        return target;
+    }
+    if (S_ISDIR(existing.st_mode)) fail_to_write(path, EISDIR);
+    target.is_file = S_ISREG(existing.st_mode);
+    target.mode = existing.st_mode & 07777;
+    if (target.is_file && access(target.path.c_str(), W_OK) != 0) fail_to_write(path, errno);
+    return target;
+}
+
+NewFile::NewFile(const std::string& path, const OutputTarget& target)
+    : path_(path), target_(target), name_(target.path + ".part" + std::to_string(getpid())) {
+    if (name_.size() >= unfinished_name.size()) fail_to_write(path, ENAMETOOLONG);
+    std::memcpy(unfinished_name.data(), name_.c_str(), name_.size() + 1);
+    descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (descriptor_ < 0) fail_to_write(path, errno);
     is_unfinished = 1;
-    int error = write_new(descriptor, exists ? existing.st_mode & 07777 : default_mode(), bytes);
-    if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-    if (error != 0) unlink(temporary.c_str());
+}
+
+NewFile::~NewFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+    if (is_unfinished) unlink(name_.c_str());
     is_unfinished = 0;
-    if (error != 0) fail(path, error);
+}
+
+void NewFile::commit() {
+    if (fchmod(descriptor_, target_.mode) != 0 || fsync(descriptor_) != 0)
+        fail_to_write(path_, errno);
+    if (close(std::exchange(descriptor_, -1)) != 0) fail_to_write(path_, errno);
+    if (std::rename(name_.c_str(), target_.path.c_str()) != 0) fail_to_write(path_, errno);
+    is_unfinished = 0;
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+    const OutputTarget target = output_target(path);
+    if (!target.is_file) return write_directly(path, bytes);
+    NewFile file(path, target);
+    if (const int error = write_all(file.descriptor(), bytes)) fail_to_write(path, error);
+    file.commit();
 }
 
 void write_stdout(std::string_view bytes) {
-    const int error = write_all(STDOUT_FILENO, bytes);
-    if (error == EPIPE) throw BrokenPipe{};
-    if (error != 0) fail("standard output", error);
+    if (const int error = write_all(STDOUT_FILENO, bytes)) fail_to_write("standard output", error);
+}
+
+void check_binary_stdout() {
+    if (isatty(STDOUT_FILENO))
+        throw OutputError("--format: binary data does not go to a terminal, use --output FILE");
 }
 
 void remove_unfinished_file() noexcept {

@@ -49,7 +49,7 @@ LutType type_from(const std::string& name) {
 }
 
 void check_metadata(const json& metadata) {
-    static const json schema = json::parse(lut_schema_text());
+    static const Schema schema(json::parse(lut_schema_text()));
     const std::vector<Problem> problems = check(schema, metadata);
     if (problems.empty()) return;
     const Problem& first = problems.front();

@@ -70,15 +70,18 @@ TEST_CASE("core knows no files, streams, documents or clocks", "[architecture]")
     }
 }
 
-TEST_CASE("one file includes FFTW, one room each knows JSON schemas and YAML", "[architecture]") {
+TEST_CASE("one file includes FFTW, one HDF5, one room each knows JSON schemas and YAML",
+          "[architecture]") {
     std::map<std::string, std::set<std::string>> users;
     for (const std::string room : {"core", "schemas", "tables", "cli"})
         for (const auto& [file, target] : includes_below(room)) {
             if (target == "fftw3.h") users["fftw"].insert(file);
+            if (target == "hdf5.h") users["hdf5"].insert(file);
             if (target.starts_with("valijson/")) users["valijson"].insert(file);
             if (target.starts_with("yaml-cpp/")) users["yaml"].insert(file);
         }
     CHECK(users["fftw"] == std::set<std::string>{"core/math/transform.cpp"});
+    CHECK(users["hdf5"] == std::set<std::string>{"tables/stream/h5_file.cpp"});
     CHECK(users["valijson"] == std::set<std::string>{"schemas/schema_check.cpp"});
     CHECK(users["yaml"] == std::set<std::string>{"schemas/refractiveindex_info.cpp"});
 }

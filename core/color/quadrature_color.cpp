@@ -291,4 +291,16 @@ std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, cons
     return std::make_unique<QuadratureColor>(tables, stack, request);
 }
 
+double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
+                       double cos_theta) {
+    constexpr double kPointsOfPiece = 20, kPointsPerPath = 0.032;  // of nm; as --stats says
+    std::vector<Medium> media(indices.materials());
+    for (std::size_t m = 0; m < media.size(); ++m)
+        media[m] = medium(indices.index(m, 0), indices.n(indices.incident())[0], cos_theta);
+    Path path;
+    add_path(stack.elements, media, indices.k0()[0], path);
+    return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *
+           work_of(stack.elements);
+}
+
 }  // namespace irido

@@ -4,6 +4,7 @@
 
 #include "core/color/color_request.hpp"
 #include "core/color/color_tables.hpp"
+#include "core/interference/index_table.hpp"
 
 namespace irido {
 
@@ -15,5 +16,12 @@ namespace irido {
 /// Throws DomainError as StackPower and IndexTable do.
 std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
                                                  const ColorRequest& request);
+
+/// Layers that quadrature_color() computes for a colour, more or less: points times layers. A
+/// function of its arguments that needs no table and is the same on every machine.
+///   indices  of the stack's materials at one wavelength
+///   pieces   smooth_pieces() of the stack, less one
+double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
+                       double cos_theta);
 
 }  // namespace irido

@@ -165,21 +165,25 @@ std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const
     }
 }
 
-std::vector<StackColor> stack_color(const ColorTables& tables, const Stack& stack,
-                                    const ColorMethod& method, const ColorRequest& request,
-                                    std::span<const double> angles_deg, unsigned threads) {
-    const std::unique_ptr<ColorAlgorithm> algorithm =
-        color_algorithm(tables, stack, method, request);
-    const std::size_t sides = request.sides.size();
+std::vector<StackColor> stack_color(const ColorAlgorithm& algorithm, const Stack& stack,
+                                    std::size_t sides, std::span<const double> angles_deg,
+                                    unsigned threads) {
     std::vector<StackColor> colors(angles_deg.size() * sides);
     const std::size_t blocks = (angles_deg.size() + kAnglesTogether - 1) / kAnglesTogether;
     parallel_for(blocks, threads, [&](std::size_t block) {
         const std::size_t begin = block * kAnglesTogether;
         const std::size_t count = std::min(kAnglesTogether, angles_deg.size() - begin);
-        (*algorithm)(stack, angles_deg.subspan(begin, count),
-                     std::span(colors).subspan(begin * sides, count * sides));
+        algorithm(stack, angles_deg.subspan(begin, count),
+                  std::span(colors).subspan(begin * sides, count * sides));
     });
     return colors;
+}
+
+std::vector<StackColor> stack_color(const ColorTables& tables, const Stack& stack,
+                                    const ColorMethod& method, const ColorRequest& request,
+                                    std::span<const double> angles_deg, unsigned threads) {
+    return stack_color(*color_algorithm(tables, stack, method, request), stack,
+                       request.sides.size(), angles_deg, threads);
 }
 
 bool measure_errors(const ColorTables& tables, const Stack& stack, const ColorRequest& request,

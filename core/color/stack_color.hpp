@@ -23,6 +23,11 @@ std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const
                                                 const ColorMethod& method,
                                                 const ColorRequest& request);
 
+/// Colours [angle][side] of one stack by an algorithm made ready for it.
+std::vector<StackColor> stack_color(const ColorAlgorithm& algorithm, const Stack& stack,
+                                    std::size_t sides, std::span<const double> angles_deg,
+                                    unsigned threads = 1);
+
 /// Colours [angle][side] of one stack; angles in [0, 90] degrees. Throws as color_algorithm() does.
 std::vector<StackColor> stack_color(const ColorTables& tables, const Stack& stack,
                                     const ColorMethod& method, const ColorRequest& request,

@@ -22,16 +22,20 @@ void append_text(std::string& out, const std::string& text) {
 
 }  // namespace
 
-std::string write_csv(const Records& records) {
+std::string csv_head(const std::vector<std::string>& names) {
     std::string out;
-    for (std::size_t c = 0; c < records.columns.size(); ++c) {
+    for (std::size_t c = 0; c < names.size(); ++c) {
         if (c > 0) out += ',';
-        append_text(out, records.columns[c].name);
+        append_text(out, names[c]);
     }
-    out += '\n';
+    return out + '\n';
+}
+
+std::string csv_rows(const Records& records) {
+    std::string out;
     const RowWriter writer(records, append_text);
     const std::size_t rows = records.rows();
-    out.reserve(out.size() + rows * records.columns.size() * kUsualBytes);
+    out.reserve(rows * records.columns.size() * kUsualBytes);
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t c = 0; c < records.columns.size(); ++c) {
             if (c > 0) out += ',';
@@ -40,6 +44,12 @@ std::string write_csv(const Records& records) {
         out += '\n';
     }
     return out;
+}
+
+std::string write_csv(const Records& records) {
+    std::vector<std::string> names;
+    for (const Column& column : records.columns) names.push_back(column.name);
+    return csv_head(names) + csv_rows(records);
 }
 
 }  // namespace irido

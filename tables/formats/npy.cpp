@@ -1,92 +1,91 @@
 #include "tables/formats/npy.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <cstring>
+#include <cstdio>
+
+#include "tables/stream/packed_rows.hpp"
 
 namespace irido {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
+constexpr std::size_t kAlignment = 64, kDigits = 20;  // of a count of 64 bits
 
-constexpr std::size_t kAlignment = 64, kCharacterBytes = 4;
-
-std::size_t longest(const Column::Texts& texts) {
-    std::size_t length = 1;
-    for (const std::string& text : texts) length = std::max(length, text.size());
-    return length;
-}
-
-/// NumPy's name of a column's type and its size in bytes.
-struct FieldType {
+/// The layout of records that are all there: texts are as wide as the longest one.
+struct FieldOf {
     std::string name;
-    std::size_t bytes;
-};
 
-struct TypeOf {
-    FieldType operator()(const Column::Numbers&) const { return {"<f8", sizeof(double)}; }
-    FieldType operator()(const Column::Texts& v) const {
-        return {"<U" + std::to_string(longest(v)), kCharacterBytes * longest(v)};
+    static std::size_t longest(const Column::Texts& texts) {
+        std::size_t length = 1;
+        for (const std::string& text : texts) length = std::max(length, text.size());
+        return length;
     }
-    FieldType operator()(const Column::Flags&) const { return {"|b1", 1}; }
-    FieldType operator()(const Column::CodedNumbers& v) const { return (*this)(v.values); }
-    FieldType operator()(const Column::CodedTexts& v) const { return (*this)(v.values); }
+    RecordField operator()(const Column::Numbers&) const {
+        return {name, RecordField::Type::number, 0};
+    }
+    RecordField operator()(const Column::Texts& texts) const {
+        return {name, RecordField::Type::text, longest(texts)};
+    }
+    RecordField operator()(const Column::Flags&) const {
+        return {name, RecordField::Type::flag, 0};
+    }
+    RecordField operator()(const Column::CodedNumbers& v) const { return (*this)(v.values); }
+    RecordField operator()(const Column::CodedTexts& v) const { return (*this)(v.values); }
 };
 
-void store(char* to, double value) {
-    std::memcpy(to, &value, sizeof(double));
-}
-void store(char* to, const std::string& text) {  // ASCII, one code point in four bytes
-    for (std::size_t i = 0; i < text.size(); ++i) to[kCharacterBytes * i] = text[i];
-}
-void store(char* to, bool flag) {
-    *to = flag ? 1 : 0;
+std::string type_name(const RecordField& field) {
+    if (field.type == RecordField::Type::number) return "<f8";
+    return field.type == RecordField::Type::flag ? "|b1" : "<U" + std::to_string(field.width);
 }
 
-std::string header(const Records& records, const std::vector<FieldType>& types) {
-    std::string type = "[";
-    for (std::size_t c = 0; c < types.size(); ++c)
-        type += "('" + records.columns[c].name + "', '" + types[c].name + "'), ";
-    return npy_header(type + "]", "(" + std::to_string(records.rows()) + ",)");
+/// As a Python literal of ASCII.
+std::string quoted(const std::string& name) {
+    std::string out = "'";
+    for (const char32_t c : code_points(name)) {
+        if (c >= 0x20 && c < 0x7F) {
+            if (c == U'\'' || c == U'\\') out += '\\';
+            out += static_cast<char>(c);
+            continue;
+        }
+        char escaped[11];
+        std::snprintf(escaped, sizeof escaped, "\\U%08x", static_cast<unsigned>(c));
+        out += escaped;
+    }
+    return out + "'";
 }
 
 }  // namespace
 
-std::string npy_header(const std::string& type, const std::string& shape) {
+std::string npy_head(const RecordLayout& layout, std::uint64_t rows, bool is_open) {
+    std::string type = "[";
+    for (const RecordField& field : layout)
+        type += "(" + quoted(field.name) + ", '" + type_name(field) + "'), ";
+    const std::string count = std::to_string(rows);
+    return npy_header(type + "]", "(" + count + ",)", is_open ? kDigits - count.size() : 0);
+}
+
+std::string npy_header(const std::string& type, const std::string& shape, std::size_t spare) {
     std::string text = "{'descr': " + type + ", 'fortran_order': False, 'shape': " + shape + ", }";
-    constexpr std::size_t preamble = 10;
-    text.append((kAlignment - (preamble + text.size() + 1) % kAlignment) % kAlignment, ' ');
+    const auto padded = [&](std::size_t preamble) {
+        const std::size_t least = preamble + text.size() + spare + 1;
+        return (least + kAlignment - 1) / kAlignment * kAlignment - preamble;
+    };
+    const bool is_long = padded(10) > 0xFFFF;
+    const std::size_t length_bytes = is_long ? 4 : 2, size = padded(8 + length_bytes);
+    text.append(size - 1 - text.size(), ' ');
     text += '\n';
-    std::string out("\x93NUMPY\x01\x00", 8);
-    out += static_cast<char>(text.size() & 0xFF);
-    out += static_cast<char>(text.size() >> 8);
+    std::string out("\x93NUMPY", 6);
+    out += is_long ? '\2' : '\1';
+    out += '\0';
+    for (std::size_t i = 0; i < length_bytes; ++i) out += static_cast<char>(size >> (8 * i) & 0xFF);
     return out + text;
 }
 
 std::string write_npy(const Records& records) {
-    std::vector<FieldType> types;
-    std::size_t record_bytes = 0;
-    for (const Column& column : records.columns) {
-        types.push_back(std::visit(TypeOf{}, column.values));
-        record_bytes += types.back().bytes;
-    }
-    std::string out = header(records, types);
-    std::size_t at = out.size();
-    const std::size_t rows = records.rows();
-    out.resize(at + rows * record_bytes, '\0');
-    for (std::size_t c = 0; c < types.size(); ++c) {
-        std::visit(
-            [&](const auto& values) {
-                char* to = out.data() + at;
-                for (std::size_t row = 0; row < rows; ++row, to += record_bytes)
-                    store(to, values[row]);
-            },
-            records.columns[c].values);
-        at += types[c].bytes;
-    }
-    return out;
+    RecordLayout layout;
+    for (const Column& column : records.columns)
+        layout.push_back(std::visit(FieldOf{column.name}, column.values));
+    return npy_head(layout, records.rows(), false) + packed_rows(layout, records, TextCode::utf32);
 }
 
 }  // namespace irido

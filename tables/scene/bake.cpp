@@ -210,7 +210,7 @@ const char* manifest_schema_text() {
 }
 
 std::vector<std::string> manifest_problems(const json& document, const std::string& file) {
-    static const json schema = json::parse(manifest_schema_text());
+    static const Schema schema(json::parse(manifest_schema_text()));
     std::vector<std::string> lines;
     for (const Problem& problem : check(schema, document))
         lines.emplace_back(InputError(file, problem.pointer, problem.message).what());

@@ -109,3 +109,35 @@ TEST_CASE("A path that leads nowhere is refused") {
     CHECK(error_of([&] { set_value(empty, "layers.0", 1); }) ==
           "layers.0: the array before \"0\" is empty");
 }
+
+TEST_CASE("A text stands for JSON, for an index where a material is, or for itself") {
+    using irido::value_from_text;
+    CHECK(value_from_text("substrate", "1.9+1.5i") == json{{"n", 1.9}, {"k", 1.5}});
+    CHECK(value_from_text("layers.0.material", "2") == 2);
+    CHECK(value_from_text("layers.0.name", "1+2i") == "1+2i");
+    CHECK(value_from_text("substrate", "Ag") == "Ag");
+    CHECK(value_from_text("layers.0.coherent", "false") == false);
+    CHECK(value_from_text("substrate", R"({"n": 1.5})") == json{{"n", 1.5}});
+    CHECK(error_of([] { value_from_text("substrate", "{1}"); }) ==
+          "substrate={1}: 1:2: unexpected number literal; expected string literal");
+}
+
+TEST_CASE("Lists of values are split at the commas between them") {
+    const auto split = [](std::string_view text) {
+        const auto parts = irido::split_values(text);
+        return std::vector<std::string>(parts.begin(), parts.end());
+    };
+    using Parts = std::vector<std::string>;
+    CHECK(split("Ag,Au,Cu") == Parts{"Ag", "Au", "Cu"});
+    CHECK(split(" Ag , Au") == Parts{"Ag", "Au"});
+    CHECK(split("") == Parts{""});
+    CHECK(split("Ag,,") == Parts{"Ag", "", ""});
+    CHECK(split(R"({"n":1.5,"k":0.1},[[1,2],[3,4]],"a,b",2)") ==
+          Parts{R"({"n":1.5,"k":0.1})", "[[1,2],[3,4]]", R"("a,b")", "2"});
+    CHECK(split(R"("a\",b]",{"x":"}"},c)") == Parts{R"("a\",b]")", R"({"x":"}"})", "c"});
+    // what is never closed or never opened is left to who reads the parts
+    CHECK(split("{a,b") == Parts{"{a,b"});
+    CHECK(split("a],b") == Parts{"a]", "b"});
+    CHECK(split("\"a,b") == Parts{"\"a,b"});
+    CHECK(split("\"a\\") == Parts{"\"a\\"});
+}

@@ -11,12 +11,18 @@
 
 using irido::check;
 using irido::Problem;
+using irido::Schema;
 using nlohmann::json;
 
 namespace {
 
-const json& stack_schema() {
-    static const json schema = json::parse(irido::stack_schema_text());
+const json& stack_schema_document() {
+    static const json document = json::parse(irido::stack_schema_text());
+    return document;
+}
+
+const Schema& stack_schema() {
+    static const Schema schema(stack_schema_document());
     return schema;
 }
 
@@ -74,7 +80,7 @@ TEST_CASE("A complete document has no problems and uses every key of the schema"
     std::set<std::string> used;
     for (const std::string& field : fields_of(document)) used.insert(key_of(field));
     std::set<std::string> known;
-    collect_keys(stack_schema(), known);
+    collect_keys(stack_schema_document(), known);
     CHECK(used == known);
 }
 
@@ -174,7 +180,7 @@ TEST_CASE("All problems come, each once, in the order of the document") {
 }
 
 TEST_CASE("A schema without words of its own still tells the place and the value") {
-    const json schema{{"properties", {{"a", {{"type", "string"}}}}}};
+    const Schema schema(json{{"properties", {{"a", {{"type", "string"}}}}}});
     CHECK(check(schema, {{"a", 5}, {"b", 1}}) ==
           std::vector<Problem>{{"/a", "is not allowed here (got 5)"}});
 }
@@ -182,7 +188,7 @@ TEST_CASE("A schema without words of its own still tells the place and the value
 TEST_CASE("Every rule of the stack schema has words beside it") {
     const std::set<std::string> rules{"minimum", "maximum",    "minItems", "maxItems",
                                       "enum",    "multipleOf", "minLength"};
-    std::vector<const json*> nodes{&stack_schema()};
+    std::vector<const json*> nodes{&stack_schema_document()};
     while (!nodes.empty()) {
         const json& node = *nodes.back();
         nodes.pop_back();
@@ -194,7 +200,7 @@ TEST_CASE("Every rule of the stack schema has words beside it") {
 }
 
 TEST_CASE("Keys and values keep a message on one short line") {
-    const json schema{{"additionalProperties", false}, {"properties", json::object()}};
+    const Schema schema(json{{"additionalProperties", false}, {"properties", json::object()}});
     const std::vector<Problem> problems = check(schema, {{"a/b~c\nd", 1}});
     REQUIRE(problems.size() == 1);
     CHECK(problems[0].pointer == "/a~1b~0c?d");

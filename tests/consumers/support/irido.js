@@ -12,7 +12,7 @@ function fromEnvironment(name) {
     return value;
 }
 
-const program = fromEnvironment('IRIDO');
+export const program = fromEnvironment('IRIDO');
 for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(1));
 
 /** Standard output of the program; throws with its message when it fails. */

@@ -21,9 +21,22 @@ std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text);
 Needs spectrum_needs(const std::string& polarizations, const std::vector<SpectrumColumn>& columns,
                      const StackPower& stack);
 
+/// Names of the columns of numbers, R, T, A and those asked for, of a stack of so many layers.
+std::vector<std::string> spectrum_number_names(const std::vector<SpectrumColumn>& columns,
+                                               std::size_t layers);
+
 /// Rows by angle, then polarization, then wavelength.
-Records spectrum_records(const std::vector<double>& wavelengths_nm,
-                         const std::vector<double>& angles_deg, const std::string& polarizations,
-                         const std::vector<SpectrumColumn>& columns, const Spectra& spectra);
+struct SpectrumShape {
+    std::size_t angles;
+    std::string_view polarizations;  ///< letters of "spu"
+    std::size_t wavelengths;
+
+    std::size_t rows() const { return angles * polarizations.size() * wavelengths; }
+};
+
+/// Appends the numbers of rows to columns, one of each name above.
+void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<SpectrumColumn>& columns,
+                             std::size_t layers, const Spectra& spectra,
+                             std::vector<Column::Numbers>& to);
 
 }  // namespace irido

@@ -1,0 +1,45 @@
+#include "cli/interrupt.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+
+#include "tables/atomic_file.hpp"
+
+namespace irido {
+
+namespace {
+
+volatile std::sig_atomic_t is_orderly = 0, asked = 0;
+
+extern "C" void stop_on_signal(int signal) {
+    if (is_orderly && !asked) {
+        asked = signal;
+        return;
+    }
+    remove_unfinished_file();
+    _exit(128 + signal);
+}
+
+}  // namespace
+
+void handle_signals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (std::signal(signal, stop_on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+OrderlyEnd::OrderlyEnd() {
+    is_orderly = 1;
+}
+
+OrderlyEnd::~OrderlyEnd() {
+    is_orderly = 0;
+}
+
+int OrderlyEnd::signal() const {
+    return asked;
+}
+
+}  // namespace irido

@@ -1,0 +1,28 @@
+#include "cli/questions/question.hpp"
+
+#include <array>
+
+#include "cli/questions/bands_question.hpp"
+#include "cli/questions/cm_question.hpp"
+#include "cli/questions/color_question.hpp"
+#include "cli/questions/spectrum_question.hpp"
+
+namespace irido {
+
+Records records_of(const Question& question, const PreparedStack& prepared) {
+    const std::unique_ptr<Answers> answers = question.answers();
+    answers->add(prepared, prepared.document.stack, {question.angles_deg()});
+    return answers->records();
+}
+
+std::span<const QuestionKind> question_kinds() {
+    static constexpr std::array kinds{
+        QuestionKind{"spectrum", SpectrumOptions::add},
+        QuestionKind{"color", ColorQuestionOptions::add},
+        QuestionKind{"bands", BandsOptions::add},
+        QuestionKind{"cm", CmOptions::add},
+    };
+    return kinds;
+}
+
+}  // namespace irido

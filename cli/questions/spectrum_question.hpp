@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/questions/question.hpp"
+#include "cli/questions/spectrum_columns.hpp"
+
+namespace irido {
+
+/// What irido spectrum is asked, as typed.
+struct SpectrumOptions : QuestionOptions {
+    std::string wavelengths = "380:780:1";
+    std::string angles = "0";
+    std::string polarization = "u";
+    std::string columns;
+
+    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
+    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    nlohmann::json typed() const override;
+};
+
+/// R, T, A and more over wavelengths and angles.
+class SpectrumQuestion : public Question {
+public:
+    SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering);
+
+    std::span<const double> angles_deg() const override { return angles_deg_; }
+    bool takes_wavelength() const override { return true; }
+    std::size_t rows_per_angle() const override {
+        return polarizations_.size() * wavelengths_nm_.size();
+    }
+    RecordLayout layout(const StackDocument& document) const override;
+    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    std::unique_ptr<Answers> answers() const override;
+    double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                   std::optional<double> wavelength_nm) const override;
+
+    /// How a stack was computed, and what its physics spared, in lines.
+    std::vector<std::string> stats(const PreparedStack& prepared) const;
+
+private:
+    friend class SpectrumAnswers;
+
+    std::vector<double> wavelengths_nm_, angles_deg_;
+    std::string polarizations_;  ///< letters of "spu"
+    std::vector<SpectrumColumn> columns_;
+    Execution execution_;
+};
+
+}  // namespace irido

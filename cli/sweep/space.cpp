@@ -1,0 +1,152 @@
+#include "cli/sweep/space.hpp"
+
+#include <algorithm>
+
+#include "cli/list.hpp"
+#include "core/error.hpp"
+#include "core/interference/coherent.hpp"
+#include "core/material/material.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/json_document.hpp"
+#include "schemas/number.hpp"
+#include "schemas/points_csv.hpp"
+#include "schemas/text_file.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kMostCombinations = 1e15, kLargestNumber = 1e300;
+
+/// The range of a varied number; what the stack's schema says comes later.
+std::pair<double, double> range_of(std::string_view path) {
+    if (path == kSweptAngle) return {0, kLargestAngle_deg};
+    if (path == kSweptWavelength) return {kAllWavelengths.first_nm, kAllWavelengths.last_nm};
+    return {-kLargestNumber, kLargestNumber};
+}
+
+bool is_light(std::string_view path) {
+    return path == kSweptAngle || path == kSweptWavelength;
+}
+
+/// Whether an item of a list is a number or start:stop:step or start:stop/count.
+bool is_numeric(std::string_view item) {
+    return parse_number(trimmed(item.substr(0, item.find(':')))).has_value();
+}
+
+/// A text that JSON could not say has no place in a stack, nor in a table.
+void require_utf8(const std::string& text) {
+    try {
+        (void)nlohmann::json(text).dump();
+    } catch (const nlohmann::json::exception&) {
+        throw UsageError("--vary: a path or a value is not UTF-8");
+    }
+}
+
+std::vector<double> numbers_of(const std::string& path, std::string_view list) {
+    const auto [lowest, highest] = range_of(path);
+    return parse_list("--vary " + path, list, lowest, highest);
+}
+
+}  // namespace
+
+nlohmann::json SweptColumn::value(std::size_t index) const {
+    if (!is_text()) return numbers[index];
+    return value_from_text(path, texts[index]);
+}
+
+std::string SweptColumn::text(std::size_t index) const {
+    return is_text() ? texts[index] : to_text(numbers[index]);
+}
+
+SweepSpace::SweepSpace(const std::vector<std::string>& vary, const std::string& points) {
+    if (!points.empty()) add_points(points);
+    for (const std::string& text : vary) add_list(text);
+    if (columns_.empty())
+        throw UsageError("--vary: a sweep needs --vary PATH=LIST or --points FILE");
+    check();
+    double size = 1;
+    for (auto column = columns_.rbegin(); column != columns_.rend(); ++column) {
+        if (column->of_points) continue;
+        column->stride = size_;
+        size *= static_cast<double>(column->size());
+        if (size * static_cast<double>(points_) > kMostCombinations)
+            throw UsageError("--vary: more than 1e15 combinations");
+        size_ *= column->size();
+    }
+    for (SweptColumn& column : columns_)
+        if (column.of_points) column.stride = size_;
+    size_ *= points_;
+}
+
+std::size_t SweepSpace::at(std::size_t column, std::uint64_t combination) const {
+    const SweptColumn& of = columns_[column];
+    const std::uint64_t step = combination / of.stride;
+    if (!of.of_points) return step % of.size();
+    return of.codes.empty() ? step : of.codes[step];
+}
+
+std::string SweepSpace::describe(std::uint64_t combination) const {
+    std::string text;
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+        text += (c > 0 ? ", " : "") + columns_[c].path + "=" + columns_[c].text(at(c, combination));
+    return text;
+}
+
+void SweepSpace::add_points(const std::string& file) {
+    for (PointsColumn& read : read_points_csv(read_text(file), shown_path(file))) {
+        SweptColumn column{std::move(read.path), std::move(read.numbers), std::move(read.texts),
+                           std::move(read.codes)};
+        column.of_points = true;
+        points_ = column.is_text() ? column.codes.size() : column.numbers.size();
+        const auto [lowest, highest] = range_of(column.path);
+        if (is_light(column.path) && column.is_text())
+            throw InputError(shown_path(file), column.path, "must be numbers");
+        for (const double value : column.numbers)
+            if (!(value >= lowest && value <= highest))
+                throw InputError(shown_path(file), column.path,
+                                 "must be in [" + to_text(lowest) + ", " + to_text(highest) +
+                                     "] (got " + to_text(value) + ")");
+        columns_.push_back(std::move(column));
+    }
+}
+
+void SweepSpace::add_list(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw UsageError("--vary: must be PATH=LIST, as in layers.0.thickness_nm=0:1000:10 (got '" +
+                         text + "')");
+    SweptColumn column;
+    column.path = text.substr(0, equals);
+    const std::string_view list = std::string_view(text).substr(equals + 1);
+    const std::vector<std::string_view> items = split_values(list);
+    if (is_light(column.path) || std::ranges::all_of(items, is_numeric)) {
+        column.numbers = numbers_of(column.path, list);
+    } else {
+        for (const std::string_view item : items) {
+            const std::string_view value = trimmed(item);
+            if (value.empty())
+                throw UsageError("--vary " + column.path + ": a value is empty (got '" +
+                                 std::string(list) + "')");
+            if (!is_numeric(value)) {
+                column.texts.emplace_back(value);
+                continue;
+            }
+            for (const double number : numbers_of(column.path, value))
+                column.texts.push_back(to_text(number));
+        }
+    }
+    columns_.push_back(std::move(column));
+}
+
+void SweepSpace::check() const {
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+        for (std::size_t b = 0; b < c; ++b)
+            if (columns_[b].path == columns_[c].path)
+                throw UsageError("--vary: " + columns_[c].path + " is varied twice");
+        require_utf8(columns_[c].path);
+        for (const std::string& text : columns_[c].texts) require_utf8(text);
+    }
+}
+
+}  // namespace irido

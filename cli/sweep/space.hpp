@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace irido {
+
+/// One thing that a sweep varies, and what it becomes.
+struct SweptColumn {
+    std::string path;                  ///< in the stack document; or angle_deg, wavelength_nm
+    std::vector<double> numbers;       ///< the values, if all are numbers
+    std::vector<std::string> texts;    ///< else: as they are printed
+    std::vector<std::uint32_t> codes;  ///< of points: which text each has; numbers are in order
+    bool of_points = false;            ///< varies along the points, not by itself
+    std::uint64_t stride = 1;          ///< combinations for which a value stays
+
+    bool is_text() const { return !texts.empty(); }
+    std::size_t size() const { return is_text() ? texts.size() : numbers.size(); }
+    /// The value as JSON, as --set reads it.
+    nlohmann::json value(std::size_t index) const;
+    /// The value as printed.
+    std::string text(std::size_t index) const;
+};
+
+inline constexpr std::string_view kSweptAngle = "angle_deg", kSweptWavelength = "wavelength_nm";
+
+/// All combinations of varied values: of every point with every value of every list, the last
+/// list's value changing first.
+class SweepSpace {
+public:
+    /// vary    PATH=LIST, where LIST is as everywhere, or values with commas, texts among them
+    /// points  a CSV file of points; "" for none
+    /// Throws UsageError or InputError, also for a path that is varied twice.
+    SweepSpace(const std::vector<std::string>& vary, const std::string& points);
+
+    const std::vector<SweptColumn>& columns() const { return columns_; }
+    std::uint64_t size() const { return size_; }
+    /// Index of a column's value in one combination.
+    std::size_t at(std::size_t column, std::uint64_t combination) const;
+    /// "layers.0.thickness_nm=100, substrate=Ag"
+    std::string describe(std::uint64_t combination) const;
+
+private:
+    void add_points(const std::string& file);
+    void add_list(const std::string& text);
+    void check() const;
+
+    std::vector<SweptColumn> columns_;
+    std::uint64_t points_ = 1, size_ = 1;
+};
+
+}  // namespace irido

@@ -1,0 +1,137 @@
+#include "cli/sweep/stacks.hpp"
+
+#include <algorithm>
+
+#include "schemas/input_error.hpp"
+#include "schemas/json_document.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Structures that a thread keeps at hand.
+constexpr std::size_t kMostPlaces = 16;
+/// Values of one column that are read before the sweep begins.
+constexpr std::size_t kMostChecked = 1000;
+
+std::vector<std::size_t> columns_where(const SweepSpace& space, bool thickness) {
+    std::vector<std::size_t> columns;
+    for (std::size_t c = 0; c < space.columns().size(); ++c) {
+        const std::string& path = space.columns()[c].path;
+        if (path == kSweptAngle || path == kSweptWavelength) continue;
+        if (VariedStack::is_thickness(path) == thickness) columns.push_back(c);
+    }
+    return columns;
+}
+
+std::vector<std::string> paths_of(const SweepSpace& space,
+                                  const std::vector<std::size_t>& columns) {
+    std::vector<std::string> paths;
+    for (const std::size_t c : columns) paths.push_back(space.columns()[c].path);
+    return paths;
+}
+
+/// The source with the middle one of every varied thickness, for which structures are prepared.
+StackSource with_thicknesses(StackSource source, const SweepSpace& space,
+                             const std::vector<std::size_t>& thicknesses) {
+    for (const std::size_t c : thicknesses) {
+        const SweptColumn& column = space.columns()[c];
+        set_value(source.document, column.path, column.value(column.size() / 2));
+    }
+    return source;
+}
+
+}  // namespace
+
+SweptStacks::SweptStacks(StackSource source, const SweepSpace& space, const Question& question)
+    : space_(space),
+      question_(question),
+      structural_(columns_where(space, false)),
+      thicknesses_(columns_where(space, true)),
+      varied_(with_thicknesses(source, space, thicknesses_), paths_of(space, structural_)),
+      file_(source.file) {}
+
+void SweptStacks::check_values() const {
+    for (const std::size_t c : thicknesses_) {
+        const SweptColumn& column = space_.columns()[c];
+        if (column.is_text())
+            throw InputError(file_, column.path, "must be numbers (got " + column.texts[0] + ")");
+        for (const double value : column.numbers)
+            VariedStack::require_thickness(file_, column.path, value);
+    }
+    const std::vector<std::size_t> first = key_of(0);
+    for (std::size_t s = 0; s < structural_.size(); ++s) {
+        std::vector<std::size_t> key = first;
+        const std::size_t values = space_.columns()[structural_[s]].size();
+        for (key[s] = 0; key[s] < std::min(values, kMostChecked); ++key[s]) document(key);
+    }
+}
+
+std::vector<std::size_t> SweptStacks::key_of(std::uint64_t combination) const {
+    std::vector<std::size_t> key;
+    key.reserve(structural_.size());
+    for (const std::size_t c : structural_) key.push_back(space_.at(c, combination));
+    return key;
+}
+
+StackDocument SweptStacks::document(const std::vector<std::size_t>& key) const {
+    std::vector<nlohmann::json> values;
+    values.reserve(key.size());
+    for (std::size_t s = 0; s < key.size(); ++s)
+        values.push_back(space_.columns()[structural_[s]].value(key[s]));
+    return varied_.document(values);
+}
+
+std::shared_ptr<SweptStacks::Structure> SweptStacks::entry(const std::vector<std::size_t>& key) {
+    const std::scoped_lock guard(lock_);
+    std::shared_ptr<Structure>& found = structures_[key];
+    if (!found) found = std::make_shared<Structure>();
+    found->last_used = ++uses_;
+    const std::shared_ptr<Structure> result = found;
+    if (structures_.size() > kMostStructures)
+        structures_.erase(std::ranges::min_element(
+            structures_, {}, [](const auto& entry) { return entry.second->last_used; }));
+    return result;
+}
+
+std::shared_ptr<const PreparedStack> SweptStacks::prepared(const std::vector<std::size_t>& key) {
+    const std::shared_ptr<Structure> structure = entry(key);
+    const std::scoped_lock guard(structure->making);
+    if (!structure->prepared) {
+        structure->prepared = question_.prepare(document(key));
+        ++prepared_count_;
+    }
+    return structure->prepared;
+}
+
+SweptStacks::Walk::Place& SweptStacks::Walk::structure_at(std::uint64_t combination) {
+    key_.clear();
+    for (const std::size_t c : stacks_.structural_)
+        key_.push_back(stacks_.space_.at(c, combination));
+    if (const auto found = places_.find(key_); found != places_.end()) return found->second;
+    if (places_.size() >= kMostPlaces) places_.clear();
+    auto prepared = stacks_.prepared(key_);
+    Place& place = places_[key_];
+    place.stack = prepared->document.stack;
+    place.prepared = std::move(prepared);
+    for (const std::size_t c : stacks_.thicknesses_) {
+        const std::string& path = stacks_.space_.columns()[c].path;
+        place.varied.push_back(VariedStack::layer_at(place.stack, path));
+        if (place.varied.back()) continue;
+        places_.erase(key_);
+        throw InputError(stacks_.file_, path, "there is no layer there");
+    }
+    return place;
+}
+
+const SweptStacks::Walk::Place& SweptStacks::Walk::at(std::uint64_t combination) {
+    Place& place = structure_at(combination);
+    for (std::size_t i = 0; i < stacks_.thicknesses_.size(); ++i) {
+        const std::size_t c = stacks_.thicknesses_[i];
+        place.varied[i]->thickness_nm =
+            stacks_.space_.columns()[c].numbers[stacks_.space_.at(c, combination)];
+    }
+    return place;
+}
+
+}  // namespace irido

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "cli/questions/question.hpp"
+#include "cli/sweep/space.hpp"
+#include "schemas/varied_stack.hpp"
+
+namespace irido {
+
+/// The stacks of a sweep. Those that differ in thicknesses only are one structure, which is read
+/// and prepared once, unless more than kMostStructures others came in between. Safe from many
+/// threads.
+class SweptStacks {
+public:
+    /// Refers to space and question.
+    SweptStacks(StackSource source, const SweepSpace& space, const Question& question);
+
+    static constexpr std::size_t kMostStructures = 64;
+
+    /// Throws InputError for the first value that is wrong by itself, whatever the others are.
+    void check_values() const;
+
+    /// Stacks that one thread goes through, combination by combination.
+    class Walk {
+    public:
+        explicit Walk(SweptStacks& stacks) : stacks_(stacks) {}
+
+        struct Place {
+            std::shared_ptr<const PreparedStack> prepared;
+            Stack stack;
+            std::vector<Layer*> varied;  ///< layers of `stack`, one for each varied thickness
+        };
+        /// The prepared structure of a combination, and its stack, until the next call. Throws
+        /// InputError.
+        const Place& at(std::uint64_t combination);
+
+    private:
+        Place& structure_at(std::uint64_t combination);
+
+        SweptStacks& stacks_;
+        std::vector<std::size_t> key_;
+        std::map<std::vector<std::size_t>, Place> places_;
+    };
+
+    /// Structures that were prepared, one as often as it was.
+    std::uint64_t prepared() const { return prepared_count_; }
+
+private:
+    struct Structure {
+        std::mutex making;
+        std::shared_ptr<const PreparedStack> prepared;
+        std::uint64_t last_used = 0;
+    };
+
+    StackDocument document(const std::vector<std::size_t>& key) const;
+    std::vector<std::size_t> key_of(std::uint64_t combination) const;
+    std::shared_ptr<const PreparedStack> prepared(const std::vector<std::size_t>& key);
+    std::shared_ptr<Structure> entry(const std::vector<std::size_t>& key);
+
+    const SweepSpace& space_;
+    const Question& question_;
+    std::vector<std::size_t> structural_, thicknesses_;  ///< columns of the space
+    VariedStack varied_;
+    std::string file_;
+    std::mutex lock_;
+    std::map<std::vector<std::size_t>, std::shared_ptr<Structure>> structures_;
+    std::uint64_t uses_ = 0;
+    std::atomic<std::uint64_t> prepared_count_{0};
+};
+
+}  // namespace irido

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace irido {
+
+/// An open file whose errors are OutputErrors; closed with the object.
+class PlainFile {
+public:
+    enum class Use { read, write, create };  ///< `create`: to write, if need be a new one
+
+    /// Errors name `shown` if it is given.
+    PlainFile(const std::string& path, Use use, const std::string& shown = "");
+    ~PlainFile();
+    PlainFile(const PlainFile&) = delete;
+    PlainFile& operator=(const PlainFile&) = delete;
+
+    int descriptor() const { return descriptor_; }
+    std::uint64_t size() const;
+    /// Fills the buffer. A file that ends before is an error.
+    void read_at(std::uint64_t offset, std::string& buffer) const;
+    void write_at(std::uint64_t offset, std::string_view bytes) const;
+    void cut(std::uint64_t size) const;
+    /// To the disk.
+    void sync() const;
+
+private:
+    std::string shown_;
+    int descriptor_;
+};
+
+}  // namespace irido
