@@ -87,6 +87,14 @@ double stacks_of_structure(const SweepSpace& space) {
     return stacks;
 }
 
+std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
+    std::vector<LayerPlace> places;
+    for (const SweptColumn& column : space.columns())
+        if (VariedStack::is_thickness(column.path))
+            places.push_back(VariedStack::place_of(column.path));
+    return places;
+}
+
 std::optional<double> swept_wavelength(const SweepSpace& space) {
     for (const SweptColumn& column : space.columns())
         if (column.path == kSweptWavelength) return column.numbers.front();
@@ -233,6 +241,7 @@ int run_sweep(const SweepCommand& command) {
         command.typed->parse({.execution = machine,
                               .note = [&](const std::string& text) { notes(text); },
                               .stacks = stacks_of_structure(space),
+                              .varied = varied_layers(space),
                               .wavelength_nm = swept_wavelength(space),
                               .in_sweep = true});
     const StackSource source = load_stack(command.stack);

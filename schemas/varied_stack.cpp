@@ -108,11 +108,14 @@ void VariedStack::set_thicknesses(Stack& stack, std::span<const double> values) 
     }
 }
 
+LayerPlace VariedStack::place_of(std::string_view path) {
+    LayerPlace place;
+    while (const auto index = take_layer(path)) place.push_back(*index);
+    return path == kThickness ? place : LayerPlace{};
+}
+
 bool VariedStack::is_thickness(std::string_view path) {
-    const std::size_t whole = path.size();
-    while (take_layer(path)) {
-    }
-    return path.size() < whole && path == kThickness;
+    return !place_of(path).empty();
 }
 
 Layer* VariedStack::layer_at(Stack& stack, std::string_view path) {

@@ -33,6 +33,9 @@ public:
     /// any depth.
     static bool is_thickness(std::string_view path);
 
+    /// The indices I, J, ... of such a path; nothing for one of another shape.
+    static LayerPlace place_of(std::string_view path);
+
     /// The layer whose thickness a path names; nullptr if the stack has none there.
     static Layer* layer_at(Stack& stack, std::string_view path);
 

@@ -115,6 +115,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
     request_.tolerance = parse_tolerance(typed.color.tolerance);
     request_.colors = static_cast<std::size_t>(
         std::min(1e15, answering.stacks * static_cast<double>(angles_deg_.size())));
+    request_.varied = answering.varied;
     request_.simd = answering.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
     const std::string& first = typed.color.illuminant;

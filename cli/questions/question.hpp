@@ -29,6 +29,8 @@ struct Answering {
     std::function<void(const std::string&)> note = [](const std::string&) {};
     /// Stacks of the same materials and structure that will be asked about.
     double stacks = 1;
+    /// Layers in which these differ; none if there is one stack only.
+    std::vector<LayerPlace> varied = {};
     /// Instead of the wavelengths asked for.
     std::optional<double> wavelength_nm = {};
     /// One of many: neither notes nor errors of methods that are not exact, unless asked for.

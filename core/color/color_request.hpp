@@ -47,6 +47,9 @@ struct ColorRequest {
     double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
     std::size_t evaluations = 1U << 20;  ///< a colour; past it the best value is returned
     std::size_t colors = 1;  ///< about as many will be asked for: it decides what to prepare
+    /// Layers of the stack, if these are the only ones whose thickness will differ: what the others
+    /// do is then computed once for all colours, which differ in roundings from those without.
+    std::vector<LayerPlace> varied{};
     SimdLevel simd = best_simd_level();
 };
 
@@ -72,12 +75,13 @@ struct StackColor {
 };
 
 /// One method made ready for stacks of the same materials and structure that may differ in their
-/// thicknesses. Safe from many threads.
+/// thicknesses, those of ColorRequest::varied if there are any. Safe from many threads.
 class ColorAlgorithm {
 public:
     virtual ~ColorAlgorithm() = default;
 
-    /// Colours [angle][side] of one such stack; angles in [0, 90] degrees.
+    /// Colours [angle][side] of one such stack; angles in [0, 90] degrees. A colour depends on its
+    /// stack and angle only, not on what was computed before.
     virtual void operator()(const Stack& stack, std::span<const double> angles_deg,
                             std::span<StackColor> colors) const = 0;
 };

@@ -48,33 +48,45 @@ struct Denominator {
     std::span<const double> re, im, log_scale;
 };
 
+/// |a| < factor |b|, by squares where these decide it: roots take long.
+bool is_smaller(Complex a, Complex b, double factor) {
+    const double a2 = std::norm(a), b2 = std::norm(b) * factor * factor;
+    constexpr double kSmall = 1e-250, kLarge = 1e250, kClose = 1e-9;
+    if (a2 > kSmall && a2 < kLarge && b2 > kSmall && b2 < kLarge && std::abs(a2 - b2) > kClose * b2)
+        return a2 < b2;
+    return std::abs(a) < factor * std::abs(b);
+}
+
 /// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
 /// step from there, -D/D', is shorter than the way to the next point. D is interpolated after an
 /// exponential trend, which has no zeros, is taken out of it.
-void mark_hidden_zeros(std::span<const double> x, const Denominator& d, std::vector<bool>& marked) {
+void mark_hidden_zeros(std::span<const double> x, const Denominator& d,
+                       IntegrationMemory::Zeros& memory, std::vector<bool>& marked) {
     const std::size_t degree = x.size() - 1;
     const double first = d.log_scale.front(), last = d.log_scale.back();
-    std::array<std::vector<double>, 2> parts;  // real and imaginary
+    auto& [parts, slopes, coefficients] = memory;
+    for (std::size_t part = 0; part < 2; ++part) {
+        parts[part].resize(degree + 1);
+        slopes[part].resize(degree + 1);
+    }
     for (std::size_t j = 0; j <= degree; ++j) {
         const double trend = (first + last) / 2 + (first - last) / 2 * x[j];
         const double scale = std::exp(std::clamp(d.log_scale[j] - trend, -300.0, 300.0));
-        parts[0].push_back(d.re[j] * scale);
-        parts[1].push_back(d.im[j] * scale);
+        parts[0][j] = d.re[j] * scale;
+        parts[1][j] = d.im[j] * scale;
     }
     const ChebyshevTransform& transform = chebyshev_transform(degree);
-    std::array<std::vector<double>, 2> slopes;
+    coefficients.resize(degree + 1);
     for (std::size_t part = 0; part < 2; ++part) {
-        std::vector<double> coefficients(degree + 1);
         transform(parts[part], coefficients);
-        slopes[part].resize(degree + 1);
         transform.values(chebyshev_derivative(coefficients), slopes[part]);
     }
     for (std::size_t j = 0; j <= degree; ++j) {
         const double before = j > 0 ? x[j - 1] - x[j] : 0, after = j < degree ? x[j] - x[j + 1] : 0;
         const double spacing = std::max(before, after);
-        const double size = std::hypot(parts[0][j], parts[1][j]);
-        const double slope = std::hypot(slopes[0][j], slopes[1][j]);
-        if (size < kFarFromZero * spacing * slope) marked[j] = true;
+        if (is_smaller({parts[0][j], parts[1][j]}, {slopes[0][j], slopes[1][j]},
+                       kFarFromZero * spacing))
+            marked[j] = true;
     }
 }
 
@@ -300,12 +312,13 @@ private:
     /// Weight of the points that have a zero of a denominator next to them.
     Triple hidden_weight(const QuadratureRule& rule, const Samples& samples,
                          std::size_t first) const {
-        std::vector<bool> marked(rule.points, false);
+        std::vector<bool>& marked = memory_.marked;
+        marked.assign(rule.points, false);
         for (std::size_t d = 0; d < denominators_; ++d) {
             const auto row = [&](std::size_t r) {
                 return std::span(samples.row(integrals_.size() + 3 * d + r) + first, rule.points);
             };
-            mark_hidden_zeros(rule.panel.x, {row(0), row(1), row(2)}, marked);
+            mark_hidden_zeros(rule.panel.x, {row(0), row(1), row(2)}, memory_.zeros, marked);
         }
         Triple weight{};
         for (std::size_t c = 0; c < 3; ++c)
@@ -349,7 +362,7 @@ const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
 const SpectralPoints& PanelTree::Node::all_points(std::size_t degree) {
     const std::vector<double>& every = rule(degree).panel.wavelength_nm;
     return all_[degree].get(
-        lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points_(every)); });
+        lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points(every)); });
 }
 
 const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
@@ -357,7 +370,7 @@ const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
     return added_[degree].get(lock_, [&] {
         std::vector<double> odd;
         for (std::size_t j = 1; j < every.size(); j += 2) odd.push_back(every[j]);
-        return std::make_unique<SpectralPoints>(tree_.make_points_(std::move(odd)));
+        return std::make_unique<SpectralPoints>(tree_.make_points(std::move(odd)));
     });
 }
 
@@ -387,8 +400,14 @@ PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, doub
         }
         begin_with(*root, panel.half_turn, largest, tolerance, start, wavelengths);
     }
-    start.points = make_points_(std::move(wavelengths));
+    start.points = make_points(std::move(wavelengths));
     return start;
+}
+
+SpectralPoints PanelTree::make_points(std::vector<double> wavelength_nm) const {
+    SpectralPoints points = make_points_(std::move(wavelength_nm));
+    points.id = points_made_++;
+    return points;
 }
 
 void PanelTree::begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,

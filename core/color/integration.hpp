@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -29,6 +30,7 @@ struct SpectralPanel {
 struct SpectralPoints {
     std::vector<double> wavelength_nm;
     std::unique_ptr<const IndexTable> indices;  ///< of stacks
+    std::size_t id = 0;                         ///< among all of one PanelTree, counted from 0
 };
 using PointsMaker = std::function<SpectralPoints(std::vector<double> wavelength_nm)>;
 
@@ -79,11 +81,13 @@ public:
     static constexpr std::size_t kMostPanels = 1024;
 
 private:
+    SpectralPoints make_points(std::vector<double> wavelength_nm) const;
     void begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,
                     Start& start, std::vector<double>& wavelengths);
 
     const ColorTables& tables_;
     PointsMaker make_points_;
+    mutable std::atomic<std::size_t> points_made_ = 0;
     std::mutex lock_;
     std::map<std::pair<double, double>, Node> roots_;  ///< by the ends of their ranges
 };
@@ -124,6 +128,13 @@ struct IntegrationMemory {
         std::optional<Samples> coarse = std::nullopt;  ///< at the points of the degree before
         const QuadratureRule& rule() const { return node->rule(degree); }
     };
+    /// A denominator on a panel, its derivative and its coefficients.
+    struct Zeros {
+        std::array<std::vector<double>, 2> parts, slopes;  ///< real and imaginary
+        std::vector<double> coefficients;
+    };
+    Zeros zeros;
+    std::vector<bool> marked;
     std::vector<Job> now, next;
     std::vector<const SpectralPoints*> parts;
     std::vector<double> reference, sums;

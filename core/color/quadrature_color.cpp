@@ -7,8 +7,10 @@
 #include <mutex>
 #include <numbers>
 
+#include "core/color/fixed_layers_cache.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/integration.hpp"
+#include "core/error.hpp"
 #include "core/interference/spectrum.hpp"
 #include "core/math/pool.hpp"
 
@@ -25,6 +27,9 @@ constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kFewestPoints = 40
 
 /// Points of a panel that is not cut any further.
 constexpr std::size_t kPanelPoints = 129;
+
+/// FixedLayers that are kept: 64 MB of numbers.
+constexpr std::size_t kMostFixedNumbers = 1U << 23;
 
 /// Optical paths are rounded up to kShortestPath_nm 2^(k/2), k < kPathClasses.
 constexpr double kShortestPath_nm = 125;
@@ -46,21 +51,22 @@ struct Path {
     double exponent = 0;
 };
 
-void add_path(std::span<const Element> elements, std::span<const Medium> media, double k0,
+///   normal  kz/k0 of every material
+void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
               Path& path) {
     for (const Element& element : elements) {
         if (path.exponent >= kOpaqueExponent) return;
         if (const Layer* layer = std::get_if<Layer>(&element.value)) {
-            const Complex normal = std::sqrt(media[layer->material].q2);
-            const double loss = 2 * k0 * std::abs(normal.imag());  // a nm
+            const Complex kz = normal[layer->material];
+            const double loss = 2 * k0 * std::abs(kz.imag());  // a nm
             double depth = layer->thickness_nm;
             if (loss * depth > kOpaqueExponent) depth = kOpaqueExponent / loss;
-            if (layer->coherent) path.length_nm += 2 * depth * std::abs(normal.real());
+            if (layer->coherent) path.length_nm += 2 * depth * std::abs(kz.real());
             path.exponent += loss * depth;
         } else {
             const Group& group = std::get<Group>(element.value);
             Path period;
-            add_path(group.elements, media, k0, period);
+            add_path(group.elements, normal, k0, period);
             double repeat = static_cast<double>(group.repeat);
             if (period.exponent > 0)
                 repeat = std::min(repeat, kOpaqueExponent / period.exponent + 1);
@@ -104,6 +110,19 @@ bool is_surveyed(const Material& material) {
     return index != nullptr && !std::holds_alternative<Formula>(index->k);
 }
 
+/// The elements that hold varied layers, ascending.
+std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const LayerPlace> varied) {
+    std::vector<std::size_t> elements;
+    for (const LayerPlace& place : varied) {
+        if (place.empty() || place[0] >= stack.elements.size())
+            throw DomainError("varied layers must be layers of the stack");
+        elements.push_back(place[0]);
+    }
+    std::ranges::sort(elements);
+    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+    return elements;
+}
+
 class QuadratureColor : public ColorAlgorithm {
 public:
     QuadratureColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request)
@@ -115,6 +134,7 @@ public:
                                         [](const Material& m) { return is_constant(m); })),
           on_path_(held_, path_wavelengths(constant_, sensitivity_.support())),
           needs_(needs_of(request)),
+          varied_(varied_elements(held_, request.varied)),
           tree_(tables, [this](std::vector<double> wavelength_nm) {
               SpectralPoints points{std::move(wavelength_nm), nullptr};
               if (!constant_)
@@ -134,15 +154,14 @@ public:
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
-        const StackPower power(stack);
-        const SpectrumKernel kernel(power, absorbs_, amplifies_, needs_, request_.simd);
+        const Pool<Scratch>::Loan scratch = scratch_.borrow();
+        const SpectrumKernel& kernel = kernel_of(stack, *scratch);
         const std::size_t sides = request_.sides.size();
         const double most = kernel.is_vectorized() ? kMostVectorWork : kMostPlainWork;
         const auto affordable =
             static_cast<std::size_t>(std::max(kFewestPoints, most / work_of(stack.elements)));
         const IntegrationLimits limits{request_.tolerance,
                                        std::min(request_.evaluations, affordable), request_.simd};
-        const Pool<Scratch>::Loan scratch = scratch_.borrow();
         for (std::size_t i = 0; i < angles_deg.size(); ++i)
             integrate(kernel, stack, cos_of_incidence(angles_deg[i]), limits,
                       colors.subspan(i * sides, sides), *scratch);
@@ -150,9 +169,13 @@ public:
 
 private:
     struct Scratch {
+        std::optional<StackPower> power;
+        std::optional<SpectrumKernel> kernel;
+        FixedLayers fixed;
+        std::vector<const FixedLayers*> fixed_parts;
         Spectra spectra;
         SpectrumMemory memory;
-        std::vector<Medium> media;
+        std::vector<Complex> normal;
         std::vector<const IndexTable*> parts;
         std::vector<const std::vector<double>*> wavelengths;
         std::optional<IndexTable> indices;  ///< of several parts
@@ -160,15 +183,42 @@ private:
         std::vector<ColorIntegral> integrals;
     };
 
-    double optical_path_nm(const Stack& stack, double cos_theta, std::vector<Medium>& media) const {
+    const SpectrumKernel& kernel_of(const Stack& stack, Scratch& scratch) const {
+        if (!scratch.kernel) {
+            scratch.power.emplace(held_);
+            scratch.kernel.emplace(*scratch.power, absorbs_, amplifies_, needs_, request_.simd,
+                                   varied_);
+        }
+        if (scratch.kernel->shares_layers() && !differs_in_varied_only(stack))
+            throw DomainError("only varied layers may differ from stack to stack");
+        scratch.power->assign(stack);
+        scratch.kernel->update();
+        return *scratch.kernel;
+    }
+
+    bool differs_in_varied_only(const Stack& stack) const {
+        if (stack.elements.size() != held_.elements.size()) return false;
+        auto varied = varied_.begin();
+        for (std::size_t i = 0; i < stack.elements.size(); ++i) {
+            if (varied != varied_.end() && *varied == i) {
+                ++varied;
+            } else if (stack.elements[i] != held_.elements[i]) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    double optical_path_nm(const Stack& stack, double cos_theta,
+                           std::vector<Complex>& normal) const {
         double longest = 0;
-        media.resize(on_path_.materials());
+        normal.resize(on_path_.materials());
         for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
-            for (std::size_t m = 0; m < media.size(); ++m)
-                media[m] =
-                    medium(on_path_.index(m, w), on_path_.n(on_path_.incident())[w], cos_theta);
+            const double n0 = on_path_.n(on_path_.incident())[w];
+            for (std::size_t m = 0; m < normal.size(); ++m)
+                normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, cos_theta).q2);
             Path path;
-            add_path(stack.elements, media, on_path_.k0()[w], path);
+            add_path(stack.elements, normal, on_path_.k0()[w], path);
             longest = std::max(longest, path.length_nm);
         }
         return longest;
@@ -178,14 +228,23 @@ private:
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
         if (cos_theta == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
-        const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.media));
+        const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.normal));
         const PanelTree::Start& start = start_of(path);
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
         const bool with_p = needs_.p && !(with_s && cos_theta == 1);
+        std::shared_ptr<FixedLayersCache::Angle> angle;
+        if (kernel.shares_layers()) angle = fixed_layers_.at(cos_theta);
         const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
                                     Samples& samples) {
-            kernel(indices_at(parts, scratch), {&cos_theta, 1}, scratch.spectra, scratch.memory);
+            const bool is_fixed = angle && fix_layers(kernel, parts, cos_theta, *angle, scratch);
+            const IndexTable& indices = indices_at(parts, scratch);
+            if (is_fixed) {
+                kernel(indices, {&cos_theta, 1}, scratch.fixed_parts, scratch.spectra,
+                       scratch.memory);
+            } else {
+                kernel(indices, {&cos_theta, 1}, scratch.spectra, scratch.memory);
+            }
             const Spectra& at = scratch.spectra;
             fill(with_s ? at.s : at.p, with_s && with_p ? &at.p : nullptr, samples);
         };
@@ -248,6 +307,20 @@ private:
         return *scratch.indices;
     }
 
+    /// Gathers what does not vary; false if there is no room for it.
+    bool fix_layers(const SpectrumKernel& kernel, std::span<const SpectralPoints* const> parts,
+                    double cos_theta, FixedLayersCache::Angle& angle, Scratch& scratch) const {
+        fixed_layers_.find(angle, parts, scratch.fixed_parts);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (scratch.fixed_parts[i]) continue;
+            kernel.fix_layers(indices_at(parts.subspan(i, 1), scratch), cos_theta, scratch.fixed,
+                              scratch.memory);
+            scratch.fixed_parts[i] = fixed_layers_.add(angle, *parts[i], scratch.fixed);
+            if (!scratch.fixed_parts[i]) return false;
+        }
+        return true;
+    }
+
     /// Rows from one polarization, or the mean of two.
     void fill(const Spectrum& first, const Spectrum* second, Samples& samples) const {
         const std::size_t points = samples.points(), sides = request_.sides.size();
@@ -278,6 +351,8 @@ private:
     IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
     Needs needs_;
     std::vector<bool> absorbs_, amplifies_;
+    std::vector<std::size_t> varied_;  ///< elements, if only these differ
+    mutable FixedLayersCache fixed_layers_{kMostFixedNumbers};
     mutable PanelTree tree_;
     mutable Pool<Scratch> scratch_;
     mutable std::mutex lock_;
@@ -294,11 +369,12 @@ std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, cons
 double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
                        double cos_theta) {
     constexpr double kPointsOfPiece = 20, kPointsPerPath = 0.032;  // of nm; as --stats says
-    std::vector<Medium> media(indices.materials());
-    for (std::size_t m = 0; m < media.size(); ++m)
-        media[m] = medium(indices.index(m, 0), indices.n(indices.incident())[0], cos_theta);
+    std::vector<Complex> normal(indices.materials());
+    for (std::size_t m = 0; m < normal.size(); ++m)
+        normal[m] =
+            std::sqrt(medium(indices.index(m, 0), indices.n(indices.incident())[0], cos_theta).q2);
     Path path;
-    add_path(stack.elements, media, indices.k0()[0], path);
+    add_path(stack.elements, normal, indices.k0()[0], path);
     return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *
            work_of(stack.elements);
 }

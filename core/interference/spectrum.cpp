@@ -151,6 +151,36 @@ bool is_special(double cos_theta) {
     return cos_theta == 1 || cos_theta == 0;
 }
 
+Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) {
+    return {row.data() + wavelength, varies};
+}
+
+/// The points of a job.
+///   cosines  memory for those of a job along angles
+void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const double> cos_theta,
+                PointRun& run, std::vector<double>& cosines) {
+    const bool across = job.along_angles;
+    const std::size_t wavelength = across ? job.fixed : job.begin;
+    run.count = job.end - job.begin;
+    run.k0 = {table.k0().data() + wavelength, !across};
+    run.incident = stream(table.n(table.incident()), wavelength,
+                          !across && !table.is_constant(table.incident()));
+    run.cos_theta = {cos_theta.data() + (across ? job.begin : job.fixed), across};
+    if (across) {
+        cosines.assign(cos_theta.begin() + static_cast<std::ptrdiff_t>(job.begin),
+                       cos_theta.begin() + static_cast<std::ptrdiff_t>(job.end));
+        cosines.resize(cosines.size() + kMostLanes, 1);
+        run.cos_theta.values = cosines.data();
+    }
+    run.n.resize(table.materials());
+    run.k.resize(table.materials());
+    for (std::size_t m = 0; m < table.materials(); ++m) {
+        const bool varies = !across && !table.is_constant(m);
+        run.n[m] = stream(table.n(m), wavelength, varies);
+        run.k[m] = stream(table.k(m), wavelength, varies);
+    }
+}
+
 /// Points by the vector kernel, which leaves some to the plain one.
 class VectorRun {
 public:
@@ -167,10 +197,7 @@ public:
           run_(memory.run),
           cosines_(memory.cosines),
           redo_(memory.redo),
-          memory_(memory.kernel) {
-        run_.n.resize(table.materials());
-        run_.k.resize(table.materials());
-    }
+          memory_(memory.kernel) {}
 
     void operator()(const SpectrumJob& job) {
         const std::size_t wavelengths = table_.wavelength_nm().size();
@@ -180,22 +207,7 @@ public:
         const std::size_t first = angle * wavelengths + wavelength;
         const std::size_t stride = across ? wavelengths : 1;
         const bool normal = !across && cos_theta_[angle] == 1;
-        run_.count = job.end - job.begin;
-        run_.k0 = {table_.k0().data() + wavelength, !across};
-        run_.incident = stream(table_.n(table_.incident()), wavelength,
-                               !across && !table_.is_constant(table_.incident()));
-        run_.cos_theta = {cos_theta_.data() + angle, across};
-        if (across) {
-            cosines_.assign(cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.begin),
-                            cos_theta_.begin() + static_cast<std::ptrdiff_t>(job.end));
-            cosines_.resize(cosines_.size() + kMostLanes, 1);
-            run_.cos_theta.values = cosines_.data();
-        }
-        for (std::size_t m = 0; m < table_.materials(); ++m) {
-            const bool varies = !across && !table_.is_constant(m);
-            run_.n[m] = stream(table_.n(m), wavelength, varies);
-            run_.k[m] = stream(table_.k(m), wavelength, varies);
-        }
+        set_points(job, table_, cos_theta_, run_, cosines_);
         // at normal incidence s stands for p
         const bool only_p = normal && !needs_.s;
         const RunOutput s = output_at(only_p ? out_.p : out_.s, first, stride);
@@ -211,10 +223,6 @@ public:
     }
 
 private:
-    static Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) {
-        return {row.data() + wavelength, varies};
-    }
-
     const ChainProgram& program_;
     PlainRun& plain_;
     const IndexTable& table_;
@@ -243,11 +251,13 @@ void add_jobs(std::vector<SpectrumJob>& jobs, SpectrumJob whole, std::size_t blo
 }
 
 /// All points, in jobs that do not depend on the number of threads.
+///   by_angle  a job takes all points of an angle, and no other
 void list_jobs(const IndexTable& table, std::span<const double> cos_theta, bool by_vectors,
-               std::vector<SpectrumJob>& jobs) {
+               bool by_angle, std::vector<SpectrumJob>& jobs) {
     const std::size_t wavelengths = table.wavelength_nm().size(), angles = cos_theta.size();
-    const std::size_t block = by_vectors ? kVectorBlock : kPlainBlock;
-    const bool across = by_vectors && wavelengths < kFewWavelengths && angles > wavelengths;
+    const std::size_t block = by_angle ? wavelengths : by_vectors ? kVectorBlock : kPlainBlock;
+    const bool across =
+        by_vectors && !by_angle && wavelengths < kFewWavelengths && angles > wavelengths;
     jobs.clear();
     for (std::size_t a = 0; a < angles;) {
         if (!across || is_special(cos_theta[a])) {
@@ -261,23 +271,77 @@ void list_jobs(const IndexTable& table, std::span<const double> cos_theta, bool 
     }
 }
 
+/// FixedLayers of one angle.
+std::span<const FixedPoints> points_at(std::size_t angle, std::size_t wavelengths,
+                                       std::span<const FixedLayers* const> fixed,
+                                       std::vector<FixedPoints>& points) {
+    points.clear();
+    std::size_t first = 0;
+    for (const FixedLayers* part : fixed) {
+        if (first / wavelengths == angle) points.push_back({part->numbers.data(), part->points});
+        first += part->points;
+    }
+    return points;
+}
+
+bool any_absorbs(std::span<const Element> elements, const std::vector<bool>& absorbs) {
+    return std::ranges::any_of(elements, [&](const Element& element) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value))
+            return static_cast<bool>(absorbs[layer->material]);
+        return any_absorbs(std::get<Group>(element.value).elements, absorbs);
+    });
+}
+
 }  // namespace
 
 SpectrumKernel::SpectrumKernel(const StackPower& stack, const std::vector<bool>& absorbs,
                                const std::vector<bool>& amplifies, const Needs& needs,
-                               SimdLevel simd)
-    : stack_(stack), needs_(needs), simd_(simd) {
-    if (needs.amplitudes && !stack.has_amplitudes())
+                               SimdLevel simd, std::span<const std::size_t> varied)
+    : stack_(stack), absorbs_(absorbs), amplifies_(amplifies), needs_(needs), simd_(simd) {
+    update();
+    if (!is_vectorized_ || program_.down.size() > 1) return;
+    const std::vector<Element>& elements = stack.chain()->blocks[0].down;
+    if (needs.A && any_absorbs(elements, absorbs)) return;
+    fixed_ = fixed_runs(elements, stack.chain()->substrate, absorbs, varied);
+    if (shares_layers()) update();
+}
+
+void SpectrumKernel::update() {
+    if (needs_.amplitudes && !stack_.has_amplitudes())
         throw DomainError("amplitudes exist for coherent layers of fixed thicknesses only");
-    const Chain* chain = stack.chain();
-    if (chain && !needs.layers && simd != SimdLevel::plain)
-        program_ = compile(*chain, absorbs, amplifies);
-    if (program_) program_->down[0].mirror = fast_mirror(stack.mirror(), absorbs);
+    const Chain* chain = stack_.chain();
+    is_vectorized_ = chain && !needs_.layers && simd_ != SimdLevel::plain &&
+                     compile(*chain, absorbs_, amplifies_, fixed_, program_);
+    if (is_vectorized_) program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
+}
+
+void SpectrumKernel::fix_layers(const IndexTable& table, double cos_theta, FixedLayers& out,
+                                SpectrumMemory& memory) const {
+    out.points = table.wavelength_nm().size();
+    out.numbers.clear();
+    if (cos_theta == 0) return;  // for the plain kernel
+    out.numbers.resize(whole_vectors(out.points) * fixed_.rows);
+    set_points({false, 0, 0, out.points}, table, {&cos_theta, 1}, memory.run, memory.cosines);
+    const bool normal = cos_theta == 1;
+    for (const FixedRun& run : fixed_.runs)
+        store_fixed(run, memory.run, needs_.s || normal, needs_.p && !normal, fixed_.rows,
+                    out.numbers.data(), memory.kernel, simd_);
+}
+
+void SpectrumKernel::fix_all_layers(const IndexTable& table, std::span<const double> cos_theta,
+                                    SpectrumMemory& memory) const {
+    memory.fixed_parts.clear();
+    if (!shares_layers() || !by_vectors(table)) return;
+    memory.fixed.resize(cos_theta.size());
+    for (std::size_t angle = 0; angle < cos_theta.size(); ++angle) {
+        fix_layers(table, cos_theta[angle], memory.fixed[angle], memory);
+        memory.fixed_parts.push_back(&memory.fixed[angle]);
+    }
 }
 
 bool SpectrumKernel::by_vectors(const IndexTable& table) const {
-    if (!program_) return false;
-    for (const Program& block : program_->down)
+    if (!is_vectorized_) return false;
+    for (const Program& block : program_.down)
         if (block.largest_thickness_nm * table.largest_wavenumber() > kLargestPhase) return false;
     return true;
 }
@@ -286,22 +350,28 @@ void SpectrumKernel::prepare(const IndexTable& table, std::span<const double> co
                              Spectra& out, std::vector<SpectrumJob>& jobs) const {
     const std::size_t points = cos_theta.size() * table.wavelength_nm().size();
     const std::size_t layers = needs_.layers ? stack_.layer_count() : 0;
+    const bool vectors = by_vectors(table);
     allocate(out.s, needs_, needs_.s ? points : 0, layers);
     allocate(out.p, needs_, needs_.p ? points : 0, layers);
-    list_jobs(table, cos_theta, by_vectors(table), jobs);
+    list_jobs(table, cos_theta, vectors, shares_layers(), jobs);
 }
 
 void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& table,
-                         std::span<const double> cos_theta, Spectra& out,
+                         std::span<const double> cos_theta,
+                         std::span<const FixedLayers* const> fixed, Spectra& out,
                          SpectrumMemory& memory) const {
     const std::size_t wavelengths = table.wavelength_nm().size();
     PlainRun plain(stack_, table, needs_, out);
     std::optional<VectorRun> vector;
     if (by_vectors(table))
-        vector.emplace(*program_, plain, table, cos_theta, needs_, simd_, out, memory);
+        vector.emplace(program_, plain, table, cos_theta, needs_, simd_, out, memory);
     for (const SpectrumJob& job : jobs) {
         const bool grazing = !job.along_angles && cos_theta[job.fixed] == 0;
         if (vector && !grazing) {
+            memory.run.fixed_rows = fixed_.rows;
+            memory.run.fixed = shares_layers()
+                                   ? points_at(job.fixed, wavelengths, fixed, memory.fixed_points)
+                                   : std::span<const FixedPoints>();
             (*vector)(job);
             continue;
         }
@@ -312,23 +382,29 @@ void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& ta
 
 void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
                                 Spectra& out, SpectrumMemory& memory) const {
+    fix_all_layers(table, cos_theta, memory);
+    (*this)(table, cos_theta, memory.fixed_parts, out, memory);
+}
+
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
+                                std::span<const FixedLayers* const> fixed, Spectra& out,
+                                SpectrumMemory& memory) const {
     prepare(table, cos_theta, out, memory.jobs);
-    run(memory.jobs, table, cos_theta, out, memory);
+    run(memory.jobs, table, cos_theta, fixed, out, memory);
 }
 
 void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
                                 unsigned threads, Spectra& out) const {
     SpectrumMemory memory;
-    prepare(table, cos_theta, out, memory.jobs);
-    const double unit = by_vectors(table)
-                            ? kVectorWork * static_cast<double>(layers_of(*program_) + 2)
-                            : kPlainWork;
+    const double unit =
+        by_vectors(table) ? kVectorWork * static_cast<double>(layers_of(program_) + 2) : kPlainWork;
     const auto points = static_cast<double>(cos_theta.size() * table.wavelength_nm().size());
-    if (threads == 1 || points * unit < kLittleWork)
-        return run(memory.jobs, table, cos_theta, out, memory);
+    if (threads == 1 || points * unit < kLittleWork) return (*this)(table, cos_theta, out, memory);
+    prepare(table, cos_theta, out, memory.jobs);
+    fix_all_layers(table, cos_theta, memory);
     parallel_for(memory.jobs.size(), threads, [&](std::size_t j) {
         SpectrumMemory own;
-        run(std::span(memory.jobs).subspan(j, 1), table, cos_theta, out, own);
+        run(std::span(memory.jobs).subspan(j, 1), table, cos_theta, memory.fixed_parts, out, own);
     });
 }
 
@@ -337,10 +413,10 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_t
     work.normal_angles = static_cast<std::size_t>(std::ranges::count(cos_theta, 1.0));
     if (!by_vectors(table)) return work;
     work.kernel = simd_;
-    work.passes = program_->down.size() + program_->up.size();
+    work.passes = program_.down.size() + program_.up.size();
     const bool incident_is_constant = table.is_constant(table.incident());
     std::set<std::size_t> media, constant_media;
-    for (const Program& block : program_->down) {
+    for (const Program& block : program_.down) {
         work.layers += block.order.size();
         for (const std::uint32_t layer : block.order)
             if (!block.media[block.layers[layer].medium].absorbs) ++work.transparent_layers;
@@ -357,9 +433,9 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_t
     work.media = media.size();
     work.constant_media = constant_media.size();
     const bool constant = work.constant_media == work.media;
-    const std::optional<HostedMirror>& mirror = program_->down[0].mirror;
+    const std::optional<HostedMirror>& mirror = program_.down[0].mirror;
     work.mirror = mirror && mirror->serves(needs_.amplitudes, needs_.denominators);
-    work.one_film = work.passes == 1 && program_->down[0].is_one_film();
+    work.one_film = work.passes == 1 && program_.down[0].is_one_film();
     const bool both = needs_.s && needs_.p && work.normal_angles < cos_theta.size();
     if (work.mirror) {
         work.layers = work.transparent_layers = work.distinct_layers = 2;
@@ -367,7 +443,7 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_t
         work.operations_per_point = operations_of_mirror(both ? 2 : 1, constant);
         return work;
     }
-    for (const auto* direction : {&program_->down, &program_->up})
+    for (const auto* direction : {&program_.down, &program_.up})
         for (const Program& block : *direction)
             work.operations_per_point += operations_per_point(block, both ? 2 : 1, constant);
     return work;

@@ -65,6 +65,12 @@ struct SpectrumJob {
     std::size_t begin, end;
 };
 
+/// What the layers do that a family of stacks has in common, at points of one angle.
+struct FixedLayers {
+    std::size_t points = 0;
+    std::vector<double> numbers;  ///< see FixedPoints
+};
+
 /// Scratch memory of calls that follow each other on one thread; its content means nothing.
 struct SpectrumMemory {
     std::vector<SpectrumJob> jobs;
@@ -72,6 +78,9 @@ struct SpectrumMemory {
     std::vector<double> cosines;
     std::vector<std::size_t> redo;
     RunMemory kernel;
+    std::vector<FixedLayers> fixed;
+    std::vector<const FixedLayers*> fixed_parts;
+    std::vector<FixedPoints> fixed_points;
 };
 
 /// A stack made ready for many calls with tables of the same materials, whose absorption and
@@ -79,9 +88,25 @@ struct SpectrumMemory {
 class SpectrumKernel {
 public:
     ///   absorbs, amplifies  as of the IndexTables to come, one per material
+    ///   varied              elements of the stack, ascending, if these are all that update() will
+    ///                       find different: what the others do is computed apart, see
+    ///                       shares_layers()
     /// Throws DomainError if amplitudes are needed of a stack that has none.
     SpectrumKernel(const StackPower& stack, const std::vector<bool>& absorbs,
-                   const std::vector<bool>& amplifies, const Needs& needs, SimdLevel simd);
+                   const std::vector<bool>& amplifies, const Needs& needs, SimdLevel simd,
+                   std::span<const std::size_t> varied = {});
+
+    /// To be called when the StackPower has become that of another stack of the same materials;
+    /// memory is used again. Throws as above.
+    void update();
+
+    /// Whether layers that do not vary enter as FixedLayers: where these save work, with a single
+    /// coherent block for the vector kernel, and unless the absorption of absorbing layers is
+    /// needed. Results differ from those without in roundings.
+    bool shares_layers() const { return !fixed_.runs.empty(); }
+    /// The FixedLayers of all calls with this table and angle, whatever the varied layers.
+    void fix_layers(const IndexTable& table, double cos_theta, FixedLayers& out,
+                    SpectrumMemory& memory) const;
 
     /// As spectra(), into memory that is used again; threads as in Execution.
     void operator()(const IndexTable& table, std::span<const double> cos_theta, unsigned threads,
@@ -89,9 +114,14 @@ public:
     /// The same on this thread.
     void operator()(const IndexTable& table, std::span<const double> cos_theta, Spectra& out,
                     SpectrumMemory& memory) const;
+    /// The same with the FixedLayers given, which the two above compute for themselves: one or more
+    /// for each angle, whose points add up to those of the table.
+    void operator()(const IndexTable& table, std::span<const double> cos_theta,
+                    std::span<const FixedLayers* const> fixed, Spectra& out,
+                    SpectrumMemory& memory) const;
 
     /// Whether the vector kernel takes the stack, but for the largest phases.
-    bool is_vectorized() const { return program_.has_value(); }
+    bool is_vectorized() const { return is_vectorized_; }
 
     /// How the call above goes about it.
     Work work(const IndexTable& table, std::span<const double> cos_theta) const;
@@ -100,13 +130,19 @@ private:
     bool by_vectors(const IndexTable& table) const;
     void prepare(const IndexTable& table, std::span<const double> cos_theta, Spectra& out,
                  std::vector<SpectrumJob>& jobs) const;
+    void fix_all_layers(const IndexTable& table, std::span<const double> cos_theta,
+                        SpectrumMemory& memory) const;
     void run(std::span<const SpectrumJob> jobs, const IndexTable& table,
-             std::span<const double> cos_theta, Spectra& out, SpectrumMemory& memory) const;
+             std::span<const double> cos_theta, std::span<const FixedLayers* const> fixed,
+             Spectra& out, SpectrumMemory& memory) const;
 
     const StackPower& stack_;
+    std::vector<bool> absorbs_, amplifies_;
     Needs needs_;
     SimdLevel simd_;
-    std::optional<ChainProgram> program_;  ///< nothing for the plain kernel
+    FixedRuns fixed_;
+    bool is_vectorized_ = false;
+    ChainProgram program_;  ///< if it is
 };
 
 /// The batch form of the kernel: a stack at all wavelengths of the table and all angles.

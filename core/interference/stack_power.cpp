@@ -8,11 +8,19 @@ namespace irido {
 
 namespace {
 
-bool has_incoherent(const Group& group) {
-    return std::ranges::any_of(group.elements, [](const Element& element) {
-        if (const Layer* layer = std::get_if<Layer>(&element.value)) return !layer->coherent;
-        return has_incoherent(std::get<Group>(element.value));
+bool any_layer(std::span<const Element> elements, bool (*is_one)(const Layer&)) {
+    return std::ranges::any_of(elements, [&](const Element& element) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) return is_one(*layer);
+        return any_layer(std::get<Group>(element.value).elements, is_one);
     });
+}
+
+bool is_incoherent(const Layer& layer) {
+    return !layer.coherent;
+}
+
+bool needs_expansion(const Layer& layer) {
+    return !layer.coherent || layer.thickness_sigma_nm != 0;
 }
 
 /// A stack with its groups of incoherent layers written out.
@@ -26,7 +34,7 @@ public:
     void add(const std::vector<Element>& more, std::size_t& spread) {
         for (const Element& element : more) {
             const Group* group = std::get_if<Group>(&element.value);
-            if (group && has_incoherent(*group)) {
+            if (group && any_layer(group->elements, is_incoherent)) {
                 add_repeated(*group, spread);
             } else {
                 elements.push_back(element);
@@ -65,17 +73,29 @@ private:
 
 }  // namespace
 
-StackPower::StackPower(const Stack& stack) : layer_count_(count_layers(stack.elements)) {
-    Expansion expansion;
-    std::size_t spread = 0;
-    expansion.add(stack.elements, spread);
-    if (expansion.spreads.size() > kLargestSpreadLayers)
-        throw DomainError("at most " + std::to_string(kLargestSpreadLayers) +
-                          " layers can have a thickness_sigma_nm (got " +
-                          std::to_string(expansion.spreads.size()) + ")");
-    chain_ = chain_of(expansion.elements, stack.substrate);
-    spreads_ = std::move(expansion.spreads);
-    spread_of_ = std::move(expansion.spread_of);
+void StackPower::assign(const Stack& stack) {
+    layer_count_ = count_layers(stack.elements);
+    spreads_.clear();
+    spread_of_.clear();
+    if (any_layer(stack.elements, needs_expansion)) {
+        Expansion expansion;
+        std::size_t spread = 0;
+        expansion.add(stack.elements, spread);
+        if (expansion.spreads.size() > kLargestSpreadLayers)
+            throw DomainError("at most " + std::to_string(kLargestSpreadLayers) +
+                              " layers can have a thickness_sigma_nm (got " +
+                              std::to_string(expansion.spreads.size()) + ")");
+        chain_ = chain_of(expansion.elements, stack.substrate);
+        spreads_ = std::move(expansion.spreads);
+        spread_of_ = std::move(expansion.spread_of);
+    } else {
+        chain_.blocks.resize(1);
+        chain_.blocks[0].down = stack.elements;
+        chain_.blocks[0].up.clear();
+        chain_.gaps.clear();
+        chain_.substrate = stack.substrate;
+    }
+    mirror_.reset();
     if (has_amplitudes())
         mirror_ = hosted_mirror(chain_.blocks[0].down, stack.incident, stack.substrate);
 }

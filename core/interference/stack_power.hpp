@@ -23,7 +23,9 @@ class StackPower {
 public:
     /// Throws DomainError if more than kLargestSpreadLayers layers have a thickness_sigma_nm, or if
     /// groups with incoherent layers stand for more than kLargestIncoherentStack layers.
-    explicit StackPower(const Stack& stack);
+    explicit StackPower(const Stack& stack) { assign(stack); }
+    /// Becomes the power of another stack; memory is used again. Throws as above.
+    void assign(const Stack& stack);
 
     static constexpr std::size_t kLargestSpreadLayers = 3;
     static constexpr std::size_t kLargestIncoherentStack = 10000;

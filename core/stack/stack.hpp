@@ -27,6 +27,9 @@ struct Group {
     bool operator==(const Group&) const = default;
 };
 
+/// Where a layer is: the indices of elements, from the outermost to the layer itself.
+using LayerPlace = std::vector<std::size_t>;
+
 struct Element {
     std::variant<Layer, Group> value;
     bool operator==(const Element&) const = default;

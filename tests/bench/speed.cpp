@@ -2,11 +2,13 @@
 // in `irido bench speed`.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <numeric>
 
 #include "core/color/illuminant.hpp"
 #include "core/color/observer.hpp"
 #include "core/color/stack_color.hpp"
+#include "core/math/random.hpp"
 #include "schemas/json_document.hpp"
 #include "schemas/stack_document.hpp"
 
@@ -34,6 +36,33 @@ void color(benchmark::State& state, const Stack& stack) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(angles.size()));
 }
 
+/// Items are colours: 200 thicknesses of the middle one of some layers, at one angle.
+///   shared  whether the layers that do not vary are computed once
+void sweep(benchmark::State& state, bool shared, const char* first, const char* substrate) {
+    const auto layers = static_cast<std::size_t>(state.range(0));
+    Random random(7);
+    std::string expression = "1";
+    for (std::size_t i = 0; i < layers; ++i)
+        expression += std::string(" | ") + std::array{first, "1.46", "1.9", "1.65"}[i % 4] + "@" +
+                      std::to_string(random.uniform(30, 150));
+    Stack stack = stack_of(expression + " | " + substrate);
+    const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
+    ColorRequest request;
+    if (shared) request.varied = {{layers / 2}};
+    const auto algorithm = color_algorithm(tables, stack, {ColorMethod::Kind::quadrature}, request);
+    const double angle = 40;
+    StackColor color;
+    constexpr int kThicknesses = 200;
+    for (auto _ : state) {
+        for (int i = 0; i < kThicknesses; ++i) {
+            std::get<Layer>(stack.elements[layers / 2].value).thickness_nm = 30 + 0.6 * i;
+            (*algorithm)(stack, {&angle, 1}, {&color, 1});
+            benchmark::DoNotOptimize(color);
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * kThicknesses);
+}
+
 void rule(benchmark::State& state) {
     const Sensitivity sensitivity(observer(2), illuminant("D65"));
     const auto degree = static_cast<std::size_t>(state.range(0));
@@ -48,6 +77,12 @@ void read_expression(benchmark::State& state) {
 BENCHMARK_CAPTURE(color, one_film, stack_of(kFilm));
 BENCHMARK_CAPTURE(color, film_on_copper, stack_of(kFilmOnCopper));
 BENCHMARK_CAPTURE(color, twenty_periods, stack_of(kMirror));
+BENCHMARK_CAPTURE(sweep, one_by_one, false, "2.3", "1.52")->Arg(10)->Arg(20)->Arg(40);
+BENCHMARK_CAPTURE(sweep, shared, true, "2.3", "1.52")->Arg(10)->Arg(20)->Arg(40);
+BENCHMARK_CAPTURE(sweep, absorbing_one_by_one, false, "2.3+0.01i", "1.52")->Arg(20)->Arg(40);
+BENCHMARK_CAPTURE(sweep, absorbing_shared, true, "2.3+0.01i", "1.52")->Arg(20)->Arg(40);
+BENCHMARK_CAPTURE(sweep, on_copper_one_by_one, false, "2.3", "Cu")->Arg(20)->Arg(40);
+BENCHMARK_CAPTURE(sweep, on_copper_shared, true, "2.3", "Cu")->Arg(20)->Arg(40);
 BENCHMARK(rule)->RangeMultiplier(2)->Range(8, 128);
 BENCHMARK(read_expression);
 

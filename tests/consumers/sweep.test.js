@@ -51,7 +51,7 @@ if name.endswith("npy"):
     columns = {n: a[n] for n in a.dtype.names}
 else:
     import h5py
-    f = h5py.File(name, track_order=True)
+    f = h5py.File(name)["/"]
     columns = {n: f[n].asstr()[:] if f[n].dtype.kind == "S" else f[n][:] for n in f}
 json.dump({n: v.tolist() for n, v in columns.items()}, sys.stdout)
 `;

@@ -100,25 +100,22 @@ std::vector<Attenuation> attenuations(const Layer& gap, const PointRun& run) {
 
 }  // namespace
 
-std::optional<ChainProgram> compile(const Chain& chain, const std::vector<bool>& absorbs,
-                                    const std::vector<bool>& amplifies) {
-    ChainProgram result;
-    result.gaps = chain.gaps;
+bool compile(const Chain& chain, const std::vector<bool>& absorbs,
+             const std::vector<bool>& amplifies, const FixedRuns& fixed, ChainProgram& program) {
+    program.gaps = chain.gaps;
+    program.down.resize(chain.blocks.size());
+    program.up.resize(chain.gaps.size());
     for (std::size_t i = 0; i < chain.blocks.size(); ++i) {
         const bool last = i == chain.gaps.size();
         const std::size_t below = last ? chain.substrate : chain.gaps[i].material;
-        if (!last && amplifies[below]) return std::nullopt;
-        std::optional<Program> down = compile(chain.blocks[i].down, below, absorbs);
-        if (!down) return std::nullopt;
-        result.down.push_back(std::move(*down));
+        if (!last && amplifies[below]) return false;
+        if (!compile(chain.blocks[i].down, below, absorbs, fixed, program.down[i])) return false;
         if (last) break;
         // above the first block is the incident medium, which does not absorb
-        std::optional<Program> up = compile(
-            chain.blocks[i].up, i == 0 ? Program::kIncident : chain.gaps[i - 1].material, absorbs);
-        if (!up) return std::nullopt;
-        result.up.push_back(std::move(*up));
+        const std::size_t above = i == 0 ? Program::kIncident : chain.gaps[i - 1].material;
+        if (!compile(chain.blocks[i].up, above, absorbs, fixed, program.up[i])) return false;
     }
-    return result;
+    return true;
 }
 
 void run_chain(const ChainProgram& chain, const PointRun& run, const RunOutput* s,

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "core/interference/chain.hpp"
 #include "core/interference/vector/kernel.hpp"
 
@@ -14,10 +12,12 @@ struct ChainProgram {
     std::vector<Layer> gaps;        ///< incoherent layers between the blocks
 };
 
-/// The programs of a chain, or nothing if compile() has none for a block or a gap amplifies.
+/// The programs of a chain, into memory that is used again; false if compile() has none for a block
+/// or a gap amplifies.
 ///   absorbs, amplifies  one per material: whether Im(n) is not 0, or is negative, anywhere
-std::optional<ChainProgram> compile(const Chain& chain, const std::vector<bool>& absorbs,
-                                    const std::vector<bool>& amplifies);
+///   fixed               of the block, if it is the only one; else empty
+bool compile(const Chain& chain, const std::vector<bool>& absorbs,
+             const std::vector<bool>& amplifies, const FixedRuns& fixed, ChainProgram& program);
 
 /// As run_program(), with the bounces between blocks summed as powers.
 void run_chain(const ChainProgram& chain, const PointRun& run, const RunOutput* s,

@@ -217,6 +217,30 @@ HWY_INLINE void check_size(Fields& f) {
     grow(f, IfThenElseZero(large, constant(kShrinkLog)));
 }
 
+/// Stored rows of one polarization, see FixedRun: the fields, or a matrix for them.
+HWY_INLINE void through_fixed(Program::Kind kind, const double* first, Fields& f) {
+    const auto row = [=](std::size_t r)
+                         HWY_ATTR { return hn::LoadU(Lanes(), first + r * kMostLanes); };
+    if (kind == Program::Kind::fixed_fields) {
+        f.b = {row(0), row(1)};
+        f.c = {row(2), row(3)};
+        f.log_scale = row(4);
+        return;
+    }
+    const Cx b = f.b, c = f.c;
+    if (kind == Program::Kind::fixed_real) {
+        const V gamma = row(1), beta = row(2);
+        f.b = {MulAdd(beta, c.im, Mul(row(0), b.re)), NegMulAdd(beta, c.re, Mul(row(0), b.im))};
+        f.c = {MulAdd(gamma, b.im, Mul(row(3), c.re)), NegMulAdd(gamma, b.re, Mul(row(3), c.im))};
+        grow(f, row(4));
+    } else {
+        f.b = mul_add({row(4), row(5)}, c, mul({row(0), row(1)}, b));
+        f.c = mul_add({row(2), row(3)}, b, mul({row(6), row(7)}, c));
+        grow(f, row(8));
+    }
+    check_size(f);
+}
+
 /// A period [[1 + a, -i beta], [-i gamma, 1 + d]] of real a, beta, gamma, d.
 struct Period {
     V a, beta, gamma, d;

@@ -41,6 +41,64 @@ public:
 
     void operator()() {
         if (is_mirror()) return run_mirror();
+        prepare_constant();
+        const bool film = !run_.above && program_.is_one_film();
+        if (film) {
+            for (std::size_t point = 0; point < run_.count; point += hn::Lanes(Lanes())) {
+                if (prepare_varying(point)) prepare_film(point);
+                compute_film(point);
+            }
+            return;
+        }
+        if (run_.fixed.empty()) return compute_part(0, run_.count, nullptr);
+        std::size_t first = 0;
+        for (const FixedPoints& part : run_.fixed) {
+            compute_part(first, first + part.count, part.numbers);
+            first += part.count;
+        }
+    }
+
+    /// The rows of a FixedRun, whose program this is.
+    void store_fixed(const FixedRun& fixed, bool s, bool p, std::size_t rows, double* numbers) {
+        wants_denominators_ = program_.absorbs;
+        prepare_constant();
+        for (std::size_t point = 0; point < run_.count; point += hn::Lanes(Lanes())) {
+            prepare_varying(point);
+            double* at = numbers + fixed_place(point, rows) + fixed.step.first * kMostLanes;
+            if (s && p) {
+                store_fixed<true, true>(fixed.step.kind, point, at);
+            } else if (s) {
+                store_fixed<true, false>(fixed.step.kind, point, at);
+            } else {
+                store_fixed<false, true>(fixed.step.kind, point, at);
+            }
+        }
+    }
+
+private:
+    /// Points [first, end), vectors beginning with `first`.
+    ///   fixed  numbers of their FixedPoints
+    void compute_part(std::size_t first, std::size_t end, const double* fixed) {
+        for (std::size_t point = first; point < end; point += hn::Lanes(Lanes())) {
+            prepare_varying(point);
+            fixed_ = fixed + fixed_place(point - first, run_.fixed_rows);
+            const std::size_t lanes = std::min(hn::Lanes(Lanes()), end - point);
+            if (s_ && p_) {
+                compute<true, true>(point, lanes);
+            } else if (s_) {
+                compute<true, false>(point, lanes);
+            } else {
+                compute<false, true>(point, lanes);
+            }
+        }
+    }
+
+    /// Of a point's first row among those of its part.
+    static std::size_t fixed_place(std::size_t point, std::size_t rows) {
+        return point / kMostLanes * kMostLanes * rows + point % kMostLanes;
+    }
+
+    void prepare_constant() {
         for (std::size_t m = 0; m < program_.media.size(); ++m) {
             if (is_constant(m)) {
                 prepare(m, 0);
@@ -48,25 +106,16 @@ public:
                 varying_.push_back(m);
             }
         }
-        const bool film = !run_.above && program_.is_one_film();
-        for (std::size_t point = 0; point < run_.count; point += hn::Lanes(Lanes())) {
-            for (const std::size_t m : varying_) prepare(m, point);
-            const bool changed = point == 0 || !varying_.empty();
-            if (changed) any_evanescent_ = std::ranges::find(evanescent_, 1) != evanescent_.end();
-            if (film) {
-                if (changed) prepare_film(point);
-                compute_film(point);
-            } else if (s_ && p_) {
-                compute<true, true>(point);
-            } else if (s_) {
-                compute<true, false>(point);
-            } else {
-                compute<false, true>(point);
-            }
-        }
     }
 
-private:
+    /// Returns whether anything is other than at the points before.
+    bool prepare_varying(std::size_t point) {
+        for (const std::size_t m : varying_) prepare(m, point);
+        const bool changed = point == 0 || !varying_.empty();
+        if (changed) any_evanescent_ = std::ranges::find(evanescent_, 1) != evanescent_.end();
+        return changed;
+    }
+
     bool is_constant(std::size_t m) const {
         const std::size_t material = program_.media[m].material;
         if (material == Program::kIncident) return !run_.incident.varies && !run_.cos_theta.varies;
@@ -476,8 +525,84 @@ private:
                 case Program::Kind::group:
                     group_step<kS, kP>(step, k0, s, p, bad);
                     break;
+                default:
+                    fixed_step<kS, kP>(step, s, p, dying);
             }
         }
+    }
+
+    /// What stands in the stored rows instead of layers.
+    template <bool kS, bool kP>
+    HWY_INLINE void fixed_step(const Program::Step& step, Fields& s, Fields& p, V& dying) const {
+        const std::size_t rows = FixedRun::rows_of(step.kind);
+        const double* first = fixed_ + step.first * kMostLanes;
+        if (kS) through_fixed(step.kind, first, s);
+        if (kP) through_fixed(step.kind, first + rows * kMostLanes, p);
+        if (wants_denominators_ && program_.absorbs)
+            dying = Add(dying, hn::LoadU(Lanes(), first + 2 * rows * kMostLanes));
+    }
+
+    static HWY_INLINE void put_row(double* to, std::size_t row, V value) {
+        hn::StoreU(value, Lanes(), to + row * kMostLanes);
+    }
+
+    template <bool kS, bool kP>
+    void store_fixed(Program::Kind kind, std::size_t point, double* to) {
+        const V k0 = at(run_.k0, point), zero = constant(0), one = constant(1);
+        if (program_.shares_layers) share_layers(k0);
+        const std::size_t rows = FixedRun::rows_of(kind);
+        double* to_p = to + rows * kMostLanes;
+        V dying = zero;
+        Mask bad = no_lanes();
+        if (kind == Program::Kind::fixed_fields) {
+            Fields s, p;
+            outgoing_fields(s, p);
+            climb<kS, kP, false>(k0, s, p, dying, bad);
+            if (kS) put_fields(s, bad, to);
+            if (kP) put_fields(p, bad, to_p);
+        } else {
+            const Fields b{{one, zero}, {zero, zero}, zero, zero};
+            const Fields c{{zero, zero}, {one, zero}, zero, zero};
+            Fields s[2] = {b, c}, p[2] = {b, c};
+            V same_phase = zero;
+            climb<kS, kP, false>(k0, s[0], p[0], dying, bad);
+            climb<kS, kP, false>(k0, s[1], p[1], same_phase, bad);
+            if (kS) put_matrix(kind, s, bad, to);
+            if (kP) put_matrix(kind, p, bad, to_p);
+        }
+        put_row(to, 2 * rows, dying);
+    }
+
+    static HWY_INLINE void put_fields(const Fields& f, Mask bad, double* to) {
+        put_row(to, 0, IfThenElse(bad, constant(std::nan("")), f.b.re));
+        put_row(to, 1, f.b.im);
+        put_row(to, 2, f.c.re);
+        put_row(to, 3, f.c.im);
+        put_row(to, 4, f.log_scale);
+    }
+
+    /// The matrix that makes (1, 0) and (0, 1) these columns.
+    static HWY_INLINE void put_matrix(Program::Kind kind, const Fields* columns, Mask bad,
+                                      double* to) {
+        const V scale = Max(columns[0].log_scale, columns[1].log_scale);
+        Cx m[4] = {columns[0].b, columns[0].c, columns[1].b, columns[1].c};
+        for (std::size_t i = 0; i < 4; ++i)
+            m[i] = scaled(m[i], exp(Sub(columns[i / 2].log_scale, scale)));
+        m[0].re = IfThenElse(bad, constant(std::nan("")), m[0].re);
+        if (kind == Program::Kind::fixed_real) {
+            // as for a transparent layer: beta and gamma stand in it as -i beta and -i gamma
+            put_row(to, 0, m[0].re);
+            put_row(to, 1, negative(m[1].im));
+            put_row(to, 2, negative(m[2].im));
+            put_row(to, 3, m[3].re);
+            put_row(to, 4, scale);
+            return;
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            put_row(to, 2 * i, m[i].re);
+            put_row(to, 2 * i + 1, m[i].im);
+        }
+        put_row(to, 8, scale);
     }
 
     /// kz at normal incidence, where it is the index, with the sign that the other roots have.
@@ -501,14 +626,22 @@ private:
         return {IfThenElse(is_real, real.re, complex.re), IfThenElse(is_real, real.im, complex.im)};
     }
 
-    template <bool kS, bool kP>
-    void compute(std::size_t point) {
-        const V k0 = at(run_.k0, point), zero = constant(0);
-        if (program_.shares_layers) share_layers(k0);
-        // the substrate's outgoing wave
+    /// Those of the substrate's wave.
+    HWY_INLINE void outgoing_fields(Fields& s, Fields& p) const {
         const double* below = records_ + (program_.media.size() - 1) * kRecord;
         const Cx kz = slots(below, kKzRe), eps = slots(below, kEpsRe);
-        const Fields start_s{{constant(1), zero}, kz, zero, zero}, start_p{kz, eps, zero, zero};
+        const V zero = constant(0);
+        s = {{constant(1), zero}, kz, zero, zero};
+        p = {kz, eps, zero, zero};
+    }
+
+    template <bool kS, bool kP>
+    void compute(std::size_t point, std::size_t lanes) {
+        const V k0 = at(run_.k0, point), zero = constant(0);
+        if (program_.shares_layers) share_layers(k0);
+        Fields start_s, start_p;
+        outgoing_fields(start_s, start_p);
+        const Cx kz = start_p.b, eps = start_p.c;
         Fields s = start_s, p = start_p;
         V dying = zero;
         Mask bad = no_lanes();
@@ -541,7 +674,6 @@ private:
             if (kS) ends_s.sum = mul(ends_s.sum, {turn.cos, turn.sin});
             if (kP) ends_p.sum = mul(ends_p.sum, {turn.cos, turn.sin});
         }
-        const std::size_t lanes = std::min(hn::Lanes(Lanes()), run_.count - point);
         std::uint32_t redo = 0;
         if (kS) redo |= store(ends_s, point, lanes, *s_, bad);
         if (kP) redo |= store(ends_p, point, lanes, *p_, bad);
@@ -797,10 +929,11 @@ private:
         e.A = IfThenElse(balances, Div(e.A, sum), e.A);
     }
 
-    static HWY_INLINE void store(V value, double* to, std::size_t point, std::size_t lanes,
-                                 std::size_t stride) {
+    HWY_INLINE void store(V value, double* to, std::size_t point, std::size_t lanes,
+                          std::size_t stride) const {
         if (!to) return;
-        if (stride == 1 && lanes == hn::Lanes(Lanes())) {
+        // what is past these lanes is overwritten by the next part
+        if (stride == 1 && point + hn::Lanes(Lanes()) <= run_.count) {
             hn::StoreU(value, Lanes(), to + point);
             return;
         }
@@ -848,6 +981,7 @@ private:
     const RunOutput *s_, *p_;
     std::vector<std::size_t>& redo_;
     double *records_, *shared_;
+    const double* fixed_ = nullptr;      ///< numbers of a vector of points, see FixedPoints
     std::vector<char>& evanescent_;      ///< per medium of layers: some lane is
     std::vector<std::size_t>& varying_;  ///< media that differ from point to point
     Film film_s_, film_p_;
@@ -868,6 +1002,13 @@ void run(const Program& program, const PointRun& points, const RunOutput* s, con
     Runner(program, points, s, p, redo, memory)();
 }
 
+void store(const FixedRun& fixed, const PointRun& points, bool s, bool p, std::size_t rows,
+           double* to, RunMemory& memory) {
+    std::vector<std::size_t> none;
+    Runner(fixed.program, points, nullptr, nullptr, none, memory)
+        .store_fixed(fixed, s, p, rows, to);
+}
+
 }  // namespace irido::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -879,6 +1020,11 @@ void run_program(const Program& program, const PointRun& points, const RunOutput
                  const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
                  SimdLevel level) {
     IRIDO_DISPATCH(level, run)(program, points, s, p, redo, memory);
+}
+
+void store_fixed(const FixedRun& fixed, const PointRun& points, bool s, bool p, std::size_t rows,
+                 double* to, RunMemory& memory, SimdLevel level) {
+    IRIDO_DISPATCH(level, store)(fixed, points, s, p, rows, to, memory);
 }
 
 }  // namespace irido

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/complex.hpp"
@@ -15,6 +16,13 @@ struct Stream {
     bool varies = false;
 };
 
+/// Stored rows of all FixedRuns of a program at some points: [vector of kMostLanes points][row],
+/// each row kMostLanes numbers.
+struct FixedPoints {
+    const double* numbers = nullptr;
+    std::size_t count = 0;  ///< of points
+};
+
 /// Points that the vector kernel takes together.
 struct PointRun {
     std::size_t count = 0;
@@ -25,6 +33,9 @@ struct PointRun {
     /// Index into them of the medium above the layers; nothing for the incident medium. Its wave is
     /// the one that travels or decays downwards, and k >= 0.
     std::optional<std::size_t> above;
+    /// All points, one part after the other, if the program has FixedRuns, and their rows.
+    std::span<const FixedPoints> fixed;
+    std::size_t fixed_rows = 0;
 };
 
 /// Where the quantities of one polarization go, each nullptr if it is not needed; the value of
@@ -52,5 +63,13 @@ struct RunMemory {
 void run_program(const Program& program, const PointRun& run, const RunOutput* s,
                  const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
                  SimdLevel level);
+
+/// Stores the rows of a FixedRun at all points.
+///   s, p  the polarizations to be stored
+///   rows  of all runs of the program that it belongs to
+///   to    room for FixedPoints::numbers
+/// Points that need the plain kernel get NaN.
+void store_fixed(const FixedRun& fixed, const PointRun& run, bool s, bool p, std::size_t rows,
+                 double* to, RunMemory& memory, SimdLevel level);
 
 }  // namespace irido

@@ -1,7 +1,10 @@
 #include "core/interference/vector/program.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <map>
+#include <memory_resource>
 
 #include "core/math/vector_math.hpp"
 
@@ -19,6 +22,10 @@ constexpr std::uint64_t kFewMirrorPeriods = 7;
 /// layers add up.
 constexpr std::uint64_t kMostWrittenOut = 200;
 
+/// Operations, about three transparent layers, below which a stored matrix does not pay, nor the
+/// storing as a whole.
+constexpr double kFewestFixedOperations = 120;
+
 /// Layers of a period that is raised to its power in closed form.
 constexpr std::size_t kLongestPeriod = 64;
 
@@ -26,7 +33,15 @@ constexpr std::size_t kLongestPeriod = 64;
 class Compiler {
 public:
     Compiler(Program& program, const std::vector<bool>& absorbs)
-        : program_(program), absorbs_(absorbs) {}
+        : program_(program), absorbs_(absorbs) {
+        program_.media.clear();
+        program_.layers.clear();
+        program_.order.clear();
+        program_.steps.clear();
+        program_.shares_layers = program_.absorbs = false;
+        program_.largest_thickness_nm = 0;
+        program_.mirror.reset();
+    }
 
     /// False if the elements are better left to the plain kernel.
     bool add(std::span<const Element> elements) {
@@ -38,6 +53,14 @@ public:
             }
         }
         return true;
+    }
+
+    /// The stored step for its elements.
+    void add(const FixedRun& run) {
+        program_.steps.push_back(run.step);
+        program_.absorbs |= run.program.absorbs;
+        program_.largest_thickness_nm =
+            std::max(program_.largest_thickness_nm, run.program.largest_thickness_nm);
     }
 
     std::uint32_t medium(std::size_t material) {
@@ -117,9 +140,26 @@ private:
 
     Program& program_;
     const std::vector<bool>& absorbs_;
-    std::map<std::size_t, std::uint32_t> media_;
-    std::map<std::pair<std::uint32_t, double>, std::uint32_t> layers_;
+    std::array<std::byte, 4096> room_;
+    std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+    std::pmr::map<std::size_t, std::uint32_t> media_{&memory_};
+    std::pmr::map<std::pair<std::uint32_t, double>, std::uint32_t> layers_{&memory_};
 };
+
+/// The run of these elements, and whether the vector kernel takes it; its place in the rows is
+/// open.
+bool make_run(std::span<const Element> elements, std::size_t first, std::size_t count,
+              std::size_t substrate, const std::vector<bool>& absorbs, FixedRun& run) {
+    const bool lowest = first + count == elements.size();
+    run.first = first;
+    run.count = count;
+    if (!compile(elements.subspan(first, count), lowest ? substrate : Program::kIncident, absorbs,
+                 {}, run.program))
+        return false;
+    using enum Program::Kind;
+    run.step.kind = lowest ? fixed_fields : run.program.absorbs ? fixed_complex : fixed_real;
+    return true;
+}
 
 /// Operations of the parts of kernel.cpp: once for both polarizations + for each of them.
 struct Operations {
@@ -133,6 +173,7 @@ constexpr Operations kTravellingLayer{kTurn + 2, 10}, kSharedTravellingLayer{0, 
 constexpr Operations kAbsorbingLayer{kTurn + 33, 25}, kSharedAbsorbingLayer{0, 17},
     kAbsorbingMatrix{kTurn + 49, 0};
 constexpr Operations kLayerOfPeriod{kTurn + 2, 30}, kPowerOfPeriod{0, 92};
+constexpr Operations kFixedReal{0, 9}, kFixedComplex{0, 17};
 constexpr Operations kFilm{kTurn + 1, 18}, kEnds{3, 20};
 constexpr Operations kMirror{2 * kTurn + 7, kTurn + 46}, kMirrorMedia{39, 0};
 
@@ -170,6 +211,14 @@ double operations_per_point(const Program& program, int polarizations, bool cons
                 add(kLayerOfPeriod, step.count);
                 add(kPowerOfPeriod, 1);
                 break;
+            case Program::Kind::fixed_fields:
+                break;
+            case Program::Kind::fixed_real:
+                add(kFixedReal, 1);
+                break;
+            case Program::Kind::fixed_complex:
+                add(kFixedComplex, 1);
+                break;
         }
     }
     if (program.shares_layers)
@@ -181,17 +230,47 @@ double operations_per_point(const Program& program, int polarizations, bool cons
     return sum;
 }
 
-std::optional<Program> compile(std::span<const Element> elements, std::size_t substrate,
-                               const std::vector<bool>& absorbs) {
-    Program program;
+FixedRuns fixed_runs(std::span<const Element> elements, std::size_t substrate,
+                     const std::vector<bool>& absorbs, std::span<const std::size_t> varied) {
+    FixedRuns fixed;
+    if (varied.empty()) return fixed;
+    double saved = 0;
+    std::size_t end = elements.size();
+    for (std::size_t i = varied.size() + 1; i-- > 0;) {
+        const std::size_t first = i == 0 ? 0 : varied[i - 1] + 1;
+        FixedRun run;
+        if (!make_run(elements, first, end - first, substrate, absorbs, run)) return {};
+        const double operations = operations_per_point(run.program, 2, true) - kEnds.of(2);
+        const bool lowest = end == elements.size();
+        if (operations > (lowest ? 0 : kFewestFixedOperations)) {
+            run.step.first = static_cast<std::uint32_t>(fixed.rows);
+            fixed.rows += 2 * FixedRun::rows_of(run.step.kind) + 1;
+            fixed.runs.push_back(std::move(run));
+            saved += operations;
+        }
+        end = first == 0 ? 0 : first - 1;
+    }
+    if (saved < kFewestFixedOperations) return {};
+    return fixed;
+}
+
+bool compile(std::span<const Element> elements, std::size_t substrate,
+             const std::vector<bool>& absorbs, const FixedRuns& fixed, Program& program) {
     Compiler compiler(program, absorbs);
-    if (!compiler.add(elements)) return std::nullopt;
+    std::size_t end = elements.size();
+    for (const FixedRun& run : fixed.runs) {
+        const std::size_t above = run.first + run.count;
+        if (!compiler.add(elements.subspan(above, end - above))) return false;
+        compiler.add(run);
+        end = run.first;
+    }
+    if (!compiler.add(elements.first(end))) return false;
     program.media.push_back({substrate, substrate != Program::kIncident && absorbs[substrate]});
     std::size_t single = 0;
     for (const Program::Step& step : program.steps)
-        if (step.kind != Program::Kind::group) single += step.count;
+        if (step.kind <= Program::Kind::absorbing) single += step.count;
     program.shares_layers = single >= 2 * program.layers.size();
-    return program;
+    return true;
 }
 
 }  // namespace irido

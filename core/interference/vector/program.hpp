@@ -13,13 +13,16 @@ namespace irido {
 /// Coherent layers as steps of the vector kernel, from the substrate up.
 struct Program {
     enum class Kind {
-        transparent,  ///< layers in real arithmetic
-        absorbing,    ///< layers in complex arithmetic
-        group,        ///< a transparent period, raised to its power in closed form
+        transparent,   ///< layers in real arithmetic
+        absorbing,     ///< layers in complex arithmetic
+        group,         ///< a transparent period, raised to its power in closed form
+        fixed_fields,  ///< fields above the lowest layers, which are stored
+        fixed_real,    ///< the stored matrix of transparent layers
+        fixed_complex  ///< the stored matrix of layers some of which absorb
     };
     struct Step {
         Kind kind;
-        std::uint32_t first, count;  ///< in `order`
+        std::uint32_t first, count;  ///< in `order`; of what is stored: rows, see FixedRun
         std::uint32_t repeat = 1;    ///< of a group
     };
     struct PlainLayer {
@@ -46,11 +49,39 @@ struct Program {
     }
 };
 
-/// The program of coherent elements, or nothing if they are better left to the plain kernel: groups
-/// of absorbing layers of many periods and nested groups of many layers.
+/// Neighbouring elements that are the same in many stacks: what they do is computed once a point,
+/// and stored as rows of numbers over the points. For s, then for p: the fields B and C (4 rows),
+/// or the matrix (4 real rows, or 8), and the logarithm of a factor of it; the last row is what
+/// waves that die there turn in the denominator.
+struct FixedRun {
+    std::size_t first, count;  ///< among the elements
+    Program program;
+    Program::Step step;  ///< that stands for them
+
+    static std::uint32_t rows_of(Program::Kind kind) {
+        return kind == Program::Kind::fixed_complex ? 9 : 5;  ///< of one polarization
+    }
+};
+struct FixedRuns {
+    std::vector<FixedRun> runs;  ///< from the substrate up
+    std::size_t rows = 0;
+};
+
+/// What is worth to be stored of coherent elements of which those in `varied` differ from stack to
+/// stack: nothing if `varied` is empty, if it would not save enough, or if some elements are better
+/// left to the plain kernel.
+///   varied   indices of elements, ascending
 ///   absorbs  one per material: whether its index has an imaginary part anywhere
-std::optional<Program> compile(std::span<const Element> elements, std::size_t substrate,
-                               const std::vector<bool>& absorbs);
+FixedRuns fixed_runs(std::span<const Element> elements, std::size_t substrate,
+                     const std::vector<bool>& absorbs, std::span<const std::size_t> varied);
+
+/// The program of coherent elements, into memory that is used again; false if they are better left
+/// to the plain kernel: groups of absorbing layers of many periods and nested groups of many
+/// layers.
+///   absorbs  as above
+///   fixed    of these elements
+bool compile(std::span<const Element> elements, std::size_t substrate,
+             const std::vector<bool>& absorbs, const FixedRuns& fixed, Program& program);
 
 /// The mirror if its closed form is faster than its program.
 ///   absorbs  as above

@@ -1,6 +1,7 @@
 // A Slurm cluster of one node, this machine, in a folder of its own.
 import { execFileSync, spawn } from 'node:child_process';
-import { mkdirSync, randomFillSync, writeFileSync } from 'node:fs';
+import { randomBytes } from 'node:crypto';
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { availableParallelism, hostname } from 'node:os';
 import { setTimeout as sleep } from 'node:timers/promises';
 
@@ -11,7 +12,7 @@ ClusterName=irido
 SlurmctldHost=${node}(127.0.0.1)
 SlurmUser=root
 SlurmdUser=root
-AuthInfo=socket=${folder}/munge.socket
+AuthInfo=socket=${folder}/munge.socket,cred_expire=5
 SlurmctldPort=26817
 SlurmdPort=26818
 StateSaveLocation=${folder}/state
@@ -26,7 +27,7 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU
 ReturnToService=2
 MpiDefault=none
-SchedulerParameters=batch_sched_delay=0,sched_min_interval=0,requeue_delay=1
+SchedulerParameters=batch_sched_delay=0,sched_min_interval=0
 KillWait=2
 NodeName=${node} NodeAddr=127.0.0.1 CPUs=${availableParallelism()} State=UNKNOWN
 PartitionName=all Nodes=${node} Default=YES MaxTime=INFINITE State=UP
@@ -46,7 +47,7 @@ export async function until(probe, seconds, what) {
 export async function startCluster(folder) {
     for (const name of ['state', 'spool']) mkdirSync(`${folder}/${name}`, { recursive: true });
     writeFileSync(`${folder}/slurm.conf`, configuration(folder));
-    writeFileSync(`${folder}/munge.key`, randomFillSync(Buffer.alloc(1024)), { mode: 0o600 });
+    writeFileSync(`${folder}/munge.key`, randomBytes(1024), { mode: 0o600 });
     const daemons = [];
     const start = (command, ...args) => {
         daemons.push(spawn(command, args, { stdio: 'ignore', cwd: folder }));

@@ -7,6 +7,8 @@
 #include "core/color/held_stack.hpp"
 #include "core/color/illuminant.hpp"
 #include "core/error.hpp"
+#include "core/material/library.hpp"
+#include "core/math/parallel.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
 
@@ -212,6 +214,75 @@ TEST_CASE("a method made ready once serves every thickness") {
             }
         }
     }
+}
+
+TEST_CASE("layers that do not vary are computed once") {
+    const ColorTables tables(d65());
+    oracle::Random random(71);
+    for (int i = 0; i < 40; ++i) {
+        StackBuilder b;
+        const double k = i % 2 == 0 ? 0 : 0.01;
+        for (int layer = 0; layer < 14; ++layer)
+            b.add(b.layer({random.uniform(1.3, 2.3), layer % 3 == 0 ? k : 0},
+                          random.uniform(20, 150)));
+        const Stack stack =
+            i % 4 < 2 ? b.over(1.52) : b.over_material(b.material(find_material("Cu")->material));
+        const std::size_t place = random.below(14);
+        std::vector<Stack> stacks;
+        for (int j = 0; j < 4; ++j) {
+            stacks.push_back(stack);
+            std::get<Layer>(stacks.back().elements[place].value).thickness_nm =
+                j == 0 ? 0 : random.uniform(0, 400);
+        }
+        const ColorRequest plain{.sides = {Side::reflected, Side::transmitted}};
+        ColorRequest varied = plain;
+        varied.varied = {{place}};
+        const std::vector<double> angles{0, 33, 71.5, 88};
+        const auto algorithm = color_algorithm(tables, stack, kQuadrature, varied);
+        std::vector<StackColor> colors(stacks.size() * angles.size() * 2);
+        const auto of_stack = [&](std::size_t j) { return std::span(colors).subspan(8 * j, 8); };
+        parallel_for(stacks.size(), 3,
+                     [&](std::size_t j) { (*algorithm)(stacks[j], angles, of_stack(j)); });
+        for (std::size_t j = 0; j < stacks.size(); ++j) {
+            const std::vector<StackColor> one_by_one =
+                stack_color(tables, stacks[j], kQuadrature, plain, angles);
+            for (std::size_t c = 0; c < 8; ++c) {
+                CAPTURE(oracle::text_of(stacks[j]), angles[c / 2], c % 2);
+                CHECK(largest_error(of_stack(j)[c].xyz, one_by_one[c].xyz) < 1e-12);
+                CHECK(of_stack(j)[c].error <= 1e-6);
+            }
+            // alone, and the angles backwards
+            const auto fresh = color_algorithm(tables, stack, kQuadrature, varied);
+            for (std::size_t a = angles.size(); a-- > 0;) {
+                std::vector<StackColor> alone(2);
+                (*fresh)(stacks[j], std::span(angles).subspan(a, 1), alone);
+                for (std::size_t side = 0; side < 2; ++side) {
+                    CHECK(alone[side].xyz == of_stack(j)[2 * a + side].xyz);
+                    CHECK(alone[side].error == of_stack(j)[2 * a + side].error);
+                    CHECK(alone[side].evaluations == of_stack(j)[2 * a + side].evaluations);
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("layers that are said not to vary must not") {
+    const ColorTables tables(d65());
+    StackBuilder b;
+    for (int layer = 0; layer < 8; ++layer) b.add(b.layer(layer % 2 == 0 ? 2.3 : 1.46, 80));
+    const Stack stack = b.over(1.52);
+    const auto algorithm = color_algorithm(tables, stack, kQuadrature, {.varied = {{3}}});
+    std::vector<StackColor> color(1);
+    const double angle = 20;
+    Stack other = stack;
+    std::get<Layer>(other.elements[3].value).thickness_nm = 100;
+    CHECK_NOTHROW((*algorithm)(other, {&angle, 1}, color));
+    std::get<Layer>(other.elements[4].value).thickness_nm = 100;
+    CHECK_THROWS_AS((*algorithm)(other, {&angle, 1}, color), DomainError);
+    other = stack;
+    other.elements.pop_back();
+    CHECK_THROWS_AS((*algorithm)(other, {&angle, 1}, color), DomainError);
+    CHECK_THROWS_AS(color_algorithm(tables, stack, kQuadrature, {.varied = {{8}}}), DomainError);
 }
 
 TEST_CASE("the errors of methods that have none of their own are measured") {
