@@ -76,15 +76,26 @@ private:
     std::set<std::string> said_;
 };
 
+/// Whether stacks that differ in it only are of one structure.
+bool is_shared(const SweptColumn& column) {
+    return VariedStack::is_thickness(column.path) || column.path == kSweptAngle ||
+           column.path == kSweptWavelength;
+}
+
 /// Stacks of one structure, as far as that is known before.
 double stacks_of_structure(const SweepSpace& space) {
     double stacks = 1;
-    for (const SweptColumn& column : space.columns()) {
-        const bool is_shared = VariedStack::is_thickness(column.path) ||
-                               column.path == kSweptAngle || column.path == kSweptWavelength;
-        if (is_shared && !column.of_points) stacks *= static_cast<double>(column.size());
-    }
+    for (const SweptColumn& column : space.columns())
+        if (is_shared(column) && !column.of_points) stacks *= static_cast<double>(column.size());
     return stacks;
+}
+
+std::size_t structures_together(const SweepSpace& space) {
+    double structures = 1;
+    for (const SweptColumn& column : space.columns())
+        if (!is_shared(column)) structures *= static_cast<double>(column.size());
+    return static_cast<std::size_t>(
+        std::min(structures, static_cast<double>(SweptStacks::kMostStructures)));
 }
 
 std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
@@ -242,6 +253,7 @@ int run_sweep(const SweepCommand& command) {
                               .note = [&](const std::string& text) { notes(text); },
                               .stacks = stacks_of_structure(space),
                               .varied = varied_layers(space),
+                              .structures = structures_together(space),
                               .wavelength_nm = swept_wavelength(space),
                               .in_sweep = true});
     const StackSource source = load_stack(command.stack);

@@ -19,6 +19,9 @@ namespace irido {
 
 namespace {
 
+/// Of all structures: 256 MB.
+constexpr std::size_t kKeptNumbers = 1U << 25;
+
 /// x, y of the colour, of the white where there is no light.
 std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
     const Triple& shown = xyz[0] + xyz[1] + xyz[2] > 0 ? xyz : white;
@@ -116,6 +119,8 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
     request_.colors = static_cast<std::size_t>(
         std::min(1e15, answering.stacks * static_cast<double>(angles_deg_.size())));
     request_.varied = answering.varied;
+    request_.kept_numbers = std::min(request_.kept_numbers,
+                                     kKeptNumbers / std::max<std::size_t>(1, answering.structures));
     request_.simd = answering.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
     const std::string& first = typed.color.illuminant;

@@ -31,6 +31,8 @@ struct Answering {
     double stacks = 1;
     /// Layers in which these differ; none if there is one stack only.
     std::vector<LayerPlace> varied = {};
+    /// Structures that may be prepared at the same time; they share the memory.
+    std::size_t structures = 1;
     /// Instead of the wavelengths asked for.
     std::optional<double> wavelength_nm = {};
     /// One of many: neither notes nor errors of methods that are not exact, unless asked for.

@@ -20,7 +20,7 @@ public:
     /// Refers to space and question.
     SweptStacks(StackSource source, const SweepSpace& space, const Question& question);
 
-    static constexpr std::size_t kMostStructures = 64;
+    static constexpr std::size_t kMostStructures = 32;
 
     /// Throws InputError for the first value that is wrong by itself, whatever the others are.
     void check_values() const;

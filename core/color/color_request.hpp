@@ -50,6 +50,8 @@ struct ColorRequest {
     /// Layers of the stack, if these are the only ones whose thickness will differ: what the others
     /// do is then computed once for all colours, which differ in roundings from those without.
     std::vector<LayerPlace> varied{};
+    /// Numbers that may be kept of these other layers: memory for speed, the colours are the same.
+    std::size_t kept_numbers = 1U << 23;
     SimdLevel simd = best_simd_level();
 };
 

@@ -28,9 +28,6 @@ constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kFewestPoints = 40
 /// Points of a panel that is not cut any further.
 constexpr std::size_t kPanelPoints = 129;
 
-/// FixedLayers that are kept: 64 MB of numbers.
-constexpr std::size_t kMostFixedNumbers = 1U << 23;
-
 /// Optical paths are rounded up to kShortestPath_nm 2^(k/2), k < kPathClasses.
 constexpr double kShortestPath_nm = 125;
 constexpr std::size_t kPathClasses = 128;
@@ -135,6 +132,7 @@ public:
           on_path_(held_, path_wavelengths(constant_, sensitivity_.support())),
           needs_(needs_of(request)),
           varied_(varied_elements(held_, request.varied)),
+          fixed_layers_(request.kept_numbers),
           tree_(tables, [this](std::vector<double> wavelength_nm) {
               SpectralPoints points{std::move(wavelength_nm), nullptr};
               if (!constant_)
@@ -352,7 +350,7 @@ private:
     Needs needs_;
     std::vector<bool> absorbs_, amplifies_;
     std::vector<std::size_t> varied_;  ///< elements, if only these differ
-    mutable FixedLayersCache fixed_layers_{kMostFixedNumbers};
+    mutable FixedLayersCache fixed_layers_;
     mutable PanelTree tree_;
     mutable Pool<Scratch> scratch_;
     mutable std::mutex lock_;

@@ -1,6 +1,7 @@
 #include "core/interference/bragg_mirror.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -95,6 +96,9 @@ BraggPeriod BraggMirror::period(double angle_deg, Polarization polarization, dou
 }
 
 PeriodAt BraggMirror::period_at(double angle_deg, Polarization polarization) const {
+    const std::array used{pair_[0].material, pair_[1].material, stack_.incident};
+    if (std::ranges::all_of(used, [&](std::size_t m) { return is_constant(stack_.materials[m]); }))
+        return [same = period(angle_deg, polarization, kTurn)](double) { return same; };
     return [this, angle_deg, polarization](double omega) {
         return period(angle_deg, polarization, omega);
     };
