@@ -30,6 +30,7 @@ struct SweepCommand {
     std::string shard;
     std::vector<std::string> merge;
     bool resume = false, keep_going = false, stats = false, quiet = false;
+    bool has_angles = false, has_wavelengths = false;  ///< typed as options of the kind
     unsigned threads = 0;
 };
 
@@ -104,6 +105,16 @@ std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
         if (VariedStack::is_thickness(column.path))
             places.push_back(VariedStack::place_of(column.path));
     return places;
+}
+
+/// Angles and wavelengths come from one place.
+void require_once(const SweepCommand& command, const SweepSpace& space) {
+    for (const SweptColumn& column : space.columns()) {
+        if (column.path == kSweptAngle && command.has_angles)
+            throw UsageError("--angles: angle_deg varies, so leave out --angles");
+        if (column.path == kSweptWavelength && command.has_wavelengths)
+            throw UsageError("--wavelengths: wavelength_nm varies, so leave out --wavelengths");
+    }
 }
 
 std::optional<double> swept_wavelength(const SweepSpace& space) {
@@ -247,6 +258,7 @@ int run_sweep(const SweepCommand& command) {
     check_writable(command.output);
     Notes notes(command.quiet);
     const SweepSpace space(command.vary, command.points);
+    require_once(command, space);
     const Execution machine{1, execution_of(command.threads).simd};
     const auto question =
         command.typed->parse({.execution = machine,
@@ -342,11 +354,11 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
         .add_option("--merge", typed.merge,
                     "put the files of all shards together, in any order, instead of\n"
                     "computing: the same bytes as of one run")
-        ->type_name("FILE ...");
+        ->type_name("FILE");
     command.add_flag("--keep-going", typed.keep_going,
                      "leave out combinations that cannot be computed, and say how many");
     if (!command.get_option_no_throw("--stats")) {
-        command.add_flag("--stats", typed.stats, "say on standard error what was used again");
+        command.add_flag("--stats", "say on standard error what was used again");
     } else {
         command.get_option("--stats")->description(
             "adds method,evaluations,error_estimate; the error of methods\n"
@@ -377,8 +389,13 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
         "Columns are the varied values, named by path, and those of the command. With -o, what is\n"
         "done is in FILE.part until all is; Ctrl-C, or a crash, leaves it there for --resume.");
     command->callback([options, command, &run] {
-        if (CLI::Option* stats = command->get_option_no_throw("--stats"); stats && *stats)
-            options->stats = true;
+        const auto is_given = [&](const std::string& name) {
+            const CLI::Option* const option = command->get_option_no_throw(name);
+            return option && option->count() > 0;
+        };
+        options->stats = is_given("--stats");
+        options->has_angles = is_given("--angles");
+        options->has_wavelengths = is_given("--wavelengths");
         run = [options] { return run_sweep(*options); };
     });
 }

@@ -352,6 +352,9 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep]") {
     refused(color + some + some, "varied twice");
     refused(color + Words{"--vary", "angle_deg=0,91"}, "must be in [0, 90] (got 91)");
     refused(color + Words{"--vary", "wavelength_nm=500,600"}, "--compute spectrum");
+    refused(color + Words{"--vary", "angle_deg=0,10", "-a", "5"}, "leave out --angles");
+    refused({"--compute", "spectrum", "--vary", "wavelength_nm=500", "-w", "5"},
+            "leave out --wavelengths");
     refused(color + some + Words{"--shard", "3/2"}, "--shard");
     refused(color + some + Words{"--shard", "0/2"}, "--shard");
     refused(color + some + Words{"--shard", "2"}, "must be K/N");
