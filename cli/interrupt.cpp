@@ -2,7 +2,9 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
+#include <ctime>
 
 #include "tables/atomic_file.hpp"
 
@@ -11,9 +13,14 @@ namespace irido {
 namespace {
 
 volatile std::sig_atomic_t is_orderly = 0, asked = 0;
+std::atomic<time_t> asked_at{0};
+static_assert(std::atomic<time_t>::is_always_lock_free);
 
 extern "C" void stop_on_signal(int signal) {
-    if (is_orderly && !asked) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    if (is_orderly && (!asked || now.tv_sec - asked_at <= 1)) {
+        if (!asked) asked_at = now.tv_sec;
         asked = signal;
         return;
     }

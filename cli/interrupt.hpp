@@ -6,7 +6,8 @@ namespace irido {
 /// file; a closed pipe and a file that grows too large are errors of write().
 void handle_signals();
 
-/// While it lives, the first such signal only asks the program to end.
+/// While it lives, such a signal only asks the program to end; another one, a second later or more,
+/// ends it at once. (Some send a signal to a process and to its group.)
 class OrderlyEnd {
 public:
     OrderlyEnd();

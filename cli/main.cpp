@@ -78,7 +78,8 @@ int run_program(int argc, char** argv) {
     } catch (const CLI::Success& done) {  // --help, --version
         return program.exit(done);
     } catch (const CLI::ParseError& error) {
-        return fail(std::string(error.what()) + " (see irido --help)");
+        const std::string typed = argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : "";
+        return fail(std::string(error.what()) + " (see irido " + typed + "--help)");
     }
     return run();
 }

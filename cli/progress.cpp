@@ -12,7 +12,8 @@ namespace {
 
 constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kInterval = std::chrono::milliseconds(100);
-constexpr double kWidth = 40;
+/// With a text behind it, it leaves room in 80 columns.
+constexpr int kWidth = 40, kShortWidth = 20;
 
 }  // namespace
 
@@ -26,8 +27,9 @@ void Progress::set(double done, const std::string& text) {
     next_ = Clock::now() + kInterval;
     is_shown_ = true;
     const double part = std::clamp(done, 0.0, 1.0);
-    const std::string bar(static_cast<std::size_t>(kWidth * part), '=');
-    std::fprintf(stderr, "\r[%-40s] %3.0f %%%s\033[K", bar.c_str(), 100 * part,
+    const int width = text.empty() ? kWidth : kShortWidth;
+    const std::string bar(static_cast<std::size_t>(width * part), '=');
+    std::fprintf(stderr, "\r[%-*s] %3.0f %%%s\033[K", width, bar.c_str(), 100 * part,
                  text.empty() ? "" : ("  " + text).c_str());
 }
 

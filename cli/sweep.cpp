@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -134,8 +135,7 @@ std::string request_hash(const SweepCommand& command, const StackSource& source,
                                  {"options", command.typed->typed()},
                                  {"stack", source.document},
                                  {"first", canonical_stack(first.stack)},
-                                 {"vary", std::move(vary)},
-                                 {"keep_going", command.keep_going}};
+                                 {"vary", std::move(vary)}};
     return sha256_of(request.dump());
 }
 
@@ -151,6 +151,15 @@ std::string in_words(double seconds) {
     return text.data();
 }
 
+/// "950", "38.9 k", "1.2 M"
+std::string short_number(double number) {
+    std::array<char, 32> text{};
+    const char* const unit = number < 1e3 ? "" : number < 1e6 ? " k" : number < 1e9 ? " M" : " G";
+    const double scale = number < 1e3 ? 1 : number < 1e6 ? 1e3 : number < 1e9 ? 1e6 : 1e9;
+    std::snprintf(text.data(), text.size(), scale == 1 ? "%.0f%s" : "%.1f%s", number / scale, unit);
+    return text.data();
+}
+
 /// Done, rate and time left.
 class SweepProgress {
 public:
@@ -161,12 +170,9 @@ public:
         const double passed = seconds(),
                      part = static_cast<double>(done) /
                             static_cast<double>(std::max<std::uint64_t>(1, units_));
-        std::array<char, 64> text{};
-        std::snprintf(text.data(), text.size(), "%llu rows, %.3g rows/s, ",
-                      static_cast<unsigned long long>(counts_.rows), rows_per_second());
-        progress_.set(part, text.data() +
-                                (part > 0 ? in_words(passed / part - passed) : std::string("?")) +
-                                " left");
+        progress_.set(part, short_number(static_cast<double>(counts_.rows)) + " rows, " +
+                                short_number(rows_per_second()) + "/s, " +
+                                (part > 0 ? in_words(passed / part - passed) : "?") + " left");
     }
     void clear() { progress_.clear(); }
     double seconds() const {
@@ -190,13 +196,10 @@ void print_stats(const SweepEngine& engine, const SweptStacks& stacks,
                  static_cast<unsigned long long>(counts.rows), progress.seconds(),
                  progress.rows_per_second());
     std::fprintf(stderr,
-                 "irido: stats: %llu stacks of %llu structures: materials, index tables and "
-                 "weights were made for %llu, and used again for the other %llu stacks\n",
+                 "irido: stats: stacks %llu, of structures %llu: so often were materials, index "
+                 "tables and weights made\n",
                  static_cast<unsigned long long>(counts.stacks),
-                 static_cast<unsigned long long>(stacks.prepared()),
-                 static_cast<unsigned long long>(stacks.prepared()),
-                 static_cast<unsigned long long>(
-                     counts.stacks - std::min<std::uint64_t>(counts.stacks, stacks.prepared())));
+                 static_cast<unsigned long long>(stacks.prepared()));
 }
 
 std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const StreamFormat& format,
@@ -242,8 +245,9 @@ int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& st
     }
     stream.finish();
     if (engine.counts().left_out > 0)
-        note(std::to_string(engine.counts().left_out) +
-                 " combinations were left out, the first one " + engine.first_left_out(),
+        note("left out " + std::to_string(engine.counts().left_out) + " of " +
+                 std::to_string(identity.end - begin) + ", the first one " +
+                 engine.first_left_out(),
              command.quiet);
     if (command.stats) print_stats(engine, stacks, progress);
     return 0;
@@ -270,23 +274,27 @@ int run_sweep(const SweepCommand& command) {
                               .in_sweep = true});
     const StackSource source = load_stack(command.stack);
     SweptStacks stacks(source, space, *question);
-    stacks.check_values();
     SweepEngine engine(stacks, space, *question, command.keep_going);
     const std::vector<std::uint64_t> ends =
         shard.of > 1 ? engine.shard_ends(shard.of) : std::vector<std::uint64_t>{0, engine.units()};
-    SweptStacks::Walk walk(stacks);
-    const StreamIdentity identity{
-        request_hash(command, source, walk.at(0).prepared->document, space),
-        std::string(name_of(machine.simd)),
-        shard.number,
-        shard.of,
-        ends[shard.number - 1],
-        ends[shard.number],
-        engine.units()};
+    const StreamIdentity identity{request_hash(command, source, stacks.first(), space),
+                                  std::string(name_of(machine.simd)),
+                                  shard.number,
+                                  shard.of,
+                                  ends[shard.number - 1],
+                                  ends[shard.number],
+                                  engine.units()};
     std::optional<OrderlyEnd> orderly;
     if (!command.output.file.empty()) orderly.emplace();  // before there is a part
+    std::error_code ignored;
+    if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
+        note(command.output.file +
+                 ".part of an earlier run is begun anew; --resume would have gone on",
+             command.quiet);
     const std::unique_ptr<RecordStream> stream = open_stream(command, format, engine, identity);
     if (stream->is_complete()) return 0;
+    if (stream->rows_done() > 0)
+        note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
     try {
         return write_rows(command, engine, stacks, format, identity, *stream,
                           orderly ? &*orderly : nullptr);
@@ -358,7 +366,7 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
     command.add_flag("--keep-going", typed.keep_going,
                      "leave out combinations that cannot be computed, and say how many");
     if (!command.get_option_no_throw("--stats")) {
-        command.add_flag("--stats", "say on standard error what was used again");
+        command.add_flag("--stats", typed.stats, "say on standard error what was used again");
     } else {
         command.get_option("--stats")->description(
             "adds method,evaluations,error_estimate; the error of methods\n"
@@ -393,7 +401,7 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
             const CLI::Option* const option = command->get_option_no_throw(name);
             return option && option->count() > 0;
         };
-        options->stats = is_given("--stats");
+        options->stats = is_given("--stats");  // of color, perhaps
         options->has_angles = is_given("--angles");
         options->has_wavelengths = is_given("--wavelengths");
         run = [options] { return run_sweep(*options); };

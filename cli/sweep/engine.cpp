@@ -88,18 +88,15 @@ bool has_field(const RecordLayout& layout, const std::string& name) {
     return std::ranges::find(layout, name, &RecordField::name) != layout.end();
 }
 
-/// Runs `work`; what it throws says in which combination.
-template <class Work>
-auto in_combination(const SweepSpace& space, std::uint64_t combination, const Work& work) {
-    const auto place = [&] { return "at " + space.describe(combination) + ": "; };
+/// Runs `work`; what it throws says where: at place().
+template <class Place, class Work>
+auto at_place(const Place& place, const Work& work) {
     try {
         return work();
     } catch (const ToleranceError& error) {
-        throw ToleranceError(place() + error.what());
-    } catch (const UsageError& error) {
-        throw;
-    } catch (const std::runtime_error& error) {  // InputError, DomainError
-        throw InputError("", "", place() + error.what());
+        throw ToleranceError("at " + place() + ": " + error.what());
+    } catch (const std::runtime_error& error) {  // InputError, UsageError, DomainError
+        throw InputError("", "", "at " + place() + ": " + error.what());
     }
 }
 
@@ -178,7 +175,7 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
         if (columns[c].path == kSweptWavelength) wavelength_column_ = c;
     }
     if (wavelength_column_ && !question.takes_wavelength())
-        throw UsageError("--vary wavelength_nm: is for --compute spectrum");
+        throw UsageError("wavelength_nm: varies for --compute spectrum only");
     units_ = space.size();
     is_inner_angle_ = angle_column_ && *angle_column_ + 1 == columns.size() &&
                       !columns.back().of_points && question.splits_angles();
@@ -194,9 +191,7 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
     }
     rows_per_unit_ = question.rows_per_angle();
     if (!angle_column_ && !question.splits_angles()) rows_per_unit_ *= question.angles_deg().size();
-    SweptStacks::Walk walk(stacks_);
-    const RecordLayout answered =
-        in_combination(space_, 0, [&] { return question.layout(walk.at(0).prepared->document); });
+    const RecordLayout answered = question.layout(stacks_.first());
     for (const SweptColumn& column : columns) layout_.push_back(field_of(column));
     for (const RecordField& field : answered)
         if (!has_field(layout_, field.name)) layout_.push_back(field);
@@ -273,7 +268,12 @@ std::size_t SweepEngine::add(std::uint64_t unit, std::size_t count, SweptStacks:
         const auto& place = walk.at(combination);
         return answers.add(*place.prepared, place.stack, incidence);
     };
-    return in_combination(space_, combination, work);
+    const auto place = [&] {
+        const bool names_angle = !is_inner_angle_ && angles_.size() > 1;
+        return space_.describe(combination) +
+               (names_angle ? ", angle_deg=" + to_text(incidence.angles_deg.front()) : "");
+    };
+    return at_place(place, work);
 }
 
 Records SweepEngine::assembled(Records leading, Records answered) const {

@@ -86,6 +86,15 @@ std::size_t SweepSpace::at(std::size_t column, std::uint64_t combination) const 
     return of.codes.empty() ? step : of.codes[step];
 }
 
+std::string SweepSpace::origin_of(std::size_t column, std::size_t index) const {
+    const SweptColumn& of = columns_[column];
+    if (!of.of_points) return "--vary " + of.path + ": ";
+    const auto first = std::ranges::find(of.codes, index);
+    const std::size_t row =
+        of.codes.empty() ? index : static_cast<std::size_t>(first - of.codes.begin());
+    return points_file_ + ": combination " + std::to_string(row + 1) + ": ";
+}
+
 std::string SweepSpace::describe(std::uint64_t combination) const {
     std::string text;
     for (std::size_t c = 0; c < columns_.size(); ++c)
@@ -94,20 +103,29 @@ std::string SweepSpace::describe(std::uint64_t combination) const {
 }
 
 void SweepSpace::add_points(const std::string& file) {
-    for (PointsColumn& read : read_points_csv(read_text(file), shown_path(file))) {
+    points_file_ = shown_path(file);
+    for (PointsColumn& read : read_points_csv(read_text(file), points_file_)) {
         SweptColumn column{std::move(read.path), std::move(read.numbers), std::move(read.texts),
                            std::move(read.codes)};
         column.of_points = true;
         points_ = column.is_text() ? column.codes.size() : column.numbers.size();
-        const auto [lowest, highest] = range_of(column.path);
-        if (is_light(column.path) && column.is_text())
-            throw InputError(shown_path(file), column.path, "must be numbers");
-        for (const double value : column.numbers)
-            if (!(value >= lowest && value <= highest))
-                throw InputError(shown_path(file), column.path,
-                                 "must be in [" + to_text(lowest) + ", " + to_text(highest) +
-                                     "] (got " + to_text(value) + ")");
         columns_.push_back(std::move(column));
+        check_light(columns_.size() - 1);
+    }
+}
+
+void SweepSpace::check_light(std::size_t column) const {
+    const SweptColumn& of = columns_[column];
+    if (!is_light(of.path)) return;
+    const auto [lowest, highest] = range_of(of.path);
+    for (std::size_t i = 0; i < of.size(); ++i) {
+        // where one cell of a column is a text, all are
+        const double value =
+            of.is_text() ? parse_number(of.texts[i]).value_or(lowest - 1) : of.numbers[i];
+        if (!(value >= lowest && value <= highest))
+            throw InputError("", "",
+                             origin_of(column, i) + of.path + ": must be in [" + to_text(lowest) +
+                                 ", " + to_text(highest) + "] (got " + of.text(i) + ")");
     }
 }
 

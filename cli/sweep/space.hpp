@@ -39,15 +39,21 @@ public:
     std::uint64_t size() const { return size_; }
     /// Index of a column's value in one combination.
     std::size_t at(std::size_t column, std::uint64_t combination) const;
+    /// "points.csv: combination 3: " of a point, "--vary PATH: " of a list, for a value of a
+    /// column.
+    std::string origin_of(std::size_t column, std::size_t index) const;
     /// "layers.0.thickness_nm=100, substrate=Ag"
     std::string describe(std::uint64_t combination) const;
 
 private:
     void add_points(const std::string& file);
     void add_list(const std::string& text);
+    /// Angles and wavelengths are numbers in their range. Throws InputError.
+    void check_light(std::size_t column) const;
     void check() const;
 
     std::vector<SweptColumn> columns_;
+    std::string points_file_;
     std::uint64_t points_ = 1, size_ = 1;
 };
 

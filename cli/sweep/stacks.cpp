@@ -31,11 +31,26 @@ std::vector<std::string> paths_of(const SweepSpace& space,
     return paths;
 }
 
+/// Runs `work`; its error says where the value comes from that it is about.
+template <class Work>
+void from_origin(const SweepSpace& space, std::size_t column, std::size_t index, const Work& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        throw InputError("", "", space.origin_of(column, index) + error.what());
+    }
+}
+
 /// The source with the middle one of every varied thickness, for which structures are prepared.
 StackSource with_thicknesses(StackSource source, const SweepSpace& space,
                              const std::vector<std::size_t>& thicknesses) {
     for (const std::size_t c : thicknesses) {
         const SweptColumn& column = space.columns()[c];
+        if (column.is_text()) throw InputError("", "", space.origin_of(c, 0) + "must be numbers");
+        for (std::size_t i = 0; i < column.size(); ++i)
+            from_origin(space, c, i, [&] {
+                VariedStack::require_thickness(source.file, column.path, column.numbers[i]);
+            });
         set_value(source.document, column.path, column.value(column.size() / 2));
     }
     return source;
@@ -49,22 +64,20 @@ SweptStacks::SweptStacks(StackSource source, const SweepSpace& space, const Ques
       structural_(columns_where(space, false)),
       thicknesses_(columns_where(space, true)),
       varied_(with_thicknesses(source, space, thicknesses_), paths_of(space, structural_)),
-      file_(source.file) {}
+      file_(source.file) {
+    read_values();
+}
 
-void SweptStacks::check_values() const {
-    for (const std::size_t c : thicknesses_) {
-        const SweptColumn& column = space_.columns()[c];
-        if (column.is_text())
-            throw InputError(file_, column.path, "must be numbers (got " + column.texts[0] + ")");
-        for (const double value : column.numbers)
-            VariedStack::require_thickness(file_, column.path, value);
-    }
+void SweptStacks::read_values() {
     const std::vector<std::size_t> first = key_of(0);
     for (std::size_t s = 0; s < structural_.size(); ++s) {
         std::vector<std::size_t> key = first;
-        const std::size_t values = space_.columns()[structural_[s]].size();
-        for (key[s] = 0; key[s] < std::min(values, kMostChecked); ++key[s]) document(key);
+        const std::size_t column = structural_[s];
+        const std::size_t values = std::min(space_.columns()[column].size(), kMostChecked);
+        for (key[s] = 0; key[s] < values; ++key[s])
+            from_origin(space_, column, key[s], [&] { document(key); });
     }
+    first_ = document(first);
 }
 
 std::vector<std::size_t> SweptStacks::key_of(std::uint64_t combination) const {

@@ -17,13 +17,14 @@ namespace irido {
 /// threads.
 class SweptStacks {
 public:
-    /// Refers to space and question.
+    /// Refers to space and question. Throws InputError for the first value that is wrong by itself,
+    /// whatever the others are.
     SweptStacks(StackSource source, const SweepSpace& space, const Question& question);
 
     static constexpr std::size_t kMostStructures = 32;
 
-    /// Throws InputError for the first value that is wrong by itself, whatever the others are.
-    void check_values() const;
+    /// The document of the first combination, but for its thicknesses.
+    const StackDocument& first() const { return first_; }
 
     /// Stacks that one thread goes through, combination by combination.
     class Walk {
@@ -57,6 +58,7 @@ private:
         std::uint64_t last_used = 0;
     };
 
+    void read_values();
     StackDocument document(const std::vector<std::size_t>& key) const;
     std::vector<std::size_t> key_of(std::uint64_t combination) const;
     std::shared_ptr<const PreparedStack> prepared(const std::vector<std::size_t>& key);
@@ -67,6 +69,7 @@ private:
     std::vector<std::size_t> structural_, thicknesses_;  ///< columns of the space
     VariedStack varied_;
     std::string file_;
+    StackDocument first_;
     std::mutex lock_;
     std::map<std::vector<std::size_t>, std::shared_ptr<Structure>> structures_;
     std::uint64_t uses_ = 0;

@@ -287,13 +287,19 @@ TEST_CASE("what cannot be computed is said, or left out", "[cli][sweep]") {
     const Outcome kept = run_irido(sweep + Words{"--keep-going"});
     CHECK(kept.status == 0);
     CHECK(parse_csv(kept.out).size() == 4);
-    CHECK(kept.err.find("2 combinations were left out, the first one at angle_deg=60: ") !=
-          std::string::npos);
+    CHECK(kept.err.find("left out 2 of 5, the first one at angle_deg=60: ") != std::string::npos);
     // whether angles come together or not
     const Outcome list =
         run_irido({"sweep", "1.5 | 1@300 | 1.7", "--vary", "substrate=1.7,1.6", "-a", "0:80:20",
                    "--compute", "cm", "-p", "s", "--orders", "1", "--keep-going"});
     CHECK(parse_csv(list.out).size() == 7);
+    CHECK(list.err.find("the first one at substrate=1.7, angle_deg=60: ") != std::string::npos);
+    // whichever comes first
+    const Outcome first =
+        run_irido({"sweep", kFilm, "--vary", "layers.0.material=1.5+0.1i,1.5", "--compute", "cm",
+                   "-p", "s", "--orders", "1", "--keep-going"});
+    CHECK(first.status == 0);
+    CHECK(parse_csv(first.out).size() == 2);
     const Outcome tolerance =
         run_irido({"sweep", kFilm, "--vary", "layers.0.thickness_nm=10,20", "--compute", "color",
                    "--method", "naive", "--tolerance", "1e-3"});
@@ -305,7 +311,7 @@ TEST_CASE("sweeps say what was used again", "[cli][sweep]") {
     const Outcome outcome = run_irido({"sweep", kFilm, "--vary", "substrate=Ag,Au,Cu", "--vary",
                                        "layers.0.thickness_nm=0:100:10", "--compute", "spectrum",
                                        "-w", "500", "--stats"});
-    CHECK(outcome.err.find("33 stacks of 3 structures") != std::string::npos);
+    CHECK(outcome.err.find("stacks 33, of structures 3") != std::string::npos);
 }
 
 TEST_CASE("a sweep that cannot be written leaves nothing", "[cli][sweep]") {
@@ -344,7 +350,8 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep]") {
     refused(color + Words{"--vary", "layers.0.thickness_nm"}, "must be PATH=LIST");
     refused(color + Words{"--vary", "layers.0.thickness_nm=-1:5:1"},
             "must be in [0, 1e9] (got -1)");
-    refused(color + Words{"--vary", "layers.0.thickness_nm=1,Ag"}, "must be a number");
+    refused(color + Words{"--vary", "layers.0.thickness_nm=Ag,1,2"},
+            "--vary layers.0.thickness_nm: must be numbers");
     refused(color + Words{"--vary", "layers.1.thickness_nm=1,2"}, "layers.1.thickness_nm");
     refused(color + Words{"--vary", "layers.0.thicknes_nm=1,2"}, "thickness_nm");
     refused(color + Words{"--vary", "substrate=Ag,Unobtainium"}, "Unobtainium");
@@ -361,6 +368,14 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep]") {
     refused(color + some + Words{"--resume"}, "needs --output FILE");
     refused(color + some + Words{"-f", "svg"}, "must be one of csv, json, npy, h5");
     refused(color + Words{"--points", "tests/data/glass.csv"}, "");
+    const TemporaryFolder folder;
+    const std::string points = folder / "points.csv";
+    write_text(points, "layers.0.thickness_nm,angle_deg\n5,10\n-5,20\n");
+    refused(color + Words{"--points", points}, "points.csv: combination 2: ");
+    write_text(points, "substrate,angle_deg\nSi,10\nSi,99\n");
+    refused(color + Words{"--points", points}, "combination 2: angle_deg: must be in [0, 90]");
+    write_text(points, "substrate,angle_deg\nSi,10\nNone,9\n");
+    refused(color + Words{"--points", points}, "combination 2: ");
     refused({"--compute", "spectrum", "--columns", "A_layers", "--vary",
              R"(layers=[{"material":1.5,"thickness_nm":9}],[])"},
             "as many layers");
