@@ -86,10 +86,17 @@ bool is_shared(const SweptColumn& column) {
 
 /// Stacks of one structure, as far as that is known before.
 double stacks_of_structure(const SweepSpace& space) {
-    double stacks = 1;
-    for (const SweptColumn& column : space.columns())
-        if (is_shared(column) && !column.of_points) stacks *= static_cast<double>(column.size());
-    return stacks;
+    double stacks = 1, points = 1;
+    bool points_share = true;
+    for (const SweptColumn& column : space.columns()) {
+        if (column.of_points) {
+            points = static_cast<double>(column.size());
+            points_share = points_share && is_shared(column);
+        } else if (is_shared(column)) {
+            stacks *= static_cast<double>(column.size());
+        }
+    }
+    return points_share ? stacks * points : stacks;
 }
 
 std::size_t structures_together(const SweepSpace& space) {

@@ -293,7 +293,9 @@ std::unique_ptr<const Question> ColorQuestionOptions::parse(const Answering& ans
 }
 
 nlohmann::json ColorQuestionOptions::typed() const {
+    const Table light = parse_illuminant(color.illuminant);  // a file's content counts
     return {{"angles", angles},
+            {"light", {light.wavelength_nm, light.value}},
             {"side", color.sides},
             {"polarization", color.polarization},
             {"illuminant", color.illuminant},

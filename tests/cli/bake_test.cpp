@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/program.hpp"
 
@@ -256,6 +257,7 @@ TEST_CASE("a table that was altered is made again", "[cli][bake]") {
     fs::remove(file);
     CHECK(restored({}));
     bytes[bytes.size() - 3] ^= 1;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // times of files go in ticks
     write_text(file, bytes);  // newer than the manifest: it is read
     CHECK(restored({}));
     write_text(file, bytes);  // of its size, and older: believed, but with --verify
