@@ -24,6 +24,7 @@ constexpr std::uint64_t kMostBlockRows = 8192, kFirstUnits = 16;
 constexpr std::size_t kBlocksAhead = 4;
 /// Units whose cost says how to cut shards.
 constexpr std::uint64_t kCostSamples = 4096;
+constexpr double kMostUnits = 1e18;
 
 /// Values of the varied columns in front of every row.
 class LeadingColumns {
@@ -187,6 +188,8 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
         angles_ = {&kNoAngle, 1};
     } else {
         angles_ = question.angles_deg();
+        if (static_cast<double>(units_) * static_cast<double>(angles_.size()) > kMostUnits)
+            throw UsageError("--vary: more than 1e18 combinations and angles");
         units_ *= angles_.size();
     }
     rows_per_unit_ = question.rows_per_angle();

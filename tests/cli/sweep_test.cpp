@@ -357,6 +357,12 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep]") {
     refused(color + Words{"--vary", "substrate=Ag,Unobtainium"}, "Unobtainium");
     refused(color + Words{"--vary", "substrate=Ag,,Au"}, "a value is empty");
     refused(color + some + some, "varied twice");
+    refused(color + Words{"--vary", "layers.0.thickness_nm=0:1/10000000", "--vary",
+                          "layers.0.material=1:2/10000000", "--vary", "substrate=1:2/100"},
+            "1e15 combinations");
+    refused(color + Words{"--vary", "layers.0.thickness_nm=0:1/10000000", "--vary",
+                          "layers.0.material=1:2/10000000", "-a", "0:1/100000"},
+            "1e18 combinations");
     refused(color + Words{"--vary", "angle_deg=0,91"}, "must be in [0, 90] (got 91)");
     refused(color + Words{"--vary", "wavelength_nm=500,600"}, "--compute spectrum");
     refused(color + Words{"--vary", "angle_deg=0,10", "-a", "5"}, "leave out --angles");
