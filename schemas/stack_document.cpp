@@ -1,14 +1,12 @@
 #include "schemas/stack_document.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory_resource>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -361,10 +359,8 @@ private:
     std::set<std::string> broken_;
     StackDocument result_;
     std::size_t layers_ = 0;
-    std::array<std::byte, 4096> first_room_;  ///< for what the maps hold: enough for most stacks
-    std::pmr::monotonic_buffer_resource room_{first_room_.data(), first_room_.size()};
-    std::pmr::unordered_map<const json*, std::size_t, JsonHash, JsonEqual> by_text_{&room_};
-    std::pmr::unordered_multimap<std::uint64_t, std::size_t> by_hash_{&room_};
+    std::unordered_map<const json*, std::size_t, JsonHash, JsonEqual> by_text_;
+    std::unordered_multimap<std::uint64_t, std::size_t> by_hash_;
 };
 
 std::string folder_of(const std::string& path) {
