@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -179,17 +180,19 @@ TEST_CASE("standard output has the bytes of the file", "[cli][sweep]") {
 TEST_CASE("a killed sweep is resumed to the same bytes", "[cli][sweep]") {
     const int kills = count_from_environment("IRIDO_TEST_KILLS", 12);
     std::mt19937 random(20);
-    std::uniform_int_distribution<int> milliseconds(20, 250);
     for (const std::string& format : kFormats) {
         const TemporaryFolder folder;
         const Words sweep{"sweep",    kFilm,        "--vary",    "layers.0.thickness_nm=0:40000:20",
                           "-a",       "0:80:40",    "--compute", "color",
                           "--method", "quadrature", "-o"};
         const std::string whole = folder / ("whole." + format), file = folder / ("f." + format);
+        const auto start = std::chrono::steady_clock::now();
         out_of(sweep + Words{whole});
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        std::uniform_real_distribution<double> moment(0.1 * took.count(), 1.2 * took.count());
         int killed = 0, ended = 0;
         while (killed < kills / 4 || ended == 0) {
-            const std::string seconds = std::to_string(milliseconds(random) / 1000.0);
+            const std::string seconds = std::to_string(moment(random));
             const Outcome outcome =
                 run_shell("timeout -s " + std::string(killed % 3 == 2 ? "INT" : "KILL") + " " +
                               seconds + " \"$IRIDO\"" + quoted(sweep + Words{file, "--resume"}),
