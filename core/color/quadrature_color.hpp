@@ -14,9 +14,9 @@ namespace irido {
 /// tolerance where the effort ran out: request.evaluations, or earlier for stacks of many layers,
 /// after about a second of work. A colour does not depend on the other angles of a call.
 /// Where request.varied leaves layers that many colours have in common, and the vector kernel takes
-/// the stack, these are stored for the angles asked for last, as request.kept_numbers has room: quickest where one angle's
-/// colours follow each other. Stacks that differ in other layers are then refused by DomainError.
-/// Throws DomainError as StackPower and IndexTable do.
+/// the stack, these are stored for the angles asked for last, as request.kept_numbers has room:
+/// quickest where one angle's colours follow each other. Stacks that differ in other layers are
+/// then refused by DomainError. Throws DomainError as StackPower and IndexTable do.
 std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
                                                  const ColorRequest& request);
 
