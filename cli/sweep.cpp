@@ -80,8 +80,7 @@ private:
 
 /// Whether stacks that differ in it only are of one structure.
 bool is_shared(const SweptColumn& column) {
-    return VariedStack::is_thickness(column.path) || column.path == kSweptAngle ||
-           column.path == kSweptWavelength;
+    return column.is_light() || VariedStack::is_thickness(column.path);
 }
 
 /// Stacks of one structure, as far as that is known before.
@@ -132,14 +131,16 @@ std::optional<double> swept_wavelength(const SweepSpace& space) {
 }
 
 /// All that the rows depend on, but for the machine.
-std::string request_hash(const SweepCommand& command, const StackSource& source,
-                         const StackDocument& first, const SweepSpace& space) {
+std::string request_hash(const SweepCommand& command, const Question& question,
+                         const StackSource& source, const StackDocument& first,
+                         const SweepSpace& space) {
     nlohmann::json vary = nlohmann::json::array();
     for (const SweptColumn& column : space.columns())
         vary.push_back({column.path, column.numbers, column.texts, column.codes, column.of_points});
     const nlohmann::json request{{"version", IRIDO_VERSION},
                                  {"compute", command.kind->name},
                                  {"options", command.typed->typed()},
+                                 {"data", question.data()},
                                  {"stack", source.document},
                                  {"first", canonical_stack(first.stack)},
                                  {"vary", std::move(vary)}};
@@ -284,7 +285,7 @@ int run_sweep(const SweepCommand& command) {
     SweepEngine engine(stacks, space, *question, command.keep_going);
     const std::vector<std::uint64_t> ends =
         shard.of > 1 ? engine.shard_ends(shard.of) : std::vector<std::uint64_t>{0, engine.units()};
-    const StreamIdentity identity{request_hash(command, source, stacks.first(), space),
+    const StreamIdentity identity{request_hash(command, *question, source, stacks.first(), space),
                                   std::string(name_of(machine.simd)),
                                   shard.number,
                                   shard.of,

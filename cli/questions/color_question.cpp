@@ -30,16 +30,9 @@ std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
 }
 
 struct ColorStack : PreparedStack {
-    ColorStack(StackDocument read, const Sensitivity& sensitivity)
-        : PreparedStack(std::move(read)),
-          pieces(smooth_pieces(document.stack, sensitivity.support()).size() - 1),
-          indices(held_stack(document.stack, sensitivity), {kPathWavelength_nm}) {}
+    using PreparedStack::PreparedStack;
 
-    static constexpr double kPathWavelength_nm = 500;
     std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one a lighting
-    // for the cost:
-    std::size_t pieces;
-    IndexTable indices;
 };
 
 /// Columns of rows that are filled one after another.
@@ -106,6 +99,7 @@ private:
 
 ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering& answering)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
+      illuminant_(parse_illuminant(typed.color.illuminant)),
       method_(parse_method(typed.color)),
       held_to_tolerance_(!typed.color.tolerance.empty()),
       space_(&parse_space(typed.color.space)),
@@ -124,8 +118,8 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
     request_.simd = answering.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
     const std::string& first = typed.color.illuminant;
-    lightings_.push_back(std::make_unique<Lighting>(
-        first, Sensitivity(eye, parse_illuminant(first)), *space_, adaptation));
+    lightings_.push_back(
+        std::make_unique<Lighting>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
     if (!typed.compare) return;
     for (const std::string_view name : illuminant_names())
         if (name != first)
@@ -153,13 +147,16 @@ RecordLayout ColorQuestion::layout(const StackDocument&) const {
     return layout;
 }
 
+nlohmann::json ColorQuestion::data() const {
+    return {illuminant_.wavelength_nm, illuminant_.value};
+}
+
 std::unique_ptr<const PreparedStack> ColorQuestion::prepare(StackDocument document) const {
     report_held_ranges(document, lightings_.front()->tables.sensitivity(), strict_,
                        answering_.note);
     const std::string file = document.file;
     try {
-        auto prepared = std::make_unique<ColorStack>(std::move(document),
-                                                     lightings_.front()->tables.sensitivity());
+        auto prepared = std::make_unique<ColorStack>(std::move(document));
         for (const auto& lighting : lightings_)
             prepared->algorithms.push_back(
                 color_algorithm(lighting->tables, prepared->document.stack, method_, request_));
@@ -175,11 +172,13 @@ std::unique_ptr<Answers> ColorQuestion::answers() const {
 
 double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                               std::optional<double>) const {
-    constexpr double kColor = 1, kLayer = 0.012;
-    const auto& of = static_cast<const ColorStack&>(prepared);
+    constexpr double kColor = 1, kLayer = 0.012, kPathWavelength_nm = 500;
+    const Sensitivity& sensitivity = lightings_.front()->tables.sensitivity();
+    const Stack& model = prepared.document.stack;
+    const IndexTable indices(held_stack(model, sensitivity), {kPathWavelength_nm});
+    const std::size_t pieces = smooth_pieces(model, sensitivity.support()).size() - 1;
     return static_cast<double>(lightings_.size()) *
-           (kColor +
-            kLayer * quadrature_work(stack, of.indices, of.pieces, cos_of_incidence(angle_deg)));
+           (kColor + kLayer * quadrature_work(stack, indices, pieces, cos_of_incidence(angle_deg)));
 }
 
 StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& stack,
@@ -293,9 +292,7 @@ std::unique_ptr<const Question> ColorQuestionOptions::parse(const Answering& ans
 }
 
 nlohmann::json ColorQuestionOptions::typed() const {
-    const Table light = parse_illuminant(color.illuminant);  // a file's content counts
     return {{"angles", angles},
-            {"light", {light.wavelength_nm, light.value}},
             {"side", color.sides},
             {"polarization", color.polarization},
             {"illuminant", color.illuminant},

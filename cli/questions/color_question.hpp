@@ -54,6 +54,7 @@ public:
     bool splits_angles() const override { return lightings_.size() == 1; }
     std::size_t rows_per_angle() const override { return lightings_.size() * sides().size(); }
     RecordLayout layout(const StackDocument& document) const override;
+    nlohmann::json data() const override;
     std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
@@ -72,6 +73,7 @@ private:
                       bool approximate) const;
 
     std::vector<double> angles_deg_;
+    Table illuminant_;  ///< asked for
     std::vector<std::unique_ptr<Lighting>> lightings_;
     ColorMethod method_;
     ColorRequest request_;

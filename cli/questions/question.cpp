@@ -1,6 +1,7 @@
 #include "cli/questions/question.hpp"
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "cli/questions/bands_question.hpp"
 #include "cli/questions/cm_question.hpp"
@@ -8,6 +9,10 @@
 #include "cli/questions/spectrum_question.hpp"
 
 namespace irido {
+
+nlohmann::json Question::data() const {
+    return nullptr;
+}
 
 Records records_of(const Question& question, const PreparedStack& prepared) {
     const std::unique_ptr<Answers> answers = question.answers();

@@ -82,6 +82,9 @@ public:
     /// Names and types of the rows' columns.
     virtual RecordLayout layout(const StackDocument& document) const = 0;
 
+    /// What the answers depend on that was read from files.
+    virtual nlohmann::json data() const;
+
     /// Throws InputError or UsageError. Safe from many threads.
     virtual std::unique_ptr<const PreparedStack> prepare(StackDocument document) const = 0;
     virtual std::unique_ptr<Answers> answers() const = 0;
@@ -101,7 +104,7 @@ public:
 
     /// Throws UsageError or InputError.
     virtual std::unique_ptr<const Question> parse(const Answering& answering) const = 0;
-    /// All that the answers depend on, besides stack and Answering.
+    /// All that the answers depend on, besides stack, Answering and what is read from files.
     virtual nlohmann::json typed() const = 0;
 };
 

@@ -172,6 +172,7 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
     : stacks_(stacks), space_(space), question_(question), keep_going_(keep_going) {
     const auto& columns = space.columns();
     for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (!columns[c].is_light()) led_by_.push_back(c);
         if (columns[c].path == kSweptAngle) angle_column_ = c;
         if (columns[c].path == kSweptWavelength) wavelength_column_ = c;
     }
@@ -202,18 +203,15 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
 
 double SweepEngine::cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const {
     const std::uint64_t combination = combination_of(unit);
-    const auto value = [&](std::size_t column) {
-        return space_.columns()[column].numbers[space_.at(column, combination)];
-    };
     constexpr double kLeftOut = 1;
     std::optional<double> wavelength_nm;
-    if (wavelength_column_) wavelength_nm = value(*wavelength_column_);
+    if (wavelength_column_) wavelength_nm = number_at(*wavelength_column_, combination);
     try {
         const auto& place = walk.at(combination);
         const auto cost = [&](double angle_deg) {
             return question_.cost_us(*place.prepared, place.stack, angle_deg, wavelength_nm);
         };
-        if (angle_column_) return cost(value(*angle_column_));
+        if (angle_column_) return cost(number_at(*angle_column_, combination));
         if (question_.splits_angles()) return cost(angles_[unit % angles_.size()]);
         return cost(0) * static_cast<double>(question_.angles_deg().size());
     } catch (const std::runtime_error&) {
@@ -253,20 +251,17 @@ std::vector<std::uint64_t> SweepEngine::shard_ends(std::uint64_t shards) {
 std::size_t SweepEngine::add(std::uint64_t unit, std::size_t count, SweptStacks::Walk& walk,
                              Answers& answers) {
     const std::uint64_t combination = combination_of(unit);
-    const auto value = [&](std::size_t column) {
-        return space_.columns()[column].numbers[space_.at(column, combination)];
-    };
     double angle_deg = 0;
     Incidence incidence;
     if (angle_column_) {
-        angle_deg = value(*angle_column_);
+        angle_deg = number_at(*angle_column_, combination);
         incidence.angles_deg = {&angle_deg, 1};
     } else if (question_.splits_angles()) {
         incidence.angles_deg = angles_.subspan(unit % angles_.size(), count);
     } else {
         incidence.angles_deg = question_.angles_deg();
     }
-    if (wavelength_column_) incidence.wavelength_nm = value(*wavelength_column_);
+    if (wavelength_column_) incidence.wavelength_nm = number_at(*wavelength_column_, combination);
     const auto work = [&] {
         const auto& place = walk.at(combination);
         return answers.add(*place.prepared, place.stack, incidence);
@@ -288,9 +283,8 @@ Records SweepEngine::assembled(Records leading, Records answered) const {
         answered.columns.erase(found);
     };
     for (std::size_t c = 0; c < space_.columns().size(); ++c) {
-        const std::string& path = space_.columns()[c].path;
-        if (path != kSweptAngle && path != kSweptWavelength) continue;
-        move_here(path);
+        if (!space_.columns()[c].is_light()) continue;
+        move_here(space_.columns()[c].path);
         std::rotate(all.columns.begin() + static_cast<std::ptrdiff_t>(c), all.columns.end() - 1,
                     all.columns.end());
     }
@@ -315,12 +309,7 @@ void SweepEngine::take_alone(std::uint64_t unit, const std::function<void()>& ta
 
 void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const StreamFormat& format,
                           const std::atomic<bool>& stopped) {
-    std::vector<std::size_t> led_by;
-    for (std::size_t c = 0; c < space_.columns().size(); ++c) {
-        const std::string& path = space_.columns()[c].path;
-        if (path != kSweptAngle && path != kSweptWavelength) led_by.push_back(c);
-    }
-    LeadingColumns leading(space_, led_by);
+    LeadingColumns leading(space_, led_by_);
     const std::unique_ptr<Answers> answers = question_.answers();
     const auto take = [&](std::uint64_t unit, std::uint64_t count) {
         const std::size_t rows = add(unit, count, walk, *answers);

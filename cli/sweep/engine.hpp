@@ -51,6 +51,9 @@ private:
     std::uint64_t combination_of(std::uint64_t unit) const {
         return is_inner_angle_ ? unit : unit / angles_.size();
     }
+    double number_at(std::size_t column, std::uint64_t combination) const {
+        return space_.columns()[column].numbers[space_.at(column, combination)];
+    }
     double cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const;
     void compute(Block& block, SweptStacks::Walk& walk, const StreamFormat& format,
                  const std::atomic<bool>& stopped);
@@ -64,8 +67,9 @@ private:
     const SweepSpace& space_;
     const Question& question_;
     bool keep_going_;
-    std::span<const double> angles_;  ///< of one combination but for its angle, one a unit
-    bool is_inner_angle_ = false;     ///< they are the space's last column
+    std::span<const double> angles_;   ///< of one combination but for its angle, one a unit
+    bool is_inner_angle_ = false;      ///< they are the space's last column
+    std::vector<std::size_t> led_by_;  ///< columns that are values of the stack
     std::optional<std::size_t> angle_column_, wavelength_column_;  ///< set by the combination
     std::uint64_t units_ = 0, rows_per_unit_ = 0;
     RecordLayout layout_;

@@ -25,10 +25,6 @@ std::pair<double, double> range_of(std::string_view path) {
     return {-kLargestNumber, kLargestNumber};
 }
 
-bool is_light(std::string_view path) {
-    return path == kSweptAngle || path == kSweptWavelength;
-}
-
 /// Whether an item of a list is a number or start:stop:step or start:stop/count.
 bool is_numeric(std::string_view item) {
     return parse_number(trimmed(item.substr(0, item.find(':')))).has_value();
@@ -49,6 +45,10 @@ std::vector<double> numbers_of(const std::string& path, std::string_view list) {
 }
 
 }  // namespace
+
+bool SweptColumn::is_light() const {
+    return path == kSweptAngle || path == kSweptWavelength;
+}
 
 nlohmann::json SweptColumn::value(std::size_t index) const {
     if (!is_text()) return numbers[index];
@@ -116,7 +116,7 @@ void SweepSpace::add_points(const std::string& file) {
 
 void SweepSpace::check_light(std::size_t column) const {
     const SweptColumn& of = columns_[column];
-    if (!is_light(of.path)) return;
+    if (!of.is_light()) return;
     const auto [lowest, highest] = range_of(of.path);
     for (std::size_t i = 0; i < of.size(); ++i) {
         // where one cell of a column is a text, all are
@@ -138,7 +138,7 @@ void SweepSpace::add_list(const std::string& text) {
     column.path = text.substr(0, equals);
     const std::string_view list = std::string_view(text).substr(equals + 1);
     const std::vector<std::string_view> items = split_values(list);
-    if (is_light(column.path) || std::ranges::all_of(items, is_numeric)) {
+    if (column.is_light() || std::ranges::all_of(items, is_numeric)) {
         column.numbers = numbers_of(column.path, list);
     } else {
         for (const std::string_view item : items) {

@@ -7,6 +7,8 @@
 
 namespace irido {
 
+inline constexpr std::string_view kSweptAngle = "angle_deg", kSweptWavelength = "wavelength_nm";
+
 /// One thing that a sweep varies, and what it becomes.
 struct SweptColumn {
     std::string path;                  ///< in the stack document; or angle_deg, wavelength_nm
@@ -17,14 +19,14 @@ struct SweptColumn {
     std::uint64_t stride = 1;          ///< combinations for which a value stays
 
     bool is_text() const { return !texts.empty(); }
+    /// Whether it is an angle or a wavelength, not a value of the stack.
+    bool is_light() const;
     std::size_t size() const { return is_text() ? texts.size() : numbers.size(); }
     /// The value as JSON, as --set reads it.
     nlohmann::json value(std::size_t index) const;
     /// The value as printed.
     std::string text(std::size_t index) const;
 };
-
-inline constexpr std::string_view kSweptAngle = "angle_deg", kSweptWavelength = "wavelength_nm";
 
 /// All combinations of varied values: of every point with every value of every list, the last
 /// list's value changing first.

@@ -17,9 +17,9 @@ constexpr std::size_t kMostChecked = 1000;
 std::vector<std::size_t> columns_where(const SweepSpace& space, bool thickness) {
     std::vector<std::size_t> columns;
     for (std::size_t c = 0; c < space.columns().size(); ++c) {
-        const std::string& path = space.columns()[c].path;
-        if (path == kSweptAngle || path == kSweptWavelength) continue;
-        if (VariedStack::is_thickness(path) == thickness) columns.push_back(c);
+        const SweptColumn& column = space.columns()[c];
+        if (!column.is_light() && VariedStack::is_thickness(column.path) == thickness)
+            columns.push_back(c);
     }
     return columns;
 }
