@@ -96,7 +96,9 @@ auto at_place(const Place& place, const Work& work) {
         return work();
     } catch (const ToleranceError& error) {
         throw ToleranceError("at " + place() + ": " + error.what());
-    } catch (const std::runtime_error& error) {  // InputError, UsageError, DomainError
+    } catch (const std::runtime_error& error) {  // InputError, UsageError
+        throw InputError("", "", "at " + place() + ": " + error.what());
+    } catch (const DomainError& error) {
         throw InputError("", "", "at " + place() + ": " + error.what());
     }
 }
@@ -214,8 +216,10 @@ double SweepEngine::cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const {
         if (angle_column_) return cost(number_at(*angle_column_, combination));
         if (question_.splits_angles()) return cost(angles_[unit % angles_.size()]);
         return cost(0) * static_cast<double>(question_.angles_deg().size());
-    } catch (const std::runtime_error&) {
-        return kLeftOut;  // an error for the run to find
+    } catch (const std::runtime_error&) {  // errors for the run to find
+        return kLeftOut;
+    } catch (const DomainError&) {
+        return kLeftOut;
     }
 }
 

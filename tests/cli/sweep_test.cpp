@@ -303,6 +303,15 @@ TEST_CASE("what cannot be computed is said, or left out", "[cli][sweep]") {
                    "-p", "s", "--orders", "1", "--keep-going"});
     CHECK(first.status == 0);
     CHECK(parse_csv(first.out).size() == 2);
+    // whatever the parts
+    for (const std::string shard : {"1/2", "2/2"}) {
+        const Outcome part = run_irido({"sweep", "1.6 | (1.5@100 | 1.7@150)^10 | 1.6", "--vary",
+                                        "layers.0.repeat=5,10", "-a", "0,85", "--compute", "bands",
+                                        "--keep-going", "--shard", shard});
+        INFO(part.err);
+        CHECK(part.status == 0);
+        CHECK(part.err.find("left out 1 of 2") != std::string::npos);
+    }
     const Outcome tolerance =
         run_irido({"sweep", kFilm, "--vary", "layers.0.thickness_nm=10,20", "--compute", "color",
                    "--method", "naive", "--tolerance", "1e-3"});
