@@ -50,7 +50,7 @@ std::vector<double> numbers_of(const Line& line, const std::vector<std::string_v
     values.reserve(fields.size());
     for (const std::string_view field : fields) {
         const auto value = parse_number(field);
-        if (!value) line.fail(field, "must be a number (got " + quoted(field) + ")");
+        if (!value) line.fail(field, "must be a number (got " + in_quotes(field) + ")");
         values.push_back(*value);
     }
     return values;

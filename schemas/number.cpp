@@ -21,7 +21,7 @@ std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 40;
     std::string result = "'";
     for (const char c : text.substr(0, kLongest))

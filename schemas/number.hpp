@@ -15,6 +15,6 @@ std::string_view trimmed(std::string_view text);
 std::optional<double> parse_number(std::string_view text);
 
 /// `text` in single quotes for a message: at most 40 bytes of it, without control characters.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace irido

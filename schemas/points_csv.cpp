@@ -86,7 +86,7 @@ private:
         if (const std::size_t quote = result.text.find('"'); quote != std::string_view::npos)
             fail(result.at + quote,
                  "a cell with quotes must be in quotes, with each of its own doubled (got " +
-                     quoted(result.text) + ")");
+                     in_quotes(result.text) + ")");
         return result;
     }
 
@@ -123,9 +123,9 @@ std::vector<PointsColumn> read_header(Rows& rows) {
     for (const auto& [text, at] : cells) {
         if (text.empty()) rows.fail(at, "the name of a column must not be empty");
         if (parse_number(text))
-            rows.fail(at, "the first row must name the paths (got " + quoted(text) + ")");
+            rows.fail(at, "the first row must name the paths (got " + in_quotes(text) + ")");
         if (!paths.insert(text).second)
-            rows.fail(at, "the column " + quoted(text) + " is there twice");
+            rows.fail(at, "the column " + in_quotes(text) + " is there twice");
         columns.emplace_back().path = text;
     }
     return columns;
@@ -149,7 +149,7 @@ std::vector<bool> read_numbers(Rows rows, std::vector<PointsColumn>& columns) {
             if (text.empty()) rows.fail(at, "a cell must not be empty");
             if (is_unusable_number(text))
                 rows.fail(at,
-                          "must be a finite number that a double holds (got " + quoted(text) + ")");
+                          "must be a finite number that a double holds (got " + in_quotes(text) + ")");
             has_texts[c] = true;
         }
     }

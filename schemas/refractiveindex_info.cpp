@@ -57,7 +57,7 @@ std::vector<double> numbers_of(std::string_view line, const Reader& reader) {
     for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
         const std::string_view token = line.substr(0, line.find_first_of(" \t"));
         const auto number = parse_number(token);
-        if (!number) reader.fail("must be a number (got " + quoted(token) + ")");
+        if (!number) reader.fail("must be a number (got " + in_quotes(token) + ")");
         numbers.push_back(*number);
         line.remove_prefix(token.size());
     }
@@ -79,7 +79,7 @@ WavelengthRange range_of(const YAML::Node& item, const Reader& reader) {
 
 Item formula_item(const YAML::Node& item, std::string_view number, const Reader& reader) {
     if (number.size() != 1 || number[0] < '1' || number[0] > '9')
-        reader.fail("formula must be 1 to 9 (got " + quoted(number) + ")");
+        reader.fail("formula must be 1 to 9 (got " + in_quotes(number) + ")");
     const int index = number[0] - '0';
     auto coefficients = numbers_of(text_of(item, "coefficients", reader), reader);
     const std::size_t most = kMostCoefficients[static_cast<std::size_t>(index - 1)];
@@ -163,7 +163,7 @@ Item table_item(const YAML::Node& item, std::string_view quantity, Reader& reade
     if (quantity == "n2")
         reader.fail("tabulated n2 is a nonlinear index in m^2/W, not a refractive index");
     if (quantity != "n" && quantity != "k" && quantity != "nk")
-        reader.fail("unknown type " + quoted("tabulated " + std::string(quantity)));
+        reader.fail("unknown type " + in_quotes("tabulated " + std::string(quantity)));
     auto rows = rows_of(text_of(item, "data", reader), quantity.size() + 1, reader);
     put_in_order(rows, reader);
     average_equal_wavelengths(rows, reader);
@@ -180,7 +180,7 @@ Item item_of(const YAML::Node& item, Reader& reader) {
     const std::string_view rest = trimmed(std::string_view(type).substr(blank));
     if (kind == "formula") return formula_item(item, rest, reader);
     if (kind == "tabulated") return table_item(item, rest, reader);
-    reader.fail("unknown type " + quoted(type));
+    reader.fail("unknown type " + in_quotes(type));
 }
 
 WavelengthRange range_of(const Dispersion& dispersion) {

@@ -15,7 +15,7 @@ namespace irido::test {
 
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
     std::string out = "'";
     for (const char c : text) {
         if (c == '\'') {
@@ -54,9 +54,9 @@ void write_text(const std::string& path, const std::string& text) {
 
 Outcome run_shell(const std::string& command, const std::string& folder) {
     const TemporaryFolder captured;
-    const std::string line = "cd " + quoted(folder) + " && IRIDO=" + quoted(IRIDO_BINARY) +
+    const std::string line = "cd " + in_quotes(folder) + " && IRIDO=" + in_quotes(IRIDO_BINARY) +
                              " && export IRIDO && { " + command + "\n} > " +
-                             quoted(captured / "out") + " 2> " + quoted(captured / "err");
+                             in_quotes(captured / "out") + " 2> " + in_quotes(captured / "err");
     const int status = std::system(line.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
             read_file(captured / "out"), read_file(captured / "err")};
@@ -67,8 +67,8 @@ Outcome run_irido(const std::vector<std::string>& arguments, const std::string& 
     const TemporaryFolder stage;
     write_text(stage / "in", input);
     std::string command = "\"$IRIDO\"";
-    for (const std::string& argument : arguments) command += " " + quoted(argument);
-    return run_shell(command + " < " + quoted(stage / "in"), folder);
+    for (const std::string& argument : arguments) command += " " + in_quotes(argument);
+    return run_shell(command + " < " + in_quotes(stage / "in"), folder);
 }
 
 void check_refused(const Outcome& outcome, const std::string& error) {

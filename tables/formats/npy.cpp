@@ -39,7 +39,7 @@ std::string type_name(const RecordField& field) {
 }
 
 /// As a Python literal of ASCII.
-std::string quoted(const std::string& name) {
+std::string in_quotes(const std::string& name) {
     std::string out = "'";
     for (const char32_t c : code_points(name)) {
         if (c >= 0x20 && c < 0x7F) {
@@ -59,7 +59,7 @@ std::string quoted(const std::string& name) {
 std::string npy_head(const RecordLayout& layout, std::uint64_t rows, bool is_open) {
     std::string type = "[";
     for (const RecordField& field : layout)
-        type += "(" + quoted(field.name) + ", '" + type_name(field) + "'), ";
+        type += "(" + in_quotes(field.name) + ", '" + type_name(field) + "'), ";
     const std::string count = std::to_string(rows);
     return npy_header(type + "]", "(" + count + ",)", is_open ? kDigits - count.size() : 0);
 }

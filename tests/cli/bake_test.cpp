@@ -323,7 +323,7 @@ TEST_CASE("the example scenes bake, and their tables are right", "[cli][bake]") 
         const TemporaryFolder folder;
         std::string scene = "schemas/examples/scenes/" + name + ".json";
         if (name == "soap-bubbles") {  // with a coarser tolerance: its own takes 7 times as long
-            json coarse = json::parse(read_file(std::string(IRIDO_SOURCE_DIR) + "/" + scene));
+            json coarse = json::parse(read_file(IRIDO_SOURCE_DIR "/" + scene));
             coarse["tolerance"]["delta_e"] = 4;
             scene = folder / "scene.json";
             write_text(scene, coarse.dump());

@@ -215,7 +215,7 @@ TEST_CASE("tables have the same bytes from run to run and thread to thread", "[c
 
 TEST_CASE("no path and no thread count get into a file", "[cli][lut]") {
     TemporaryFolder folder;
-    const std::string stack = std::string(IRIDO_SOURCE_DIR) + "/schemas/examples/soap-bubble.json";
+    const std::string stack = IRIDO_SOURCE_DIR "/schemas/examples/soap-bubble.json";
     REQUIRE(run_irido({"lut", "color", stack, "-j", "3", "-o", folder / "t.ktx2"}).status == 0);
     const std::string text = info(folder / "t.ktx2").dump();
     CHECK(text.find("/") == std::string::npos);

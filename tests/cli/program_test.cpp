@@ -84,7 +84,7 @@ TEST_CASE("all examples are valid and have a colour", "[cli][examples]") {
 TEST_CASE("validate prints the schema that it uses", "[cli][validate]") {
     const Outcome schema = run_irido({"validate", "--schema"});
     CHECK(schema.status == 0);
-    CHECK(schema.out == read_file(std::string(IRIDO_SOURCE_DIR) + "/schemas/stack.schema.json"));
+    CHECK(schema.out == read_file(IRIDO_SOURCE_DIR "/schemas/stack.schema.json"));
     CHECK(run_irido({"validate"}).status == 2);
 }
 

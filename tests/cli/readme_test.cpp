@@ -16,7 +16,7 @@ struct Example {
 std::vector<Example> examples() {
     const std::string indent = "    ";
     std::vector<Example> found;
-    std::istringstream lines(read_file(std::string(IRIDO_SOURCE_DIR) + "/README.md"));
+    std::istringstream lines(read_file(IRIDO_SOURCE_DIR "/README.md"));
     bool inside = false;
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with(indent + "$ ")) {

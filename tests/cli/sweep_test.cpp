@@ -37,7 +37,7 @@ Table rows_of(const Words& arguments) {
 }
 
 /// The command as one word a shell takes apart again.
-std::string quoted(const Words& arguments) {
+std::string in_quotes(const Words& arguments) {
     std::string text;
     for (const std::string& argument : arguments) text += " '" + argument + "'";
     return text;
@@ -195,7 +195,7 @@ TEST_CASE("a killed sweep is resumed to the same bytes", "[cli][sweep]") {
             const std::string seconds = std::to_string(moment(random));
             const Outcome outcome =
                 run_shell("timeout -s " + std::string(killed % 3 == 2 ? "INT" : "KILL") + " " +
-                              seconds + " \"$IRIDO\"" + quoted(sweep + Words{file, "--resume"}),
+                              seconds + " \"$IRIDO\"" + in_quotes(sweep + Words{file, "--resume"}),
                           folder.path());
             if (outcome.status != 0) ++killed;
             if (std::filesystem::exists(file)) {  // be it that it was killed right after
@@ -217,7 +217,7 @@ TEST_CASE("a part is resumed by its own command only", "[cli][sweep]") {
     const Words sweep{"sweep",     kFilm,   "--vary",   "layers.0.thickness_nm=0:1e6:20",
                       "--compute", "color", "--method", "quadrature"};
     const Outcome stopped =
-        run_shell("timeout -s INT 0.5 \"$IRIDO\"" + quoted(sweep + Words{"-o", file}) + "; echo $?",
+        run_shell("timeout -s INT 0.5 \"$IRIDO\"" + in_quotes(sweep + Words{"-o", file}) + "; echo $?",
                   folder.path());
     CHECK(stopped.out == "124\n");
     CHECK(stopped.err.find("--resume") != std::string::npos);
@@ -329,7 +329,7 @@ TEST_CASE("sweeps say what was used again", "[cli][sweep]") {
 TEST_CASE("a sweep that cannot be written leaves nothing", "[cli][sweep]") {
     const TemporaryFolder folder;
     const std::string command =
-        "\"$IRIDO\"" + quoted({"sweep", kFilm, "--vary", "layers.0.thickness_nm=0:20000:1",
+        "\"$IRIDO\"" + in_quotes({"sweep", kFilm, "--vary", "layers.0.thickness_nm=0:20000:1",
                                "--compute", "color", "--quiet"});
     for (const std::string& format : kFormats) {
         const Outcome full =

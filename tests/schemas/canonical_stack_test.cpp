@@ -17,7 +17,7 @@ json canonical(const std::string& stack) {
 
 json canonical_of(const json& document) {
     return canonical_stack(
-        read_stack(document, "test", std::string(IRIDO_SOURCE_DIR) + "/tests/data").stack);
+        read_stack(document, "test", IRIDO_SOURCE_DIR "/tests/data").stack);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ TEST_CASE("built-in materials keep their names, those of files become numbers", 
 TEST_CASE("canonical stacks of the examples read back as the same stacks", "[canonical]") {
     int read_back = 0;
     for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(IRIDO_SOURCE_DIR) + "/schemas/examples")) {
+         std::filesystem::directory_iterator(IRIDO_SOURCE_DIR "/schemas/examples")) {
         if (entry.path().extension() != ".json") continue;
         CAPTURE(entry.path().string());
         const json once = canonical(entry.path().string());

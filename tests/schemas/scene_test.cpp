@@ -308,7 +308,7 @@ TEST_CASE("validate prints each schema", "[cli][validate][scene]") {
         const Outcome outcome = run_irido({"validate", "--schema", name});
         CHECK(outcome.status == 0);
         CHECK(outcome.out ==
-              read_file(std::string(IRIDO_SOURCE_DIR) + "/schemas/" + name + ".schema.json"));
+              read_file(IRIDO_SOURCE_DIR "/schemas/" + name + ".schema.json"));
     }
     check_refused(run_irido({"validate", "--schema", "scenes"}),
                   "--schema: must be one of stack, scene, manifest, lut (got 'scenes') (did you "

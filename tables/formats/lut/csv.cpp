@@ -120,7 +120,7 @@ public:
         is_cut_ = end == std::string_view::npos;
         if (!is_cut_) rest_.remove_prefix(end + 1);
         const std::optional<double> value = parse_number(trimmed(token));
-        if (!value) fail(quoted(token) + " is not a finite number");
+        if (!value) fail(in_quotes(token) + " is not a finite number");
         return *value;
     }
     bool is_at_end() const { return is_cut_; }
