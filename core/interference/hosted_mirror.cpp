@@ -97,7 +97,7 @@ std::optional<Power> mirror_power(const HostedMirror& mirror, const Medium& host
     const double both_cos = cos_a * cos_b, both_sin = sin_a * sin_b;
     const double sin2 = (m.ratio * crossed + straight) * (m.inverse * crossed + straight);
     const double cos2 = (both_cos - m.ratio * both_sin) * (both_cos - m.inverse * both_sin);
-    const double small = std::abs(cos2) < std::abs(sin2) ? cos2 : sin2;  // of K or pi - K
+    const double small = std::min(sin2, cos2);  // of K or pi - K; negative in gaps
     const bool band = small >= 0;
     const double root = std::sqrt(std::abs(small));
     const double sine = 2 * root * std::sqrt(1 - small);

@@ -10,6 +10,12 @@ namespace {
 /// Where exp(2 |Im K|) passes the digits of a double, only one Bloch wave is left.
 constexpr double kLargestLogTrace = 40;
 
+/// Entries beside I or -I below which these tell more of the Bloch phase than the trace.
+constexpr double kNearlyIdentity = 0.5;
+
+/// Past N Im K of this the smaller one of the diagonal entries of M^N is summed apart.
+constexpr double kDeepExponent = 1;
+
 /// (sign cos(z) - 1) exp(-log_scale); cos_z is cos(z) exp(-Im z), log_scale >= Im z.
 Complex without_identity(double sign, Complex z, Complex cos_z, double log_scale) {
     if (sign > 0 && z.imag() < 1) {
@@ -49,6 +55,18 @@ BlochPhase bloch_phase_of_pair(const Layer& upper, const Layer& lower,
     return {-scale * halves.b * halves.c, scale * (halves.a + identity) * (halves.d + identity)};
 }
 
+/// Bloch phase of any period. Where its matrix is nearly I or -I, sin(K)^2 = -(traceless^2 + b c)
+/// has the digits of K that the trace loses.
+BlochPhase bloch_phase_of_matrix(const Matrix& m) {
+    const double scale = std::exp(std::min(m.log_scale, kLargestExponent));
+    const Complex sin2 = -scale * (m.a + m.d) / 4.0, cos2 = 1.0 - sin2;
+    const Complex traceless = scale * (m.a - m.d) / 2.0, b = scale * m.b, c = scale * m.c;
+    if (!(std::abs(traceless) + std::abs(b) + std::abs(c) < kNearlyIdentity)) return {sin2, cos2};
+    const Complex product = -(traceless * traceless + b * c) / 4.0;
+    if (std::norm(cos2) < std::norm(sin2)) return {sin2, product / sin2};
+    return {product / cos2, cos2};
+}
+
 BlochPhase bloch_phase_of_group(const Group& group, const Matrix& matrix,
                                 std::span<const Medium> media, double k0,
                                 Polarization polarization) {
@@ -57,9 +75,7 @@ BlochPhase bloch_phase_of_group(const Group& group, const Matrix& matrix,
         const Layer* lower = std::get_if<Layer>(&group.elements[1].value);
         if (upper && lower) return bloch_phase_of_pair(*upper, *lower, media, k0, polarization);
     }
-    const Complex sin2 =
-        -std::exp(std::min(matrix.log_scale, kLargestExponent)) * (matrix.a + matrix.d) / 4.0;
-    return {sin2, 1.0 - sin2};
+    return bloch_phase_of_matrix(matrix);
 }
 
 Matrix group_matrix(const Group& group, std::span<const Medium> media, double k0,
@@ -150,6 +166,15 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     const Complex diagonal = without_identity(sign, n * k, all.cos, result.log_scale);
     result.a += diagonal;
     result.d += diagonal;
+    if (n * k.imag() > kDeepExponent) {
+        // exp(i N K) + ratio (sigma - |traceless|), sigma = -i sin K: neither of them cancels
+        const Complex sigma = Complex(0, -1) * sine * std::exp(-ahead);
+        const bool below = std::real(traceless * std::conj(sigma)) > 0;  // the smaller entry
+        const Complex rest = m.b * m.c / (sigma + (below ? traceless : -traceless));
+        (below != flip ? result.d : result.a) =
+            sign * std::exp(Complex(0, 1) * (n * k) - result.log_scale) +
+            (flip ? -1.0 : 1.0) * f * rest - result.identity();
+    }
     normalize(result);
     return result;
 }

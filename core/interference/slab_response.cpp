@@ -40,6 +40,14 @@ double dying_phase(std::span<const Element> elements, std::span<const Medium> me
     return sum;
 }
 
+/// x exp(exponent), where exp(exponent) alone may underflow.
+double times_exp(double x, double exponent) {
+    constexpr double kDeepExponent = -400;
+    if (exponent > kDeepExponent) return x * std::exp(exponent);
+    const double half = std::exp(exponent / 2);
+    return x * half * half;
+}
+
 }  // namespace
 
 Wave outgoing_wave(const Medium& m, Polarization polarization) {
@@ -76,10 +84,10 @@ Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
     const double unit = 4 * std::norm(in.b) * std::norm(in.c) / (std::norm(sum) * in.flux);
     Power& power = response.power;
     power.R = std::norm(difference) / std::norm(sum);
-    power.T = unit * out.flux * std::exp(-2 * m.log_scale);
+    power.T = times_exp(unit * out.flux, -2 * m.log_scale);
     if (slab.absorbs)
-        power.A = unit * absorbed_flux(slab.absorbed, out.b, out.c) *
-                  std::exp(2 * slab.absorbed.log_scale);
+        power.A = times_exp(unit * absorbed_flux(slab.absorbed, out.b, out.c),
+                            2 * slab.absorbed.log_scale);
     const double mixed = mixed_power(in, response.r);
     power.A += mixed;
     const double sum_of_powers = power.R + power.T + power.A;
@@ -162,7 +170,7 @@ void coherent_layer_absorption(const Wave& in, std::span<const Element> elements
     const double unit =
         4 * std::norm(in.b) * std::norm(in.c) / (std::norm(in.c * v.b + in.b * v.c) * in.flux);
     for (std::size_t i = 0; i < absorbed.size(); ++i)
-        absorbed[i] *= unit * std::exp(2 * (log_scale[i] - v.log_scale));
+        absorbed[i] = times_exp(unit * absorbed[i], 2 * (log_scale[i] - v.log_scale));
 }
 
 }  // namespace irido

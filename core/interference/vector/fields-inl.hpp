@@ -36,15 +36,23 @@ using hn::Sub;
 /// Stands in for an exact zero of kz, so that sin(k0 d kz)/kz becomes k0 d.
 constexpr double kTinyIndex = 1e-140;
 
-/// Fields above this are made smaller, a number of layers below what could overflow.
-constexpr double kLargeField = 1e60, kShrink = 0x1p-200, kShrinkLog = 200 * 0.693147180559945309417;
+/// Fields above this are made smaller, a number of layers below what could overflow, and fields
+/// below its inverse larger.
+constexpr double kLargeField = 1e60, kLittleField = 1e-60, kShrink = 0x1p-200,
+                 kShrinkLog = 200 * 0.693147180559945309417;
 constexpr std::uint32_t kLayersBetweenChecks = 8;
+
+/// Past this logarithm its square could underflow before the fields make up for it.
+constexpr double kDeepLogScale = 200;
 
 /// Layers whose sines are computed side by side: more would not fit the registers.
 constexpr std::uint32_t kSideBySide = 4;
 
 /// A half period with a larger exponent is left to the plain kernel.
 constexpr double kLargestHalfExponent = 150;
+
+/// Entries beside I or -I below which these tell more of the Bloch phase than the trace.
+constexpr double kNearlyIdentity = 0.5;
 
 /// A thin layer, |delta|^2, whose depth integrals are summed as series.
 constexpr double kThinSquare = 0.25;
@@ -205,16 +213,18 @@ HWY_INLINE void through_absorbing(Fields& f, Cx c, Cx p, Cx q) {
     f.c = mul_add(q, b, mul(c, h));
 }
 
-/// Makes large fields smaller before they can overflow.
+/// Keeps fields away from overflow, and from where T would underflow though its logarithm does not.
 HWY_INLINE void check_size(Fields& f) {
     const V size = Max(Max(Abs(f.b.re), Abs(f.b.im)), Max(Abs(f.c.re), Abs(f.c.im)));
     const Mask large = hn::Gt(size, constant(kLargeField));
-    if (HWY_LIKELY(hn::AllFalse(Lanes(), large))) return;
-    const V factor = IfThenElse(large, constant(kShrink), constant(1));
+    const Mask little = hn::Lt(size, constant(kLittleField));
+    if (HWY_LIKELY(hn::AllFalse(Lanes(), Or(large, little)))) return;
+    const V factor = IfThenElse(large, constant(kShrink),
+                                IfThenElse(little, constant(1 / kShrink), constant(1)));
     f.b = scaled(f.b, factor);
     f.c = scaled(f.c, factor);
     f.absorbed = Mul(f.absorbed, Mul(factor, factor));
-    grow(f, IfThenElseZero(large, constant(kShrinkLog)));
+    grow(f, IfThenElse(large, constant(kShrinkLog), IfThenElseZero(little, constant(-kShrinkLog))));
 }
 
 /// Stored rows of one polarization, see FixedRun: the fields, or a matrix for them.
@@ -258,7 +268,7 @@ HWY_INLINE Period product(const Period& u, const Period& l) {
 /// (+ pi) in gaps.
 HWY_NOINLINE void through_periods(Fields& f, const Period& m, V sin2, V cos2, double repeat) {
     const V n = constant(repeat), one = constant(1), two = constant(2);
-    const Mask flip = hn::Lt(Abs(cos2), Abs(sin2));
+    const Mask flip = hn::Lt(cos2, sin2);  // by sign in gaps, where one of them is negative
     const V small = IfThenElse(flip, cos2, sin2);
     const Mask band = hn::Ge(small, constant(0));
     const V root = hn::Sqrt(Abs(small));
@@ -278,11 +288,13 @@ HWY_NOINLINE void through_periods(Fields& f, const Period& m, V sin2, V cos2, do
     // cos(N K) and sin(N K), or cosh and sinh times exp(-N Im K)
     const V nk = Mul(n, Mul(two, half_k)), exponent = IfThenElse(band, zero, nk);
     SinCos turn{zero, zero};
+    V decay = one;
     if (bands) turn = sin_cos(IfThenElseZero(band, nk));
     if (gaps) {
         const V sinh = Mul(constant(-0.5), expm1(Mul(constant(-2), exponent)));
         turn = {IfThenElse(band, turn.sin, sinh), IfThenElse(band, turn.cos, Sub(one, sinh))};
-        f.absorbed = Mul(f.absorbed, exp(Mul(constant(-2), exponent)));
+        decay = exp(Mul(constant(-2), exponent));
+        f.absorbed = Mul(f.absorbed, decay);
         grow(f, exponent);
     }
     const Mask still = hn::Lt(nk, constant(1e-9));
@@ -291,7 +303,16 @@ HWY_NOINLINE void through_periods(Fields& f, const Period& m, V sin2, V cos2, do
     const V sign = IfThenElse(flip, constant(odd ? -1 : 1), one);
     const V factor = Mul(IfThenElse(flip, negative(sign), sign), ratio);
     const V diagonal = Mul(sign, turn.cos), part = Mul(factor, traceless);
-    const V alpha = Add(diagonal, part), delta = Sub(diagonal, part);
+    V alpha = Add(diagonal, part), delta = Sub(diagonal, part);
+    if (gaps) {
+        // the smaller entry is exp(-N Im K) + ratio (sine - |traceless|), of which neither cancels
+        const V less = Div(off_diagonal, Add(sine, Abs(traceless)));
+        const V small_entry = Mul(sign, NegMulAdd(ratio, less, decay));
+        const Mask deep = hn::Gt(exponent, one);
+        const Mask opposed = hn::Lt(Mul(part, sign), zero);
+        alpha = IfThenElse(And(deep, opposed), small_entry, alpha);
+        delta = IfThenElse(hn::AndNot(opposed, deep), small_entry, delta);
+    }
     const V beta = Mul(factor, m.beta), gamma = Mul(factor, m.gamma);
     const Cx b = f.b, c = f.c;
     f.b = {MulAdd(beta, c.im, Mul(alpha, b.re)), NegMulAdd(beta, c.re, Mul(alpha, b.im))};

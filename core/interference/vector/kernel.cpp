@@ -471,6 +471,22 @@ private:
         of.period = product(whole_layer<kIsP>(medium, half), of.period);
     }
 
+    /// sin(K/2)^2 and cos(K/2)^2 from the matrix, as bloch_phase_of_matrix() in period.cpp.
+    static HWY_INLINE void phase_of_matrix(PeriodOf& of) {
+        const Period& m = of.period;
+        const V one = constant(1), traceless = Mul(constant(0.5), Sub(m.a, m.d));
+        of.sin2 = Mul(constant(-0.25), Add(m.a, m.d));
+        of.cos2 = Sub(one, of.sin2);
+        const Mask flip = hn::Lt(of.cos2, of.sin2);
+        const V size = Add(Abs(traceless), Add(Abs(m.beta), Abs(m.gamma)));
+        const Mask nearly = hn::Lt(size, constant(kNearlyIdentity));
+        const V product =
+            Mul(constant(0.25), NegMulAdd(traceless, traceless, Mul(m.beta, m.gamma)));
+        const V small = Div(product, IfThenElse(flip, of.sin2, of.cos2));
+        of.sin2 = IfThenElse(hn::AndNot(flip, nearly), small, of.sin2);
+        of.cos2 = IfThenElse(And(nearly, flip), small, of.cos2);
+    }
+
     template <bool kS, bool kP>
     HWY_NOINLINE void group_step(const Program::Step& step, V k0, Fields& s, Fields& p,
                                  Mask& bad) const {
@@ -493,10 +509,8 @@ private:
             medium_below = medium;
         }
         if (step.count != 2) {
-            for (PeriodOf* of : {&in_s, &in_p}) {
-                of->sin2 = Mul(constant(-0.25), Add(of->period.a, of->period.d));
-                of->cos2 = Sub(constant(1), of->sin2);
-            }
+            if (kS) phase_of_matrix(in_s);
+            if (kP) phase_of_matrix(in_p);
         }
         if (kS) {
             through_periods(s, in_s.period, in_s.sin2, in_s.cos2, step.repeat);
@@ -914,6 +928,12 @@ private:
             inverse = Div(one, IfThenElse(e.balances, Add(reflected, transmitted), incident));
         e.R = Mul(reflected, inverse);
         e.T = Mul(transmitted, inverse);
+        const Mask deep = hn::Gt(e.log_scale, constant(kDeepLogScale));
+        if (HWY_UNLIKELY(!hn::AllFalse(Lanes(), deep))) {
+            const V once = exp(negative(e.log_scale));
+            const V T = Mul(Mul(Mul(in.unit, out_flux), Mul(inverse, once)), once);
+            e.T = IfThenElse(deep, T, e.T);
+        }
         e.A = e.mixed;
     }
 

@@ -49,7 +49,7 @@ HWY_INLINE MirrorPhase mirror_phase(const MirrorMedia& m, const MirrorHalves& h)
     const V sin2 = Mul(MulAdd(m.ratio, crossed, straight), MulAdd(m.inverse, crossed, straight));
     const V cos2 =
         Mul(NegMulAdd(m.ratio, both_sin, both_cos), NegMulAdd(m.inverse, both_sin, both_cos));
-    const Mask flip = hn::Lt(Abs(cos2), Abs(sin2));
+    const Mask flip = hn::Lt(cos2, sin2);  // by sign in gaps, where one of them is negative
     return {IfThenElse(flip, cos2, sin2), Mul(m.contrast, Mul(h.other.sin, h.other.cos)), flip};
 }
 
