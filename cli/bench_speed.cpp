@@ -157,7 +157,7 @@ public:
           table_(stack_, case_wavelengths()) {
         needs_.T = needs_.A = !of.only_R;
         for (int i = 0; i < 90; ++i) angles_deg_.push_back(of.normal ? 0 : i + 0.5);
-        for (const double angle : angles_deg_) cosines_.push_back(cos_of_incidence(angle));
+        for (const double angle : angles_deg_) incidences_.push_back(incidence(angle));
         for (std::size_t i = 0; i < kSamples; ++i) {
             const Sample sample{i * 400 / (kSamples - 1), of.normal ? 0 : (i * 37 + 5) % 90};
             samples_.push_back(sample);
@@ -172,7 +172,7 @@ public:
         // a slow kernel gets fewer angles
         const double one_angle = seconds_of([&] { run(1, execution); });
         const auto affordable = static_cast<std::size_t>(std::max(1.0, budget_ / one_angle));
-        const std::size_t angles = std::min(affordable, cosines_.size());
+        const std::size_t angles = std::min(affordable, incidences_.size());
         row.points = static_cast<double>(angles * table_.wavelength_nm().size());
         row.rate = row.points / best_seconds(budget_, [&] { run(angles, execution); });
         row.worst_R = error_of_kernel(execution);
@@ -213,7 +213,7 @@ private:
         row.name = case_.name;
         row.method = std::move(method);
         row.layers = case_.layers;
-        row.operations = work_of(power_, table_, cosines_, needs_, {1, SimdLevel::baseline})
+        row.operations = work_of(power_, table_, incidences_, needs_, {1, SimdLevel::baseline})
                              .operations_per_point;
         return row;
     }
@@ -230,14 +230,14 @@ private:
     }
 
     void run(std::size_t angles, const Execution& execution) const {
-        spectra(power_, table_, std::span(cosines_).first(angles), needs_, execution, out_);
+        spectra(power_, table_, std::span(incidences_).first(angles), needs_, execution, out_);
     }
 
     double error_of_kernel(const Execution& execution) const {
         double worst = 0;
         for (std::size_t i = 0; i < kSamples; ++i) {
             const Spectra at =
-                spectra(power_, table_, std::span(cosines_).subspan(samples_[i].angle, 1), needs_,
+                spectra(power_, table_, std::span(incidences_).subspan(samples_[i].angle, 1), needs_,
                         execution);
             const std::size_t w = samples_[i].wavelength;
             worst = std::max({worst, std::abs(at.s.R[w] - exact_[2 * i]),
@@ -252,7 +252,8 @@ private:
     StackPower power_;
     IndexTable table_;
     Needs needs_;
-    std::vector<double> angles_deg_, cosines_;
+    std::vector<double> angles_deg_;
+    std::vector<Incidence> incidences_;
     std::vector<Sample> samples_;
     std::vector<double> exact_;  ///< R of every sample, s and p
     mutable Spectra out_;

@@ -120,10 +120,10 @@ std::vector<std::string> letters_of(const std::string& polarizations) {
     return result;
 }
 
-std::vector<double> cosines_of(std::span<const double> angles_deg) {
-    std::vector<double> cosines(angles_deg.size());
-    std::ranges::transform(angles_deg, cosines.begin(), cos_of_incidence);
-    return cosines;
+std::vector<Incidence> incidences_of(std::span<const double> angles_deg) {
+    std::vector<Incidence> incidences;
+    for (const double angle_deg : angles_deg) incidences.push_back(incidence(angle_deg));
+    return incidences;
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ public:
             is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
                      : static_cast<const SpectrumStack&>(prepared).table;
         try {
-            spectra(power, table, cosines_of(incidence.angles_deg), needs, question_.execution_,
+            spectra(power, table, incidences_of(incidence.angles_deg), needs, question_.execution_,
                     spectra_);
         } catch (const DomainError& error) {
             throw InputError(prepared.document.file, "", error.what());
@@ -244,9 +244,9 @@ double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& sta
     constexpr double kStack = 2, kRow = 0.2, kOperation = 3e-5, kPlainPoint = 2;
     const StackPower power = stack_power(prepared.document, stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
-    const double cosine = cos_of_incidence(angle_deg);
+    const Incidence at = incidence(angle_deg);
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
-                              {&cosine, 1}, needs, execution_);
+                              {&at, 1}, needs, execution_);
     const bool is_plain = work.kernel == SimdLevel::plain;
     const double point = is_plain ? kPlainPoint : kOperation * work.operations_per_point;
     return kStack + kRow * static_cast<double>(rows_per_angle()) +
@@ -257,7 +257,7 @@ std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) 
     const StackPower power = stack_power(prepared.document, prepared.document.stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
-                              cosines_of(angles_deg_), needs, execution_);
+                              incidences_of(angles_deg_), needs, execution_);
     return lines_of(work, needs, angles_deg_.size(), why_plain(power, needs, execution_.simd));
 }
 

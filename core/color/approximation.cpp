@@ -51,10 +51,10 @@ public:
         const SpectrumKernel kernel(power, table_.absorbs(), table_.amplifies(), needs_, simd_);
         const Pool<Scratch>::Loan scratch = scratch_.borrow();
         for (std::size_t i = 0; i < angles_deg.size(); ++i) {
-            const double cos_theta = cos_of_incidence(angles_deg[i]);
-            kernel(table_, {&cos_theta, 1}, scratch->spectra, scratch->memory);
+            const Incidence at = incidence(angles_deg[i]);
+            kernel(table_, {&at, 1}, scratch->spectra, scratch->memory);
             for (std::size_t s = 0; s < sides_.size(); ++s)
-                colors[i * sides_.size() + s] = color(cos_theta == 1, sides_[s], *scratch);
+                colors[i * sides_.size() + s] = color(at.cos == 1, sides_[s], *scratch);
         }
     }
 

@@ -74,10 +74,10 @@ private:
 
     double channel(std::size_t c, const Thickness& thickness, double angle_deg,
                    Polarization polarization) const {
-        const double cosine = cos_of_incidence(angle_deg);
+        const Incidence at = incidence(angle_deg);
         const ChannelPoints& points = points_[c];
-        const auto a = film_series(thickness.of(films_[2 * c]), cosine, polarization);
-        const auto b = film_series(thickness.of(films_[2 * c + 1]), cosine, polarization);
+        const auto a = film_series(thickness.of(films_[2 * c]), at, polarization);
+        const auto b = film_series(thickness.of(films_[2 * c + 1]), at, polarization);
         if (!a || !b) throw no_series(angle_deg);
         const double mean = points.weight[0] * a->T + points.weight[1] * b->T;
         double sum = mean * white_[c];

@@ -74,14 +74,14 @@ private:
 
     /// T without fringes, and the orders.
     double start(const Film& film, double angle_deg, FilmOrders& orders) const {
-        const double cosine = cos_of_incidence(angle_deg);
-        const std::array share = weights(request_.light, cosine);
+        const Incidence at = incidence(angle_deg);
+        const std::array share = weights(request_.light, at.cos);
         double T = 0;
         orders = {};
         for (std::size_t k = 0; k < 2; ++k) {
             if (share[k] == 0) continue;
             const auto series =
-                film_series(film, cosine, k == 0 ? Polarization::s : Polarization::p);
+                film_series(film, at, k == 0 ? Polarization::s : Polarization::p);
             if (!series) throw no_series(angle_deg);
             orders.opd_nm = series->opd_nm;
             orders.weight[k] = share[k] * series->T;

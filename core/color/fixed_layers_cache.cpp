@@ -2,9 +2,9 @@
 
 namespace irido {
 
-std::shared_ptr<FixedLayersCache::Angle> FixedLayersCache::at(double cos_theta) {
+std::shared_ptr<FixedLayersCache::Angle> FixedLayersCache::at(Incidence incidence) {
     const std::scoped_lock guard(lock_);
-    std::shared_ptr<Angle>& angle = angles_[cos_theta];
+    std::shared_ptr<Angle>& angle = angles_[{incidence.cos, incidence.sin}];
     if (!angle) angle = std::make_shared<Angle>();
     angle->last_use = ++uses_;
     return angle;

@@ -27,7 +27,7 @@ public:
 
     explicit FixedLayersCache(std::size_t most_numbers) : most_numbers_(most_numbers) {}
 
-    std::shared_ptr<Angle> at(double cos_theta);
+    std::shared_ptr<Angle> at(Incidence incidence);
 
     /// One for each of the points, nullptr if it is not there.
     void find(const Angle& angle, std::span<const SpectralPoints* const> points,
@@ -41,7 +41,7 @@ private:
 
     const std::size_t most_numbers_;
     std::mutex lock_;
-    std::map<double, std::shared_ptr<Angle>> angles_;  ///< by cos_theta
+    std::map<std::pair<double, double>, std::shared_ptr<Angle>> angles_;  ///< by cosine and sine
     std::size_t numbers_ = 0;                          ///< of these
     std::uint64_t uses_ = 0;
 };

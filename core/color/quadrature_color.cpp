@@ -161,7 +161,7 @@ public:
         const IntegrationLimits limits{request_.tolerance,
                                        std::min(request_.evaluations, affordable), request_.simd};
         for (std::size_t i = 0; i < angles_deg.size(); ++i)
-            integrate(kernel, stack, cos_of_incidence(angles_deg[i]), limits,
+            integrate(kernel, stack, incidence(angles_deg[i]), limits,
                       colors.subspan(i * sides, sides), *scratch);
     }
 
@@ -207,14 +207,14 @@ private:
         return true;
     }
 
-    double optical_path_nm(const Stack& stack, double cos_theta,
+    double optical_path_nm(const Stack& stack, Incidence incidence,
                            std::vector<Complex>& normal) const {
         double longest = 0;
         normal.resize(on_path_.materials());
         for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
             const double n0 = on_path_.n(on_path_.incident())[w];
             for (std::size_t m = 0; m < normal.size(); ++m)
-                normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, cos_theta).q2);
+                normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, incidence).q2);
             Path path;
             add_path(stack.elements, normal, on_path_.k0()[w], path);
             longest = std::max(longest, path.length_nm);
@@ -222,26 +222,26 @@ private:
         return longest;
     }
 
-    void integrate(const SpectrumKernel& kernel, const Stack& stack, double cos_theta,
+    void integrate(const SpectrumKernel& kernel, const Stack& stack, Incidence incidence,
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
-        if (cos_theta == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
-        const std::size_t path = path_class(optical_path_nm(stack, cos_theta, scratch.normal));
+        if (incidence.cos == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
+        const std::size_t path = path_class(optical_path_nm(stack, incidence, scratch.normal));
         const PanelTree::Start& start = start_of(path);
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
-        const bool with_p = needs_.p && !(with_s && cos_theta == 1);
+        const bool with_p = needs_.p && !(with_s && incidence.cos == 1);
         std::shared_ptr<FixedLayersCache::Angle> angle;
-        if (kernel.shares_layers()) angle = fixed_layers_.at(cos_theta);
+        if (kernel.shares_layers()) angle = fixed_layers_.at(incidence);
         const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
                                     Samples& samples) {
-            const bool is_fixed = angle && fix_layers(kernel, parts, cos_theta, *angle, scratch);
+            const bool is_fixed = angle && fix_layers(kernel, parts, incidence, *angle, scratch);
             const IndexTable& indices = indices_at(parts, scratch);
             if (is_fixed) {
-                kernel(indices, {&cos_theta, 1}, scratch.fixed_parts, scratch.spectra,
+                kernel(indices, {&incidence, 1}, scratch.fixed_parts, scratch.spectra,
                        scratch.memory);
             } else {
-                kernel(indices, {&cos_theta, 1}, scratch.spectra, scratch.memory);
+                kernel(indices, {&incidence, 1}, scratch.spectra, scratch.memory);
             }
             const Spectra& at = scratch.spectra;
             fill(with_s ? at.s : at.p, with_s && with_p ? &at.p : nullptr, samples);
@@ -258,7 +258,7 @@ private:
     /// reflects at any angle.
     bool reflects_all(const SpectrumKernel& kernel, Scratch& scratch) const {
         if (std::ranges::find(amplifies_, true) != amplifies_.end()) return false;
-        const double grazing = 0;
+        const Incidence grazing(0);
         kernel(on_path_, {&grazing, 1}, scratch.spectra, scratch.memory);
         const auto is_one = [](double R) { return R == 1; };
         const auto is_zero = [](double T) { return T == 0; };
@@ -307,11 +307,11 @@ private:
 
     /// Gathers what does not vary; false if there is no room for it.
     bool fix_layers(const SpectrumKernel& kernel, std::span<const SpectralPoints* const> parts,
-                    double cos_theta, FixedLayersCache::Angle& angle, Scratch& scratch) const {
+                    Incidence incidence, FixedLayersCache::Angle& angle, Scratch& scratch) const {
         fixed_layers_.find(angle, parts, scratch.fixed_parts);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             if (scratch.fixed_parts[i]) continue;
-            kernel.fix_layers(indices_at(parts.subspan(i, 1), scratch), cos_theta, scratch.fixed,
+            kernel.fix_layers(indices_at(parts.subspan(i, 1), scratch), incidence, scratch.fixed,
                               scratch.memory);
             scratch.fixed_parts[i] = fixed_layers_.add(angle, *parts[i], scratch.fixed);
             if (!scratch.fixed_parts[i]) return false;
@@ -365,12 +365,12 @@ std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, cons
 }
 
 double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
-                       double cos_theta) {
+                       Incidence incidence) {
     constexpr double kPointsOfPiece = 20, kPointsPerPath = 0.032;  // of nm; as --stats says
     std::vector<Complex> normal(indices.materials());
     for (std::size_t m = 0; m < normal.size(); ++m)
         normal[m] =
-            std::sqrt(medium(indices.index(m, 0), indices.n(indices.incident())[0], cos_theta).q2);
+            std::sqrt(medium(indices.index(m, 0), indices.n(indices.incident())[0], incidence).q2);
     Path path;
     add_path(stack.elements, normal, indices.k0()[0], path);
     return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *

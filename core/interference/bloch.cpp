@@ -9,8 +9,8 @@ namespace irido {
 
 namespace {
 
-double admittance(double n, double n0, double cos_theta, Polarization polarization) {
-    const double q2 = medium(n, n0, cos_theta).q2.real();
+double admittance(double n, double n0, Incidence incidence, Polarization polarization) {
+    const double q2 = medium(n, n0, incidence).q2.real();
     if (!(q2 > 0))
         throw DomainError("there are no Bloch waves past the critical angle of an index (n = " +
                           to_text(n) + ")");
@@ -51,10 +51,10 @@ Periods periods(const BlochPoint& at, std::uint64_t repeat) {
 }  // namespace
 
 BlochMirror bloch_mirror(const RealLayer& first, const RealLayer& second, std::uint64_t repeat,
-                         double n0, double n_out, double cos_theta, Polarization polarization) {
+                         double n0, double n_out, Incidence incidence, Polarization polarization) {
     BlochMirror mirror;
-    mirror.period = bragg_period(first, second, n0, cos_theta, polarization);
-    const auto of = [&](double n) { return admittance(n, n0, cos_theta, polarization); };
+    mirror.period = bragg_period(first, second, n0, incidence, polarization);
+    const auto of = [&](double n) { return admittance(n, n0, incidence, polarization); };
     mirror.Y_in = of(n0);
     mirror.Y_out = of(n_out);
     mirror.Y_first = of(first.n);

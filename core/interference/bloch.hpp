@@ -16,11 +16,11 @@ struct BlochMirror {
     std::uint64_t repeat = 1;          ///< N, [1, 1e9]
 };
 
-/// The mirror of layers, indices n0 above and n_out below; light comes at cos_theta, > 0, in n0.
+/// The mirror of layers, indices n0 above and n_out below; light comes from n0, not at 90 degrees.
 /// Throws DomainError where a layer or the half-space below reflects totally, and as
 /// bragg_period() does.
 BlochMirror bloch_mirror(const RealLayer& first, const RealLayer& second, std::uint64_t repeat,
-                         double n0, double n_out, double cos_theta, Polarization polarization);
+                         double n0, double n_out, Incidence incidence, Polarization polarization);
 
 /// What a period does at one omega: with M its matrix of tangential fields, det M = 1,
 ///     cos KL = tr(M)/2,   u = (Y_in - Y_out) (M11 - M22)/2,   v = |Y_in Y_out M12 + M21|.

@@ -186,14 +186,14 @@ std::int64_t last_order(const TurnRange& range) {
 }  // namespace
 
 BraggPeriod bragg_period(const RealLayer& first, const RealLayer& second, double n0,
-                         double cos_theta, Polarization polarization) {
+                         Incidence incidence, Polarization polarization) {
     require_in_range("thickness_nm", first.thickness_nm, 0, 1e9);
     require_in_range("thickness_nm", second.thickness_nm, 0, 1e9);
-    require_in_range("cos_theta", cos_theta, 0, 1);
+    require_in_range("cos_theta", incidence.cos, 0, 1);
     if (first.thickness_nm == 0 && second.thickness_nm == 0)
         throw DomainError("a period must have a thickness (got 0 nm)");
-    const double q2_1 = medium(first.n, n0, cos_theta).q2.real();
-    const double q2_2 = medium(second.n, n0, cos_theta).q2.real();
+    const double q2_1 = medium(first.n, n0, incidence).q2.real();
+    const double q2_2 = medium(second.n, n0, incidence).q2.real();
     for (const auto& [q2, n] : {std::pair{q2_1, first.n}, std::pair{q2_2, second.n}})
         if (!(q2 > 0))
             throw DomainError("there are no landmarks past the critical angle of a layer (n = " +

@@ -24,10 +24,10 @@ struct RealLayer {
     double thickness_nm = 0;
 };
 
-/// The period of two layers in light that comes from an index n0 > 0 at cos_theta in [0, 1].
+/// The period of two layers in light that comes from an index n0 > 0 under this incidence.
 /// Throws DomainError where a layer reflects totally (or just does), and if both have no thickness.
 BraggPeriod bragg_period(const RealLayer& first, const RealLayer& second, double n0,
-                         double cos_theta, Polarization polarization);
+                         Incidence incidence, Polarization polarization);
 
 /// Whether at some angle in the medium n0 p light does not see the interface of two indices
 /// (Brewster's), so that all gaps of p close there. Source: Yeh (1988), section 6.3.

@@ -29,12 +29,20 @@ bool all_same(const Medium& above, std::span<const Element> elements,
 
 }  // namespace
 
-Medium medium(Complex index, double n0, double cos_theta) {
+Incidence::Incidence(double cos_theta)
+    : cos(cos_theta), sin(std::sqrt((1 - cos_theta) * (1 + cos_theta))) {}
+
+Incidence incidence(double angle_deg) {
+    const double cosine = cos_of_incidence(angle_deg);
+    const long double degree = std::numbers::pi_v<long double> / 180;
+    return {cosine, static_cast<double>(std::sin(angle_deg * degree))};
+}
+
+Medium medium(Complex index, double n0, Incidence at) {
     const double n = index.real(), k = index.imag();
-    const double along = n0 * cos_theta;
+    const double along = n0 * at.cos, across = n0 * at.sin;
     const Complex eps{(n - k) * (n + k), 2 * n * k};
-    if (cos_theta * cos_theta > 0.5)
-        return {eps, {eps.real() - n0 * n0 * (1 - cos_theta) * (1 + cos_theta), eps.imag()}};
+    if (at.cos * at.cos > 0.5) return {eps, {eps.real() - across * across, eps.imag()}};
     return {eps, {(n - n0) * (n + n0) - k * k + along * along, eps.imag()}};
 }
 

@@ -49,20 +49,20 @@ Interface<Number> interface_p(const Ray<double>& a, const Ray<Number>& b, Number
 
 }  // namespace
 
-std::optional<FilmSeries> film_series(const Film& film, double cos_theta,
+std::optional<FilmSeries> film_series(const Film& film, Incidence incidence,
                                       Polarization polarization) {
     const double n1 = film.incident, n2 = film.film;
     const Complex n3 = film.base;
     FilmSeries series{1, 0, 0, 0};
-    if (cos_theta == 0 && n1 == n2 && n3 == n1) return FilmSeries{0, 1, 0, 0};
-    if (cos_theta == 0 && n1 == n2) return series;
-    const Medium in_film = medium(n2, n1, cos_theta);
+    if (incidence.cos == 0 && n1 == n2 && n3 == n1) return FilmSeries{0, 1, 0, 0};
+    if (incidence.cos == 0 && n1 == n2) return series;
+    const Medium in_film = medium(n2, n1, incidence);
     if (in_film.q2.real() <= 0) return std::nullopt;
-    const Ray<double> a{n1 * n1, n1 * cos_theta}, b = real_ray(n2, in_film);
-    const Ray<Complex> c = outgoing_ray(medium(n3, n1, cos_theta));
+    const Ray<double> a{n1 * n1, n1 * incidence.cos}, b = real_ray(n2, in_film);
+    const Ray<Complex> c = outgoing_ray(medium(n3, n1, incidence));
     const double from_a = (n1 - n2) * (n1 + n2);
     const Complex from_b = (n2 - n3) * (n2 + n3);
-    const double s2 = a.eps * (1 - cos_theta) * (1 + cos_theta);
+    const double s2 = a.eps * incidence.sin * incidence.sin;
     const bool s = polarization == Polarization::s;
     const auto upper = s ? interface_s(a, b, from_a) : interface_p(a, b, from_a, s2);
     const auto lower = s ? interface_s(b, c, from_b) : interface_p(b, c, from_b, s2);

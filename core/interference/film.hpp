@@ -32,10 +32,10 @@ struct FilmSeries {
     double coefficient(bool transmitted, double order) const;
 };
 
-/// The series, cos_theta in [0, 1] belonging to the incident medium; nothing where there is none:
+/// The series, the incidence belonging to the incident medium; nothing where there is none:
 /// past the film's critical angle, and over a base that amplifies so much that rho >= 1. Where no
 /// light enters the base, and at 90 degrees unless all media are the same, R = 1 and T = 0.
-std::optional<FilmSeries> film_series(const Film& film, double cos_theta,
+std::optional<FilmSeries> film_series(const Film& film, Incidence incidence,
                                       Polarization polarization);
 
 }  // namespace irido

@@ -64,17 +64,17 @@ public:
     PlainRun(const StackPower& stack, const IndexTable& table, const Needs& needs, Spectra& out)
         : stack_(stack), table_(table), needs_(needs), out_(out) {}
 
-    void operator()(double cos_theta, std::size_t wavelength, std::size_t point) {
+    void operator()(Incidence incidence, std::size_t wavelength, std::size_t point) {
         const double n0 = table_.n(table_.incident())[wavelength];
         media_.resize(table_.materials() + 1);
         absorbed_.resize(needs_.layers ? stack_.layer_count() : 0);
         for (std::size_t m = 0; m < table_.materials(); ++m)
-            media_[m] = medium(table_.index(m, wavelength), n0, cos_theta);
-        media_.back() = medium(n0, n0, cos_theta);
+            media_[m] = medium(table_.index(m, wavelength), n0, incidence);
+        media_.back() = medium(n0, n0, incidence);
         const double k0 = table_.k0()[wavelength];
         Spectrum* const s = needs_.s ? &out_.s : nullptr;
         Spectrum* const p = needs_.p ? &out_.p : nullptr;
-        if (cos_theta == 1) {
+        if (incidence.cos == 1) {
             compute(Polarization::s, k0, point, s ? s : p, s && needs_.p_at_normal ? p : nullptr);
         } else {
             if (s) compute(Polarization::s, k0, point, s, nullptr);
@@ -147,8 +147,8 @@ void copy_points(const Spectrum& from, Spectrum& to, std::size_t begin, std::siz
 
 /// Whether all points of an angle are better computed together: where both polarizations are one,
 /// and where the incident wave carries no power.
-bool is_special(double cos_theta) {
-    return cos_theta == 1 || cos_theta == 0;
+bool is_special(Incidence incidence) {
+    return incidence.cos == 1 || incidence.cos == 0;
 }
 
 Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) {
@@ -156,21 +156,27 @@ Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) 
 }
 
 /// The points of a job.
-///   cosines  memory for those of a job along angles
-void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const double> cos_theta,
-                PointRun& run, std::vector<double>& cosines) {
+///   cosines, sines  memory for those of a job along angles
+void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const Incidence> incidence,
+                PointRun& run, std::vector<double>& cosines, std::vector<double>& sines) {
     const bool across = job.along_angles;
     const std::size_t wavelength = across ? job.fixed : job.begin;
     run.count = job.end - job.begin;
     run.k0 = {table.k0().data() + wavelength, !across};
     run.incident = stream(table.n(table.incident()), wavelength,
                           !across && !table.is_constant(table.incident()));
-    run.cos_theta = {cos_theta.data() + (across ? job.begin : job.fixed), across};
+    const Incidence& first = incidence[across ? job.begin : job.fixed];
+    run.cos_theta = {&first.cos, across};
+    run.sin_theta = {&first.sin, across};
     if (across) {
-        cosines.assign(cos_theta.begin() + static_cast<std::ptrdiff_t>(job.begin),
-                       cos_theta.begin() + static_cast<std::ptrdiff_t>(job.end));
-        cosines.resize(cosines.size() + kMostLanes, 1);
+        cosines.assign(run.count + kMostLanes, 1);
+        sines.assign(run.count + kMostLanes, 0);
+        for (std::size_t i = 0; i < run.count; ++i) {
+            cosines[i] = incidence[job.begin + i].cos;
+            sines[i] = incidence[job.begin + i].sin;
+        }
         run.cos_theta.values = cosines.data();
+        run.sin_theta.values = sines.data();
     }
     run.n.resize(table.materials());
     run.k.resize(table.materials());
@@ -185,17 +191,18 @@ void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const
 class VectorRun {
 public:
     VectorRun(const ChainProgram& program, PlainRun& plain, const IndexTable& table,
-              std::span<const double> cos_theta, const Needs& needs, SimdLevel simd, Spectra& out,
+              std::span<const Incidence> incidence, const Needs& needs, SimdLevel simd, Spectra& out,
               SpectrumMemory& memory)
         : program_(program),
           plain_(plain),
           table_(table),
-          cos_theta_(cos_theta),
+          incidence_(incidence),
           needs_(needs),
           simd_(simd),
           out_(out),
           run_(memory.run),
           cosines_(memory.cosines),
+          sines_(memory.sines),
           redo_(memory.redo),
           memory_(memory.kernel) {}
 
@@ -206,8 +213,8 @@ public:
         const std::size_t wavelength = across ? job.fixed : job.begin;
         const std::size_t first = angle * wavelengths + wavelength;
         const std::size_t stride = across ? wavelengths : 1;
-        const bool normal = !across && cos_theta_[angle] == 1;
-        set_points(job, table_, cos_theta_, run_, cosines_);
+        const bool normal = !across && incidence_[angle].cos == 1;
+        set_points(job, table_, incidence_, run_, cosines_, sines_);
         // at normal incidence s stands for p
         const bool only_p = normal && !needs_.s;
         const RunOutput s = output_at(only_p ? out_.p : out_.s, first, stride);
@@ -218,7 +225,7 @@ public:
         if (normal && needs_.s && needs_.p && needs_.p_at_normal)
             copy_points(out_.s, out_.p, first, first + run_.count);
         for (const std::size_t i : redo_)
-            plain_(cos_theta_[across ? angle + i : angle], across ? wavelength : wavelength + i,
+            plain_(incidence_[across ? angle + i : angle], across ? wavelength : wavelength + i,
                    first + i * stride);
     }
 
@@ -226,12 +233,12 @@ private:
     const ChainProgram& program_;
     PlainRun& plain_;
     const IndexTable& table_;
-    std::span<const double> cos_theta_;
+    std::span<const Incidence> incidence_;
     const Needs& needs_;
     SimdLevel simd_;
     Spectra& out_;
     PointRun& run_;
-    std::vector<double>& cosines_;
+    std::vector<double>&cosines_, &sines_;
     std::vector<std::size_t>& redo_;
     RunMemory& memory_;
 };
@@ -252,21 +259,21 @@ void add_jobs(std::vector<SpectrumJob>& jobs, SpectrumJob whole, std::size_t blo
 
 /// All points, in jobs that do not depend on the number of threads.
 ///   by_angle  a job takes all points of an angle, and no other
-void list_jobs(const IndexTable& table, std::span<const double> cos_theta, bool by_vectors,
+void list_jobs(const IndexTable& table, std::span<const Incidence> incidence, bool by_vectors,
                bool by_angle, std::vector<SpectrumJob>& jobs) {
-    const std::size_t wavelengths = table.wavelength_nm().size(), angles = cos_theta.size();
+    const std::size_t wavelengths = table.wavelength_nm().size(), angles = incidence.size();
     const std::size_t block = by_angle ? wavelengths : by_vectors ? kVectorBlock : kPlainBlock;
     const bool across =
         by_vectors && !by_angle && wavelengths < kFewWavelengths && angles > wavelengths;
     jobs.clear();
     for (std::size_t a = 0; a < angles;) {
-        if (!across || is_special(cos_theta[a])) {
+        if (!across || is_special(incidence[a])) {
             add_jobs(jobs, {false, a, 0, wavelengths}, block);
             ++a;
             continue;
         }
         const std::size_t begin = a;
-        while (a < angles && !is_special(cos_theta[a])) ++a;
+        while (a < angles && !is_special(incidence[a])) ++a;
         for (std::size_t w = 0; w < wavelengths; ++w) add_jobs(jobs, {true, w, begin, a}, block);
     }
 }
@@ -315,26 +322,26 @@ void SpectrumKernel::update() {
     if (is_vectorized_) program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
 }
 
-void SpectrumKernel::fix_layers(const IndexTable& table, double cos_theta, FixedLayers& out,
+void SpectrumKernel::fix_layers(const IndexTable& table, Incidence incidence, FixedLayers& out,
                                 SpectrumMemory& memory) const {
     out.points = table.wavelength_nm().size();
     out.numbers.clear();
-    if (cos_theta == 0) return;  // for the plain kernel
+    if (incidence.cos == 0) return;  // for the plain kernel
     out.numbers.resize(whole_vectors(out.points) * fixed_.rows);
-    set_points({false, 0, 0, out.points}, table, {&cos_theta, 1}, memory.run, memory.cosines);
-    const bool normal = cos_theta == 1;
+    set_points({false, 0, 0, out.points}, table, {&incidence, 1}, memory.run, memory.cosines, memory.sines);
+    const bool normal = incidence.cos == 1;
     for (const FixedRun& run : fixed_.runs)
         store_fixed(run, memory.run, needs_.s || normal, needs_.p && !normal, fixed_.rows,
                     out.numbers.data(), memory.kernel, simd_);
 }
 
-void SpectrumKernel::fix_all_layers(const IndexTable& table, std::span<const double> cos_theta,
+void SpectrumKernel::fix_all_layers(const IndexTable& table, std::span<const Incidence> incidence,
                                     SpectrumMemory& memory) const {
     memory.fixed_parts.clear();
     if (!shares_layers() || !by_vectors(table)) return;
-    memory.fixed.resize(cos_theta.size());
-    for (std::size_t angle = 0; angle < cos_theta.size(); ++angle) {
-        fix_layers(table, cos_theta[angle], memory.fixed[angle], memory);
+    memory.fixed.resize(incidence.size());
+    for (std::size_t angle = 0; angle < incidence.size(); ++angle) {
+        fix_layers(table, incidence[angle], memory.fixed[angle], memory);
         memory.fixed_parts.push_back(&memory.fixed[angle]);
     }
 }
@@ -346,27 +353,27 @@ bool SpectrumKernel::by_vectors(const IndexTable& table) const {
     return true;
 }
 
-void SpectrumKernel::prepare(const IndexTable& table, std::span<const double> cos_theta,
+void SpectrumKernel::prepare(const IndexTable& table, std::span<const Incidence> incidence,
                              Spectra& out, std::vector<SpectrumJob>& jobs) const {
-    const std::size_t points = cos_theta.size() * table.wavelength_nm().size();
+    const std::size_t points = incidence.size() * table.wavelength_nm().size();
     const std::size_t layers = needs_.layers ? stack_.layer_count() : 0;
     const bool vectors = by_vectors(table);
     allocate(out.s, needs_, needs_.s ? points : 0, layers);
     allocate(out.p, needs_, needs_.p ? points : 0, layers);
-    list_jobs(table, cos_theta, vectors, shares_layers(), jobs);
+    list_jobs(table, incidence, vectors, shares_layers(), jobs);
 }
 
 void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& table,
-                         std::span<const double> cos_theta,
+                         std::span<const Incidence> incidence,
                          std::span<const FixedLayers* const> fixed, Spectra& out,
                          SpectrumMemory& memory) const {
     const std::size_t wavelengths = table.wavelength_nm().size();
     PlainRun plain(stack_, table, needs_, out);
     std::optional<VectorRun> vector;
     if (by_vectors(table))
-        vector.emplace(program_, plain, table, cos_theta, needs_, simd_, out, memory);
+        vector.emplace(program_, plain, table, incidence, needs_, simd_, out, memory);
     for (const SpectrumJob& job : jobs) {
-        const bool grazing = !job.along_angles && cos_theta[job.fixed] == 0;
+        const bool grazing = !job.along_angles && incidence[job.fixed].cos == 0;
         if (vector && !grazing) {
             memory.run.fixed_rows = fixed_.rows;
             memory.run.fixed = shares_layers()
@@ -376,41 +383,41 @@ void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& ta
             continue;
         }
         for (std::size_t w = job.begin; w < job.end; ++w)
-            plain(cos_theta[job.fixed], w, job.fixed * wavelengths + w);
+            plain(incidence[job.fixed], w, job.fixed * wavelengths + w);
     }
 }
 
-void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const Incidence> incidence,
                                 Spectra& out, SpectrumMemory& memory) const {
-    fix_all_layers(table, cos_theta, memory);
-    (*this)(table, cos_theta, memory.fixed_parts, out, memory);
+    fix_all_layers(table, incidence, memory);
+    (*this)(table, incidence, memory.fixed_parts, out, memory);
 }
 
-void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const Incidence> incidence,
                                 std::span<const FixedLayers* const> fixed, Spectra& out,
                                 SpectrumMemory& memory) const {
-    prepare(table, cos_theta, out, memory.jobs);
-    run(memory.jobs, table, cos_theta, fixed, out, memory);
+    prepare(table, incidence, out, memory.jobs);
+    run(memory.jobs, table, incidence, fixed, out, memory);
 }
 
-void SpectrumKernel::operator()(const IndexTable& table, std::span<const double> cos_theta,
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const Incidence> incidence,
                                 unsigned threads, Spectra& out) const {
     SpectrumMemory memory;
     const double unit =
         by_vectors(table) ? kVectorWork * static_cast<double>(layers_of(program_) + 2) : kPlainWork;
-    const auto points = static_cast<double>(cos_theta.size() * table.wavelength_nm().size());
-    if (threads == 1 || points * unit < kLittleWork) return (*this)(table, cos_theta, out, memory);
-    prepare(table, cos_theta, out, memory.jobs);
-    fix_all_layers(table, cos_theta, memory);
+    const auto points = static_cast<double>(incidence.size() * table.wavelength_nm().size());
+    if (threads == 1 || points * unit < kLittleWork) return (*this)(table, incidence, out, memory);
+    prepare(table, incidence, out, memory.jobs);
+    fix_all_layers(table, incidence, memory);
     parallel_for(memory.jobs.size(), threads, [&](std::size_t j) {
         SpectrumMemory own;
-        run(std::span(memory.jobs).subspan(j, 1), table, cos_theta, memory.fixed_parts, out, own);
+        run(std::span(memory.jobs).subspan(j, 1), table, incidence, memory.fixed_parts, out, own);
     });
 }
 
-Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_theta) const {
-    Work work{.points = cos_theta.size() * table.wavelength_nm().size()};
-    work.normal_angles = static_cast<std::size_t>(std::ranges::count(cos_theta, 1.0));
+Work SpectrumKernel::work(const IndexTable& table, std::span<const Incidence> incidence) const {
+    Work work{.points = incidence.size() * table.wavelength_nm().size()};
+    work.normal_angles = static_cast<std::size_t>(std::ranges::count(incidence, 1.0, &Incidence::cos));
     if (!by_vectors(table)) return work;
     work.kernel = simd_;
     work.passes = program_.down.size() + program_.up.size();
@@ -436,7 +443,7 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_t
     const std::optional<HostedMirror>& mirror = program_.down[0].mirror;
     work.mirror = mirror && mirror->serves(needs_.amplitudes, needs_.denominators);
     work.one_film = work.passes == 1 && program_.down[0].is_one_film();
-    const bool both = needs_.s && needs_.p && work.normal_angles < cos_theta.size();
+    const bool both = needs_.s && needs_.p && work.normal_angles < incidence.size();
     if (work.mirror) {
         work.layers = work.transparent_layers = work.distinct_layers = 2;
         work.powers = 1;
@@ -449,23 +456,23 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const double> cos_t
     return work;
 }
 
-Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
+Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
                 const Needs& needs, const Execution& execution) {
     Spectra out;
-    spectra(stack, table, cos_theta, needs, execution, out);
+    spectra(stack, table, incidence, needs, execution, out);
     return out;
 }
 
-void spectra(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
+void spectra(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
              const Needs& needs, const Execution& execution, Spectra& out) {
     SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)(
-        table, cos_theta, execution.threads, out);
+        table, incidence, execution.threads, out);
 }
 
-Work work_of(const StackPower& stack, const IndexTable& table, std::span<const double> cos_theta,
+Work work_of(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
              const Needs& needs, const Execution& execution) {
     return SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)
-        .work(table, cos_theta);
+        .work(table, incidence);
 }
 
 }  // namespace irido

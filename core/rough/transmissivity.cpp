@@ -32,20 +32,21 @@ struct RoughTransmissivity::Kernel {
         const SpectrumKernel kernel(power, table.absorbs(), table.amplifies(), needs,
                                     execution.simd);
         Spectra out;
-        std::vector<double> cosines;
+        std::vector<Incidence> incidences;
         return {1, kSeriesTolerance, [&](std::span<const double> theta_deg) {
-                    cosines.resize(theta_deg.size());
-                    std::ranges::transform(theta_deg, cosines.begin(), cos_of_incidence);
-                    kernel(table, cosines, 1, out);
+                    incidences.clear();
+                    for (const double angle_deg : theta_deg)
+                        incidences.push_back(incidence(angle_deg));
+                    kernel(table, incidences, 1, out);
                     std::vector<double> T(theta_deg.size());
-                    for (std::size_t i = 0; i < T.size(); ++i) T[i] = mean(out, cosines, i);
+                    for (std::size_t i = 0; i < T.size(); ++i) T[i] = mean(out, incidences, i);
                     return T;
                 }};
     }
 
-    double mean(const Spectra& of, std::span<const double> cosines, std::size_t i) const {
+    double mean(const Spectra& of, std::span<const Incidence> incidences, std::size_t i) const {
         if (light == Light::p) return of.p.T[i];
-        if (light == Light::s || cosines[i] == 1) return of.s.T[i];
+        if (light == Light::s || incidences[i].cos == 1) return of.s.T[i];
         return 0.5 * (of.s.T[i] + of.p.T[i]);
     }
 

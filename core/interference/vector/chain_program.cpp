@@ -92,7 +92,8 @@ std::vector<Attenuation> attenuations(const Layer& gap, const PointRun& run) {
     std::vector<Attenuation> result;
     for (std::size_t i = 0; i < run.count; ++i) {
         const Complex index{value_at(run.n[gap.material], i), value_at(run.k[gap.material], i)};
-        const Medium inside = medium(index, value_at(run.incident, i), value_at(run.cos_theta, i));
+        const Incidence at{value_at(run.cos_theta, i), value_at(run.sin_theta, i)};
+        const Medium inside = medium(index, value_at(run.incident, i), at);
         result.push_back(attenuation(inside, value_at(run.k0, i) * gap.thickness_nm));
     }
     return result;

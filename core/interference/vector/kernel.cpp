@@ -133,11 +133,10 @@ private:
         const V twice = Mul(constant(2), Mul(n, k));
         eps = {Mul(Sub(n, k), Add(n, k)), twice};
         // as medium() of coherent.hpp
-        const V c = at(run_.cos_theta, point), one = constant(1);
-        const V s2 = Mul(Mul(n0, n0), Mul(Sub(one, c), Add(one, c)));
+        const V c = at(run_.cos_theta, point), across = Mul(n0, at(run_.sin_theta, point));
         const V grazing = MulAdd(along, along, NegMulAdd(k, k, Mul(Sub(n, n0), Add(n, n0))));
         const Mask steep = hn::Gt(Mul(c, c), constant(0.5));
-        q2 = {IfThenElse(steep, Sub(eps.re, s2), grazing), twice};
+        q2 = {IfThenElse(steep, NegMulAdd(across, across, eps.re), grazing), twice};
     }
 
     void prepare(std::size_t m, std::size_t point) {
@@ -180,9 +179,8 @@ private:
         put(record, kLoss, eps.im);
         put(record, kWRe, scaled(mul(q2, {eps.re, negative(eps.im)}), inverse_eps));
         put(record, kEpsRe, eps);
-        const V n0 = at(run_.incident, point), along = Mul(n0, at(run_.cos_theta, point));
-        const V s2 = Mul(Sub(n0, along), Add(n0, along));
-        put(record, kLossW, Mul(Mul(s2, eps.im), inverse_eps));
+        const V across = Mul(at(run_.incident, point), at(run_.sin_theta, point));
+        put(record, kLossW, Mul(Mul(Mul(across, across), eps.im), inverse_eps));
         evanescent_[m] = false;
     }
 

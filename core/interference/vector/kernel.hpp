@@ -29,6 +29,7 @@ struct PointRun {
     Stream k0;                 ///< 2 pi / wavelength, 1/nm
     Stream incident;           ///< real index n0
     Stream cos_theta;          ///< in (0, 1]
+    Stream sin_theta;
     std::vector<Stream> n, k;  ///< one per material
     /// Index into them of the medium above the layers; nothing for the incident medium. Its wave is
     /// the one that travels or decays downwards, and k >= 0.
