@@ -157,7 +157,7 @@ public:
           table_(stack_, case_wavelengths()) {
         needs_.T = needs_.A = !of.only_R;
         for (int i = 0; i < 90; ++i) angles_deg_.push_back(of.normal ? 0 : i + 0.5);
-        for (const double angle : angles_deg_) incidences_.push_back(incidence(angle));
+        for (const double angle : angles_deg_) incidences_.push_back(incident_angle(angle));
         for (std::size_t i = 0; i < kSamples; ++i) {
             const Sample sample{i * 400 / (kSamples - 1), of.normal ? 0 : (i * 37 + 5) % 90};
             samples_.push_back(sample);
@@ -253,7 +253,7 @@ private:
     IndexTable table_;
     Needs needs_;
     std::vector<double> angles_deg_;
-    std::vector<Incidence> incidences_;
+    std::vector<IncidentAngle> incidences_;
     std::vector<Sample> samples_;
     std::vector<double> exact_;  ///< R of every sample, s and p
     mutable Spectra out_;

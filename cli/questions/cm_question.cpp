@@ -63,7 +63,7 @@ struct CmStack : PreparedStack {
 
 FilmSeries series_at(const StackDocument& document, const Film& film, double angle_deg,
                      char polarization) {
-    const auto series = film_series(film, incidence(angle_deg),
+    const auto series = film_series(film, incident_angle(angle_deg),
                                     polarization == 's' ? Polarization::s : Polarization::p);
     if (series) return *series;
     throw InputError(document.file, "",

@@ -178,7 +178,7 @@ double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
     const IndexTable indices(held_stack(model, sensitivity), {kPathWavelength_nm});
     const std::size_t pieces = smooth_pieces(model, sensitivity.support()).size() - 1;
     return static_cast<double>(lightings_.size()) *
-           (kColor + kLayer * quadrature_work(stack, indices, pieces, incidence(angle_deg)));
+           (kColor + kLayer * quadrature_work(stack, indices, pieces, incident_angle(angle_deg)));
 }
 
 StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& stack,

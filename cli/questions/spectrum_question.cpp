@@ -120,10 +120,10 @@ std::vector<std::string> letters_of(const std::string& polarizations) {
     return result;
 }
 
-std::vector<Incidence> incidences_of(std::span<const double> angles_deg) {
-    std::vector<Incidence> incidences;
-    for (const double angle_deg : angles_deg) incidences.push_back(incidence(angle_deg));
-    return incidences;
+std::vector<IncidentAngle> incident_angles_of(std::span<const double> angles_deg) {
+    std::vector<IncidentAngle> incident_angles;
+    for (const double angle_deg : angles_deg) incident_angles.push_back(incident_angle(angle_deg));
+    return incident_angles;
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ public:
             is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
                      : static_cast<const SpectrumStack&>(prepared).table;
         try {
-            spectra(power, table, incidences_of(incidence.angles_deg), needs, question_.execution_,
+            spectra(power, table, incident_angles_of(incidence.angles_deg), needs, question_.execution_,
                     spectra_);
         } catch (const DomainError& error) {
             throw InputError(prepared.document.file, "", error.what());
@@ -244,7 +244,7 @@ double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& sta
     constexpr double kStack = 2, kRow = 0.2, kOperation = 3e-5, kPlainPoint = 2;
     const StackPower power = stack_power(prepared.document, stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
-    const Incidence at = incidence(angle_deg);
+    const IncidentAngle at = incident_angle(angle_deg);
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
                               {&at, 1}, needs, execution_);
     const bool is_plain = work.kernel == SimdLevel::plain;
@@ -257,7 +257,7 @@ std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) 
     const StackPower power = stack_power(prepared.document, prepared.document.stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
-                              incidences_of(angles_deg_), needs, execution_);
+                              incident_angles_of(angles_deg_), needs, execution_);
     return lines_of(work, needs, angles_deg_.size(), why_plain(power, needs, execution_.simd));
 }
 

@@ -51,7 +51,7 @@ public:
         const SpectrumKernel kernel(power, table_.absorbs(), table_.amplifies(), needs_, simd_);
         const Pool<Scratch>::Loan scratch = scratch_.borrow();
         for (std::size_t i = 0; i < angles_deg.size(); ++i) {
-            const Incidence at = incidence(angles_deg[i]);
+            const IncidentAngle at = incident_angle(angles_deg[i]);
             kernel(table_, {&at, 1}, scratch->spectra, scratch->memory);
             for (std::size_t s = 0; s < sides_.size(); ++s)
                 colors[i * sides_.size() + s] = color(at.cos == 1, sides_[s], *scratch);

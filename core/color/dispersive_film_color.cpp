@@ -74,7 +74,7 @@ private:
 
     double channel(std::size_t c, const Thickness& thickness, double angle_deg,
                    Polarization polarization) const {
-        const Incidence at = incidence(angle_deg);
+        const IncidentAngle at = incident_angle(angle_deg);
         const ChannelPoints& points = points_[c];
         const auto a = film_series(thickness.of(films_[2 * c]), at, polarization);
         const auto b = film_series(thickness.of(films_[2 * c + 1]), at, polarization);

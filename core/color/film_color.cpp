@@ -74,7 +74,7 @@ private:
 
     /// T without fringes, and the orders.
     double start(const Film& film, double angle_deg, FilmOrders& orders) const {
-        const Incidence at = incidence(angle_deg);
+        const IncidentAngle at = incident_angle(angle_deg);
         const std::array share = weights(request_.light, at.cos);
         double T = 0;
         orders = {};

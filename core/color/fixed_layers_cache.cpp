@@ -2,7 +2,7 @@
 
 namespace irido {
 
-std::shared_ptr<FixedLayersCache::Angle> FixedLayersCache::at(Incidence incidence) {
+std::shared_ptr<FixedLayersCache::Angle> FixedLayersCache::at(IncidentAngle incidence) {
     const std::scoped_lock guard(lock_);
     std::shared_ptr<Angle>& angle = angles_[{incidence.cos, incidence.sin}];
     if (!angle) angle = std::make_shared<Angle>();

@@ -27,7 +27,7 @@ public:
 
     explicit FixedLayersCache(std::size_t most_numbers) : most_numbers_(most_numbers) {}
 
-    std::shared_ptr<Angle> at(Incidence incidence);
+    std::shared_ptr<Angle> at(IncidentAngle incidence);
 
     /// One for each of the points, nullptr if it is not there.
     void find(const Angle& angle, std::span<const SpectralPoints* const> points,

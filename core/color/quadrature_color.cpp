@@ -161,7 +161,7 @@ public:
         const IntegrationLimits limits{request_.tolerance,
                                        std::min(request_.evaluations, affordable), request_.simd};
         for (std::size_t i = 0; i < angles_deg.size(); ++i)
-            integrate(kernel, stack, incidence(angles_deg[i]), limits,
+            integrate(kernel, stack, incident_angle(angles_deg[i]), limits,
                       colors.subspan(i * sides, sides), *scratch);
     }
 
@@ -207,7 +207,7 @@ private:
         return true;
     }
 
-    double optical_path_nm(const Stack& stack, Incidence incidence,
+    double optical_path_nm(const Stack& stack, IncidentAngle incidence,
                            std::vector<Complex>& normal) const {
         double longest = 0;
         normal.resize(on_path_.materials());
@@ -222,7 +222,7 @@ private:
         return longest;
     }
 
-    void integrate(const SpectrumKernel& kernel, const Stack& stack, Incidence incidence,
+    void integrate(const SpectrumKernel& kernel, const Stack& stack, IncidentAngle incidence,
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
         if (incidence.cos == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
@@ -258,7 +258,7 @@ private:
     /// reflects at any angle.
     bool reflects_all(const SpectrumKernel& kernel, Scratch& scratch) const {
         if (std::ranges::find(amplifies_, true) != amplifies_.end()) return false;
-        const Incidence grazing(0);
+        const IncidentAngle grazing(0);
         kernel(on_path_, {&grazing, 1}, scratch.spectra, scratch.memory);
         const auto is_one = [](double R) { return R == 1; };
         const auto is_zero = [](double T) { return T == 0; };
@@ -307,7 +307,7 @@ private:
 
     /// Gathers what does not vary; false if there is no room for it.
     bool fix_layers(const SpectrumKernel& kernel, std::span<const SpectralPoints* const> parts,
-                    Incidence incidence, FixedLayersCache::Angle& angle, Scratch& scratch) const {
+                    IncidentAngle incidence, FixedLayersCache::Angle& angle, Scratch& scratch) const {
         fixed_layers_.find(angle, parts, scratch.fixed_parts);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             if (scratch.fixed_parts[i]) continue;
@@ -365,7 +365,7 @@ std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, cons
 }
 
 double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
-                       Incidence incidence) {
+                       IncidentAngle incidence) {
     constexpr double kPointsOfPiece = 20, kPointsPerPath = 0.032;  // of nm; as --stats says
     std::vector<Complex> normal(indices.materials());
     for (std::size_t m = 0; m < normal.size(); ++m)

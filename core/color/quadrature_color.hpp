@@ -25,6 +25,6 @@ std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, cons
 ///   indices  of the stack's materials at one wavelength
 ///   pieces   smooth_pieces() of the stack, less one
 double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
-                       Incidence incidence);
+                       IncidentAngle incidence);
 
 }  // namespace irido

@@ -9,7 +9,7 @@ namespace irido {
 
 namespace {
 
-double admittance(double n, double n0, Incidence incidence, Polarization polarization) {
+double admittance(double n, double n0, IncidentAngle incidence, Polarization polarization) {
     const double q2 = medium(n, n0, incidence).q2.real();
     if (!(q2 > 0))
         throw DomainError("there are no Bloch waves past the critical angle of an index (n = " +
@@ -51,7 +51,7 @@ Periods periods(const BlochPoint& at, std::uint64_t repeat) {
 }  // namespace
 
 BlochMirror bloch_mirror(const RealLayer& first, const RealLayer& second, std::uint64_t repeat,
-                         double n0, double n_out, Incidence incidence, Polarization polarization) {
+                         double n0, double n_out, IncidentAngle incidence, Polarization polarization) {
     BlochMirror mirror;
     mirror.period = bragg_period(first, second, n0, incidence, polarization);
     const auto of = [&](double n) { return admittance(n, n0, incidence, polarization); };

@@ -186,7 +186,7 @@ std::int64_t last_order(const TurnRange& range) {
 }  // namespace
 
 BraggPeriod bragg_period(const RealLayer& first, const RealLayer& second, double n0,
-                         Incidence incidence, Polarization polarization) {
+                         IncidentAngle incidence, Polarization polarization) {
     require_in_range("thickness_nm", first.thickness_nm, 0, 1e9);
     require_in_range("thickness_nm", second.thickness_nm, 0, 1e9);
     require_in_range("cos_theta", incidence.cos, 0, 1);

@@ -27,7 +27,7 @@ struct RealLayer {
 /// The period of two layers in light that comes from an index n0 > 0 under this incidence.
 /// Throws DomainError where a layer reflects totally (or just does), and if both have no thickness.
 BraggPeriod bragg_period(const RealLayer& first, const RealLayer& second, double n0,
-                         Incidence incidence, Polarization polarization);
+                         IncidentAngle incidence, Polarization polarization);
 
 /// Whether at some angle in the medium n0 p light does not see the interface of two indices
 /// (Brewster's), so that all gaps of p close there. Source: Yeh (1988), section 6.3.

@@ -89,7 +89,7 @@ BraggPeriod BraggMirror::period(double angle_deg, Polarization polarization, dou
         const RealLayer first{index(pair_[0].material, omega), pair_[0].thickness_nm};
         const RealLayer second{index(pair_[1].material, omega), pair_[1].thickness_nm};
         return bragg_period(first, second, index(stack_.incident, omega),
-                            incidence(angle_deg), polarization);
+                            incident_angle(angle_deg), polarization);
     } catch (const DomainError& error) {
         throw DomainError(std::string(error.what()) + ", at " + to_text(angle_deg) + " degrees");
     }
@@ -113,7 +113,7 @@ std::function<double(std::uint64_t)> BraggMirror::reflectances(double angle_deg,
     needs.p = !is_s;
     needs.T = needs.A = false;
     const IndexTable table(stack_, {kTurn / omega});
-    const Incidence at = incidence(angle_deg);
+    const IncidentAngle at = incident_angle(angle_deg);
     return [=, stack = stack_, place = place_](std::uint64_t repeat) mutable {
         if (repeat > 0) std::get<Group>(stack.elements[place].value).repeat = repeat;
         const Spectra result =

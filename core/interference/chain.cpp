@@ -51,14 +51,35 @@ std::size_t count_layers(std::span<const Element> elements) {
     return count;
 }
 
+std::optional<Chain> joined(const Chain& chain, std::span<const Medium> media) {
+    const auto parts = [&](const Layer& gap) {
+        return travels(media[gap.material]) && gap.thickness_nm + gap.thickness_sigma_nm > 0;
+    };
+    if (std::ranges::all_of(chain.gaps, parts)) return std::nullopt;
+    std::vector<Element> elements = chain.blocks[0].down;
+    for (std::size_t i = 0; i < chain.gaps.size(); ++i) {
+        Layer gap = chain.gaps[i];
+        gap.coherent = !parts(gap);
+        elements.push_back({gap});
+        const std::vector<Element>& below = chain.blocks[i + 1].down;
+        elements.insert(elements.end(), below.begin(), below.end());
+    }
+    return chain_of(elements, chain.substrate);
+}
+
+Wave ChainLight::in_gap(std::size_t i) const {
+    const Layer& layer = chain_.gaps[i];
+    return wave_in_gap(media_[layer.material], k0_ * layer.thickness_nm, polarization_);
+}
+
 Wave ChainLight::above(std::size_t block) const {
     if (block == 0) return outgoing_wave(media_.back(), polarization_);
-    return onward_wave(media_[chain_.gaps[block - 1].material], polarization_);
+    return in_gap(block - 1);
 }
 
 Wave ChainLight::below(std::size_t block) const {
     if (block == last_block()) return outgoing_wave(media_[chain_.substrate], polarization_);
-    return above(block + 1);
+    return in_gap(block);
 }
 
 Attenuation ChainLight::gap(std::size_t i) const {

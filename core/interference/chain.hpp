@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,13 +29,24 @@ Chain chain_of(const std::vector<Element>& elements, std::size_t substrate);
 /// Layers with groups written out; the largest number there is, if they are more.
 std::size_t count_layers(std::span<const Element> elements);
 
-/// A chain in the light of one wavelength, angle and polarization; arguments as those of
-/// StackPower. It refers to them, and sees thicknesses that change.
+/// The chain whose gaps part coherent blocks at this wavelength and angle: those in which light
+/// does not travel (see travels()), and those of no thickness, are layers of a block. Nothing if
+/// the chain has none of them.
+std::optional<Chain> joined(const Chain& chain, std::span<const Medium> media);
+
+/// A chain, joined(), in the light of one wavelength, angle and polarization; arguments as those of
+/// StackPower. It refers to them, and sees thicknesses that change in a chain that is joined.
 class ChainLight {
 public:
     ChainLight(const Chain& chain, std::span<const Medium> media, double k0,
                Polarization polarization)
-        : chain_(chain), media_(media), k0_(k0), polarization_(polarization) {}
+        : own_(joined(chain, media)),
+          chain_(own_ ? *own_ : chain),
+          media_(media),
+          k0_(k0),
+          polarization_(polarization) {}
+    ChainLight(const ChainLight&) = delete;
+    ChainLight& operator=(const ChainLight&) = delete;
 
     std::span<const Medium> media() const { return media_; }
     double k0() const { return k0_; }
@@ -59,6 +71,9 @@ private:
     void add_block_layers(std::size_t block, double from_above, double from_below,
                           std::span<double> absorbed) const;
 
+    Wave in_gap(std::size_t gap) const;
+
+    std::optional<Chain> own_;
     const Chain& chain_;
     std::span<const Medium> media_;
     double k0_;

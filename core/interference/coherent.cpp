@@ -29,16 +29,16 @@ bool all_same(const Medium& above, std::span<const Element> elements,
 
 }  // namespace
 
-Incidence::Incidence(double cos_theta)
+IncidentAngle::IncidentAngle(double cos_theta)
     : cos(cos_theta), sin(std::sqrt((1 - cos_theta) * (1 + cos_theta))) {}
 
-Incidence incidence(double angle_deg) {
+IncidentAngle incident_angle(double angle_deg) {
     const double cosine = cos_of_incidence(angle_deg);
     const long double degree = std::numbers::pi_v<long double> / 180;
     return {cosine, static_cast<double>(std::sin(angle_deg * degree))};
 }
 
-Medium medium(Complex index, double n0, Incidence at) {
+Medium medium(Complex index, double n0, IncidentAngle at) {
     const double n = index.real(), k = index.imag();
     const double along = n0 * at.cos, across = n0 * at.sin;
     const Complex eps{(n - k) * (n + k), 2 * n * k};

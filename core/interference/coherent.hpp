@@ -18,18 +18,18 @@ struct Power {
 
 /// Direction of the incident light in the incident medium. The sine stands beside the cosine because
 /// each loses its digits where it is formed from the other.
-struct Incidence {
+struct IncidentAngle {
     double cos = 1, sin = 0;
 
     /// cos_theta in [0, 1]
-    Incidence(double cos_theta);
-    Incidence(double cos_theta, double sin_theta) : cos(cos_theta), sin(sin_theta) {}
-    friend bool operator==(const Incidence&, const Incidence&) = default;
+    IncidentAngle(double cos_theta);
+    IncidentAngle(double cos_theta, double sin_theta) : cos(cos_theta), sin(sin_theta) {}
+    friend bool operator==(const IncidentAngle&, const IncidentAngle&) = default;
 };
 
 /// Of an angle in degrees, [0, 90], else DomainError: cos_of_incidence(), and the sine to its last
 /// digit, exactly 1/2 at 30 degrees.
-Incidence incidence(double angle_deg);
+IncidentAngle incident_angle(double angle_deg);
 
 /// One medium at one wavelength and angle.
 struct Medium {
@@ -42,7 +42,7 @@ struct Medium {
 ///     q2 = (n - n0)(n + n0) - k^2 + 2 i n k + (n0 cos theta)^2      beyond:
 /// the first keeps the digits of small indices, the second those of grazing angles.
 /// n0 > 0 is the real index of the incident medium, to which the incidence belongs.
-Medium medium(Complex index, double n0, Incidence incidence);
+Medium medium(Complex index, double n0, IncidentAngle incidence);
 
 /// Closed range of the angle of incidence, degrees.
 inline constexpr double kLargestAngle_deg = 90;

@@ -49,7 +49,7 @@ Interface<Number> interface_p(const Ray<double>& a, const Ray<Number>& b, Number
 
 }  // namespace
 
-std::optional<FilmSeries> film_series(const Film& film, Incidence incidence,
+std::optional<FilmSeries> film_series(const Film& film, IncidentAngle incidence,
                                       Polarization polarization) {
     const double n1 = film.incident, n2 = film.film;
     const Complex n3 = film.base;

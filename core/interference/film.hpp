@@ -35,7 +35,7 @@ struct FilmSeries {
 /// The series, the incidence belonging to the incident medium; nothing where there is none:
 /// past the film's critical angle, and over a base that amplifies so much that rho >= 1. Where no
 /// light enters the base, and at 90 degrees unless all media are the same, R = 1 and T = 0.
-std::optional<FilmSeries> film_series(const Film& film, Incidence incidence,
+std::optional<FilmSeries> film_series(const Film& film, IncidentAngle incidence,
                                       Polarization polarization);
 
 }  // namespace irido

@@ -3,9 +3,27 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/interference/slab_response.hpp"
 
 namespace irido {
+
+bool travels(const Medium& m) {
+    return m.q2.real() > 0;
+}
+
+Wave wave_in_gap(const Medium& m, double k0_d, Polarization polarization) {
+    const Wave own = onward_wave(m, polarization);
+    if (m.eps.imag() == 0) return own;
+    const Complex y = own.c / own.b;
+    const double most = y.real() * std::abs(std::sinh(k0_d * onward_kz(m).imag()));
+    if (std::abs(y.imag()) <= most) return own;
+    return {1, {y.real(), std::copysign(most, y.imag())}, y.real()};
+}
+
+bool has_own_wave(const Medium& m, double k0_d) {
+    // Y is kz in s; in p its phase is the smaller one
+    const Complex kz = onward_kz(m);
+    return std::abs(kz.imag()) <= kz.real() * std::abs(std::sinh(k0_d * kz.imag()));
+}
 
 Attenuation attenuation(const Medium& m, double k0_d) {
     const double exponent = -2 * k0_d * onward_kz(m).imag();

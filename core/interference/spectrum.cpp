@@ -64,7 +64,7 @@ public:
     PlainRun(const StackPower& stack, const IndexTable& table, const Needs& needs, Spectra& out)
         : stack_(stack), table_(table), needs_(needs), out_(out) {}
 
-    void operator()(Incidence incidence, std::size_t wavelength, std::size_t point) {
+    void operator()(IncidentAngle incidence, std::size_t wavelength, std::size_t point) {
         const double n0 = table_.n(table_.incident())[wavelength];
         media_.resize(table_.materials() + 1);
         absorbed_.resize(needs_.layers ? stack_.layer_count() : 0);
@@ -147,7 +147,7 @@ void copy_points(const Spectrum& from, Spectrum& to, std::size_t begin, std::siz
 
 /// Whether all points of an angle are better computed together: where both polarizations are one,
 /// and where the incident wave carries no power.
-bool is_special(Incidence incidence) {
+bool is_special(IncidentAngle incidence) {
     return incidence.cos == 1 || incidence.cos == 0;
 }
 
@@ -157,7 +157,7 @@ Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) 
 
 /// The points of a job.
 ///   cosines, sines  memory for those of a job along angles
-void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const Incidence> incidence,
+void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const IncidentAngle> incidence,
                 PointRun& run, std::vector<double>& cosines, std::vector<double>& sines) {
     const bool across = job.along_angles;
     const std::size_t wavelength = across ? job.fixed : job.begin;
@@ -165,7 +165,7 @@ void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const
     run.k0 = {table.k0().data() + wavelength, !across};
     run.incident = stream(table.n(table.incident()), wavelength,
                           !across && !table.is_constant(table.incident()));
-    const Incidence& first = incidence[across ? job.begin : job.fixed];
+    const IncidentAngle& first = incidence[across ? job.begin : job.fixed];
     run.cos_theta = {&first.cos, across};
     run.sin_theta = {&first.sin, across};
     if (across) {
@@ -191,7 +191,7 @@ void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const
 class VectorRun {
 public:
     VectorRun(const ChainProgram& program, PlainRun& plain, const IndexTable& table,
-              std::span<const Incidence> incidence, const Needs& needs, SimdLevel simd, Spectra& out,
+              std::span<const IncidentAngle> incidence, const Needs& needs, SimdLevel simd, Spectra& out,
               SpectrumMemory& memory)
         : program_(program),
           plain_(plain),
@@ -233,7 +233,7 @@ private:
     const ChainProgram& program_;
     PlainRun& plain_;
     const IndexTable& table_;
-    std::span<const Incidence> incidence_;
+    std::span<const IncidentAngle> incidence_;
     const Needs& needs_;
     SimdLevel simd_;
     Spectra& out_;
@@ -259,7 +259,7 @@ void add_jobs(std::vector<SpectrumJob>& jobs, SpectrumJob whole, std::size_t blo
 
 /// All points, in jobs that do not depend on the number of threads.
 ///   by_angle  a job takes all points of an angle, and no other
-void list_jobs(const IndexTable& table, std::span<const Incidence> incidence, bool by_vectors,
+void list_jobs(const IndexTable& table, std::span<const IncidentAngle> incidence, bool by_vectors,
                bool by_angle, std::vector<SpectrumJob>& jobs) {
     const std::size_t wavelengths = table.wavelength_nm().size(), angles = incidence.size();
     const std::size_t block = by_angle ? wavelengths : by_vectors ? kVectorBlock : kPlainBlock;
@@ -322,7 +322,7 @@ void SpectrumKernel::update() {
     if (is_vectorized_) program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
 }
 
-void SpectrumKernel::fix_layers(const IndexTable& table, Incidence incidence, FixedLayers& out,
+void SpectrumKernel::fix_layers(const IndexTable& table, IncidentAngle incidence, FixedLayers& out,
                                 SpectrumMemory& memory) const {
     out.points = table.wavelength_nm().size();
     out.numbers.clear();
@@ -335,7 +335,7 @@ void SpectrumKernel::fix_layers(const IndexTable& table, Incidence incidence, Fi
                     out.numbers.data(), memory.kernel, simd_);
 }
 
-void SpectrumKernel::fix_all_layers(const IndexTable& table, std::span<const Incidence> incidence,
+void SpectrumKernel::fix_all_layers(const IndexTable& table, std::span<const IncidentAngle> incidence,
                                     SpectrumMemory& memory) const {
     memory.fixed_parts.clear();
     if (!shares_layers() || !by_vectors(table)) return;
@@ -353,7 +353,7 @@ bool SpectrumKernel::by_vectors(const IndexTable& table) const {
     return true;
 }
 
-void SpectrumKernel::prepare(const IndexTable& table, std::span<const Incidence> incidence,
+void SpectrumKernel::prepare(const IndexTable& table, std::span<const IncidentAngle> incidence,
                              Spectra& out, std::vector<SpectrumJob>& jobs) const {
     const std::size_t points = incidence.size() * table.wavelength_nm().size();
     const std::size_t layers = needs_.layers ? stack_.layer_count() : 0;
@@ -364,7 +364,7 @@ void SpectrumKernel::prepare(const IndexTable& table, std::span<const Incidence>
 }
 
 void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& table,
-                         std::span<const Incidence> incidence,
+                         std::span<const IncidentAngle> incidence,
                          std::span<const FixedLayers* const> fixed, Spectra& out,
                          SpectrumMemory& memory) const {
     const std::size_t wavelengths = table.wavelength_nm().size();
@@ -387,20 +387,20 @@ void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& ta
     }
 }
 
-void SpectrumKernel::operator()(const IndexTable& table, std::span<const Incidence> incidence,
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                                 Spectra& out, SpectrumMemory& memory) const {
     fix_all_layers(table, incidence, memory);
     (*this)(table, incidence, memory.fixed_parts, out, memory);
 }
 
-void SpectrumKernel::operator()(const IndexTable& table, std::span<const Incidence> incidence,
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                                 std::span<const FixedLayers* const> fixed, Spectra& out,
                                 SpectrumMemory& memory) const {
     prepare(table, incidence, out, memory.jobs);
     run(memory.jobs, table, incidence, fixed, out, memory);
 }
 
-void SpectrumKernel::operator()(const IndexTable& table, std::span<const Incidence> incidence,
+void SpectrumKernel::operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                                 unsigned threads, Spectra& out) const {
     SpectrumMemory memory;
     const double unit =
@@ -415,9 +415,9 @@ void SpectrumKernel::operator()(const IndexTable& table, std::span<const Inciden
     });
 }
 
-Work SpectrumKernel::work(const IndexTable& table, std::span<const Incidence> incidence) const {
+Work SpectrumKernel::work(const IndexTable& table, std::span<const IncidentAngle> incidence) const {
     Work work{.points = incidence.size() * table.wavelength_nm().size()};
-    work.normal_angles = static_cast<std::size_t>(std::ranges::count(incidence, 1.0, &Incidence::cos));
+    work.normal_angles = static_cast<std::size_t>(std::ranges::count(incidence, 1.0, &IncidentAngle::cos));
     if (!by_vectors(table)) return work;
     work.kernel = simd_;
     work.passes = program_.down.size() + program_.up.size();
@@ -456,20 +456,20 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const Incidence> in
     return work;
 }
 
-Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
+Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
                 const Needs& needs, const Execution& execution) {
     Spectra out;
     spectra(stack, table, incidence, needs, execution, out);
     return out;
 }
 
-void spectra(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
+void spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
              const Needs& needs, const Execution& execution, Spectra& out) {
     SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)(
         table, incidence, execution.threads, out);
 }
 
-Work work_of(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
+Work work_of(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
              const Needs& needs, const Execution& execution) {
     return SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)
         .work(table, incidence);

@@ -55,7 +55,7 @@ struct Work {
     bool absorbs = false;                ///< any layer
     double operations_per_point = 0;     ///< see vector/program.hpp
 };
-Work work_of(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
+Work work_of(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
              const Needs& needs, const Execution& execution = {1});
 
 /// Points that differ in their wavelength or in their angle only.
@@ -105,18 +105,18 @@ public:
     /// needed. Results differ from those without in roundings.
     bool shares_layers() const { return !fixed_.runs.empty(); }
     /// The FixedLayers of all calls with this table and angle, whatever the varied layers.
-    void fix_layers(const IndexTable& table, Incidence incidence, FixedLayers& out,
+    void fix_layers(const IndexTable& table, IncidentAngle incidence, FixedLayers& out,
                     SpectrumMemory& memory) const;
 
     /// As spectra(), into memory that is used again; threads as in Execution.
-    void operator()(const IndexTable& table, std::span<const Incidence> incidence, unsigned threads,
+    void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence, unsigned threads,
                     Spectra& out) const;
     /// The same on this thread.
-    void operator()(const IndexTable& table, std::span<const Incidence> incidence, Spectra& out,
+    void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence, Spectra& out,
                     SpectrumMemory& memory) const;
     /// The same with the FixedLayers given, which the two above compute for themselves: one or more
     /// for each angle, whose points add up to those of the table.
-    void operator()(const IndexTable& table, std::span<const Incidence> incidence,
+    void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                     std::span<const FixedLayers* const> fixed, Spectra& out,
                     SpectrumMemory& memory) const;
 
@@ -124,16 +124,16 @@ public:
     bool is_vectorized() const { return is_vectorized_; }
 
     /// How the call above goes about it.
-    Work work(const IndexTable& table, std::span<const Incidence> incidence) const;
+    Work work(const IndexTable& table, std::span<const IncidentAngle> incidence) const;
 
 private:
     bool by_vectors(const IndexTable& table) const;
-    void prepare(const IndexTable& table, std::span<const Incidence> incidence, Spectra& out,
+    void prepare(const IndexTable& table, std::span<const IncidentAngle> incidence, Spectra& out,
                  std::vector<SpectrumJob>& jobs) const;
-    void fix_all_layers(const IndexTable& table, std::span<const Incidence> incidence,
+    void fix_all_layers(const IndexTable& table, std::span<const IncidentAngle> incidence,
                         SpectrumMemory& memory) const;
     void run(std::span<const SpectrumJob> jobs, const IndexTable& table,
-             std::span<const Incidence> incidence, std::span<const FixedLayers* const> fixed,
+             std::span<const IncidentAngle> incidence, std::span<const FixedLayers* const> fixed,
              Spectra& out, SpectrumMemory& memory) const;
 
     const StackPower& stack_;
@@ -150,19 +150,19 @@ private:
 /// Stacks of fixed thicknesses go through the vector kernel; spread ones, A_layers and what the
 /// vector kernel leaves go through StackPower one by one. Throws DomainError if amplitudes are
 /// needed of a stack that has none, and as StackPower does.
-Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
+Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
                 const Needs& needs, const Execution& execution = {1});
 
 /// The same for the cosines of the angles of incidence, [0, 1].
 inline Spectra spectra(const StackPower& stack, const IndexTable& table,
                        std::span<const double> cos_theta, const Needs& needs,
                        const Execution& execution = {1}) {
-    return spectra(stack, table, std::vector<Incidence>(cos_theta.begin(), cos_theta.end()), needs,
+    return spectra(stack, table, std::vector<IncidentAngle>(cos_theta.begin(), cos_theta.end()), needs,
                    execution);
 }
 
 /// The same into memory that is used again.
-void spectra(const StackPower& stack, const IndexTable& table, std::span<const Incidence> incidence,
+void spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
              const Needs& needs, const Execution& execution, Spectra& out);
 
 }  // namespace irido

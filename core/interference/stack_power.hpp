@@ -13,7 +13,10 @@ namespace irido {
 ///
 /// Across an incoherent layer powers add instead of amplitudes: the layers between two incoherent
 /// ones form a coherent block with its reflectances and transmittances from both sides, and the
-/// bounces between blocks are summed as a geometric series.
+/// bounces between blocks are summed as a geometric series. Of one incoherent layer that is the
+/// mean over the phase of its round trips. R, T and A of layers that do not amplify are in [0, 1]:
+/// where light does not travel in an incoherent layer it is coherent (see travels()), and absorbers
+/// too thin to lose a phase have a wave of their own (see wave_in_gap()).
 /// Source: S. J. Byrnes, arXiv:1603.02720 (2016), section 4.
 ///
 /// A layer with thickness_sigma_nm has its power averaged over a Gaussian of thicknesses, cut at

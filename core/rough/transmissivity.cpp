@@ -32,11 +32,11 @@ struct RoughTransmissivity::Kernel {
         const SpectrumKernel kernel(power, table.absorbs(), table.amplifies(), needs,
                                     execution.simd);
         Spectra out;
-        std::vector<Incidence> incidences;
+        std::vector<IncidentAngle> incidences;
         return {1, kSeriesTolerance, [&](std::span<const double> theta_deg) {
                     incidences.clear();
                     for (const double angle_deg : theta_deg)
-                        incidences.push_back(incidence(angle_deg));
+                        incidences.push_back(incident_angle(angle_deg));
                     kernel(table, incidences, 1, out);
                     std::vector<double> T(theta_deg.size());
                     for (std::size_t i = 0; i < T.size(); ++i) T[i] = mean(out, incidences, i);
@@ -44,7 +44,7 @@ struct RoughTransmissivity::Kernel {
                 }};
     }
 
-    double mean(const Spectra& of, std::span<const Incidence> incidences, std::size_t i) const {
+    double mean(const Spectra& of, std::span<const IncidentAngle> incidences, std::size_t i) const {
         if (light == Light::p) return of.p.T[i];
         if (light == Light::s || incidences[i].cos == 1) return of.s.T[i];
         return 0.5 * (of.s.T[i] + of.p.T[i]);

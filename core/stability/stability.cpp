@@ -36,7 +36,7 @@ Powers powers_of(const StackCase& c, Random& random, SimdLevel simd) {
                         kAllWavelengths.last_nm);
     wavelengths_nm[place] = c.wavelength_nm;
     const IndexTable table(c.stack, std::move(wavelengths_nm));
-    const Incidence direction = incidence(c.angle_deg);
+    const IncidentAngle direction = incident_angle(c.angle_deg);
     const Spectra at = spectra(StackPower(c.stack), table, std::span(&direction, 1), {}, {1, simd});
     return {at.s.power(place), at.p.power(place)};
 }

@@ -338,7 +338,7 @@ private:
              equally_spaced(material.angles_deg.first, material.angles_deg.last, angles))
             for (const Film& film : films)
                 for (const Polarization p : {Polarization::s, Polarization::p}) {
-                    const auto series = film_series(film, incidence(angle_deg), p);
+                    const auto series = film_series(film, incident_angle(angle_deg), p);
                     if (!series) continue;
                     for (int m = 1; m <= most; ++m) {
                         const double path = m * series->opd_nm;

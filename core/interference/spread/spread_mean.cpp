@@ -81,7 +81,7 @@ SpreadMean::SpreadMean(const Chain& chain, std::span<const SpreadLayer> spreads,
                        std::span<const std::size_t> spread_of, std::span<const Medium> media,
                        double k0, Polarization polarization)
     : spreads_(spreads),
-      chain_(chain),
+      chain_(joined(chain, media).value_or(chain)),
       light_(chain_, media, k0, polarization),
       order_(spreads.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
@@ -224,14 +224,29 @@ Complex SpreadMean::power_now(std::span<double> values) const {
     return denominator;
 }
 
+/// Whether the wave in a gap depends on the gap's thickness.
+bool SpreadMean::waves_move() const {
+    return std::ranges::any_of(chain_.gaps, [&](const Layer& gap) {
+        return gap.thickness_sigma_nm > 0 && light_.media()[gap.material].eps.imag() != 0;
+    });
+}
+
 Power SpreadMean::power() {
+    std::array<double, 3> mean{};
+    if (waves_move()) {
+        mean_from(0, mean, [&](std::span<double> values) {
+            const Response now = light_.response();
+            store(now.power, values);
+            return now.denominator;
+        });
+        return {mean[0], mean[1], mean[2]};
+    }
     for (std::size_t i = 0; i <= light_.last_block(); ++i) {
         const Wave in = light_.above(i), out = light_.below(i);
         downs_.push_back(direction(chain_.blocks[i].down, in, out));
         if (i < light_.last_block()) ups_.push_back(direction(chain_.blocks[i].up, out, in));
     }
     choose_innermost();
-    std::array<double, 3> mean{};
     mean_from(0, mean, [&](std::span<double> values) { return power_now(values); });
     return {mean[0], mean[1], mean[2]};
 }

@@ -90,6 +90,7 @@ private:
     Complex mean_of_sweep(const ThicknessSpread& thicknesses, const Place& place,
                           std::span<double> mean);
     Complex power_now(std::span<double> power) const;
+    bool waves_move() const;
 
     std::span<const SpreadLayer> spreads_;
     Chain chain_;

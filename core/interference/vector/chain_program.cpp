@@ -13,6 +13,9 @@ double value_at(const Stream& stream, std::size_t point) {
     return stream.values[stream.varies ? point : 0];
 }
 
+/// What the kernel's stand-in for a kz of 0 can leave of A in a gap without absorption.
+constexpr double kNoAbsorption = 1e-130;
+
 /// Powers of all points of a run in one polarization.
 struct BlockRun {
     std::vector<double> R, T, A, denominator_re, denominator_im, log_scale;
@@ -29,7 +32,10 @@ struct BlockRun {
         out.log_scale = log_scale.data();
         return out;
     }
-    Power power(std::size_t point) const { return {R[point], T[point], A[point]}; }
+    Power power(std::size_t point) const {
+        const bool none = A[point] < 0 && A[point] > -kNoAbsorption;
+        return {R[point], T[point], none ? 0 : A[point]};
+    }
     Complex denominator(std::size_t point) const {
         return {denominator_re[point], denominator_im[point]};
     }
@@ -88,13 +94,17 @@ struct Below {
     }
 };
 
-std::vector<Attenuation> attenuations(const Layer& gap, const PointRun& run) {
+/// Of a gap; `redo` receives the points at which it is no gap, or has not its own wave.
+std::vector<Attenuation> attenuations(const Layer& gap, const PointRun& run,
+                                      std::vector<std::size_t>& redo) {
     std::vector<Attenuation> result;
     for (std::size_t i = 0; i < run.count; ++i) {
         const Complex index{value_at(run.n[gap.material], i), value_at(run.k[gap.material], i)};
-        const Incidence at{value_at(run.cos_theta, i), value_at(run.sin_theta, i)};
+        const IncidentAngle at{value_at(run.cos_theta, i), value_at(run.sin_theta, i)};
         const Medium inside = medium(index, value_at(run.incident, i), at);
-        result.push_back(attenuation(inside, value_at(run.k0, i) * gap.thickness_nm));
+        const double k0_d = value_at(run.k0, i) * gap.thickness_nm;
+        if (!travels(inside) || k0_d == 0 || !has_own_wave(inside, k0_d)) redo.push_back(i);
+        result.push_back(attenuation(inside, k0_d));
     }
     return result;
 }
@@ -140,8 +150,8 @@ void run_chain(const ChainProgram& chain, const PointRun& run, const RunOutput* 
     for (std::size_t i = last; i-- > 0;) {
         const BothRuns down = pass(chain.down[i], above(i));
         const BothRuns up = pass(chain.up[i], above(i + 1));
+        const std::vector<Attenuation> gap = attenuations(chain.gaps[i], run, redo);
         for (const std::size_t point : redo) lost[point] = 1;
-        const std::vector<Attenuation> gap = attenuations(chain.gaps[i], run);
         below_s.add(down.s, up.s, gap, lost);
         below_p.add(down.p, up.p, gap, lost);
     }

@@ -19,7 +19,8 @@ struct ChainProgram {
 bool compile(const Chain& chain, const std::vector<bool>& absorbs,
              const std::vector<bool>& amplifies, const FixedRuns& fixed, ChainProgram& program);
 
-/// As run_program(), with the bounces between blocks summed as powers.
+/// As run_program(), with the bounces between blocks summed as powers. `redo` also receives the
+/// points at which a gap is coherent, or has not its medium's wave: see incoherent.hpp.
 void run_chain(const ChainProgram& chain, const PointRun& run, const RunOutput* s,
                const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
                SimdLevel level);
