@@ -128,6 +128,19 @@ ColorMethod parse_method(const ColorOptions& options) {
     return method;
 }
 
+std::optional<Triple> parse_base_color(const ColorOptions& options) {
+    if (options.base_color.empty()) return {};
+    if (parse_method(options.method).kind != gltf)
+        throw UsageError("--base-color: needs --method gltf (got " + options.method + ")");
+    const std::vector<double> typed = parse_list("--base-color", options.base_color, 0, 1);
+    Triple rgb{};
+    if (typed.size() != rgb.size() || options.base_color.find(':') != std::string::npos)
+        throw UsageError("--base-color: must be three numbers R,G,B (got " + options.base_color +
+                         ")");
+    std::ranges::copy(typed, rgb.begin());
+    return rgb;
+}
+
 Table parse_illuminant(const std::string& text) {
     if (contains(illuminant_names(), text)) return illuminant(text);
     try {
@@ -239,6 +252,11 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
                     "of bloch: harmonics of the fringes, [0, 1000]; 0: their average only\n"
                     "[as many as the tolerance needs]")
         ->type_name("M");
+    command
+        .add_option("--base-color", options.base_color,
+                    "of gltf: the base colour, linear sRGB, each in [0, 1] [that of the bare\n"
+                    "substrate in air at normal incidence]")
+        ->type_name("R,G,B");
     command
         .add_option("--tolerance", options.tolerance,
                     "largest error of X, Y, Z (white Y = 1), [1e-12, 1] [1e-6];\n"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,10 @@ struct ColorOptions {
     std::string space = "srgb";
     std::string adaptation = "bradford";
     std::string method = "auto";
-    std::string subdivide;  ///< "" if not typed
-    std::string harmonics;  ///< "" if not typed
-    std::string tolerance;  ///< "" for that of ColorRequest
+    std::string subdivide;   ///< "" if not typed
+    std::string harmonics;   ///< "" if not typed
+    std::string base_color;  ///< "" if not typed
+    std::string tolerance;   ///< "" for that of ColorRequest
 };
 
 /// --side and -p; `sides` as the help shows them.
@@ -51,6 +53,9 @@ ColorMethod parse_method(const std::string& text);
 
 /// The method with what --subdivide and --harmonics say.
 ColorMethod parse_method(const ColorOptions& options);
+
+/// That of --method gltf, linear sRGB, if it was typed.
+std::optional<Triple> parse_base_color(const ColorOptions& options);
 
 /// A named illuminant, or that of a file. Throws InputError if the file is at fault.
 Table parse_illuminant(const std::string& text);

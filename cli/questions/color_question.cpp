@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/color/approximation.hpp"
 #include "core/color/difference.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/illuminant.hpp"
@@ -101,6 +102,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       illuminant_(parse_illuminant(typed.color.illuminant)),
       method_(parse_method(typed.color)),
+      base_color_(parse_base_color(typed.color)),
       held_to_tolerance_(!typed.color.tolerance.empty()),
       space_(&parse_space(typed.color.space)),
       stats_(typed.stats),
@@ -159,7 +161,10 @@ std::unique_ptr<const PreparedStack> ColorQuestion::prepare(StackDocument docume
         auto prepared = std::make_unique<ColorStack>(std::move(document));
         for (const auto& lighting : lightings_)
             prepared->algorithms.push_back(
-                color_algorithm(lighting->tables, prepared->document.stack, method_, request_));
+                base_color_ ? approximate_color(lighting->tables, prepared->document.stack, method_,
+                                                request_, base_color_)
+                            : color_algorithm(lighting->tables, prepared->document.stack, method_,
+                                              request_));
         return prepared;
     } catch (const DomainError& error) {
         throw InputError(file, "", error.what());
@@ -302,6 +307,7 @@ nlohmann::json ColorQuestionOptions::typed() const {
             {"method", color.method},
             {"subdivide", color.subdivide},
             {"harmonics", color.harmonics},
+            {"base_color", color.base_color},
             {"tolerance", color.tolerance},
             {"compare", compare},
             {"stats", stats},

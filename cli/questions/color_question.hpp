@@ -76,6 +76,7 @@ private:
     Table illuminant_;  ///< asked for
     std::vector<std::unique_ptr<Lighting>> lightings_;
     ColorMethod method_;
+    std::optional<Triple> base_color_;  ///< of gltf
     ColorRequest request_;
     bool held_to_tolerance_;  ///< one was given
     const RgbSpace* space_;

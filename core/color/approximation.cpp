@@ -6,6 +6,7 @@
 #include "core/color/held_stack.hpp"
 #include "core/color/one_film.hpp"
 #include "core/color/panel_sums.hpp"
+#include "core/color/quadrature_color.hpp"
 #include "core/error.hpp"
 #include "core/interference/spectrum.hpp"
 #include "core/math/pool.hpp"
@@ -101,13 +102,35 @@ private:
     mutable Pool<Scratch> scratch_;
 };
 
+/// Linear sRGB of the bare substrate in air at normal incidence, clipped to [0, 1].
+Triple bare_color(const ColorTables& tables, const Stack& held) {
+    const Material& base = held.materials[held.substrate];
+    if (is_constant(base)) {
+        const Complex n = index_at(base, kRgb_nm[0]);
+        const double gray = std::min(1.0, std::norm((n - 1.0) / (n + 1.0)));
+        return {gray, gray, gray};
+    }
+    const Stack bare{{Material(), base}, 0, {}, 1};
+    const double normal_deg = 0;
+    StackColor color;
+    (*quadrature_color(tables, bare, {}))(bare, {&normal_deg, 1}, {&color, 1});
+    const RgbTransform transform(rgb_space("srgb"), tables.sensitivity().white(),
+                                 Adaptation::bradford);
+    Triple rgb = transform(color.xyz);
+    for (double& component : rgb) component = std::clamp(component, 0.0, 1.0);
+    return rgb;
+}
+
 }  // namespace
 
 std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, const Stack& stack,
                                                   const ColorMethod& method,
-                                                  const ColorRequest& request) {
+                                                  const ColorRequest& request,
+                                                  const std::optional<Triple>& base_color) {
     using enum ColorMethod::Kind;
     const Sensitivity& sensitivity = tables.sensitivity();
+    if (base_color && method.kind != gltf)
+        throw DomainError("a base colour must come with method gltf");
     switch (method.kind) {
         case equal:
             return std::make_unique<SampledColor>(sensitivity, tables.equal(method.count), stack,
@@ -120,9 +143,12 @@ std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, con
             require_film("gaussian", stack, request);
             return gaussian_color(sensitivity, held_stack(stack, sensitivity), method.count,
                                   request);
-        case gltf:
+        case gltf: {
             require_film("gltf", stack, request);
-            return gltf_color(sensitivity, held_stack(stack, sensitivity), request);
+            const Stack held = held_stack(stack, sensitivity);
+            return gltf_color(sensitivity, held,
+                              base_color ? *base_color : bare_color(tables, held), request);
+        }
         case smits:
             require_film("smits", stack, request);
             return two_beam_color(tables, held_stack(stack, sensitivity), request);

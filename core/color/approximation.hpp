@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/color/color_request.hpp"
 #include "core/color/color_tables.hpp"
@@ -31,21 +32,22 @@ namespace irido {
 /// neither.
 ///
 /// `gltf`: iridescenceIor and iridescenceThickness are the film's, outsideIor the incident medium's
-/// index. Base F0, a colour, is the base's reflectance against air at 650, 510 and 475 nm: a
-/// dielectric's (n-1)^2/(n+1)^2, a conductor's ((n-1)^2+k^2)/((n+1)^2+k^2), as artists would enter
-/// it. The result is linear sRGB, adapted from its white to the illuminant's as in `naive`; the
-/// matrices are irido's, 4e-5 away from the extension's rounded one. The formulas know no
-/// polarization: Light::unpolarized only.
+/// index. Base F0, a colour, is the base colour of a metallic material, [0, 1] each: that of the
+/// bare base in air at normal incidence, in the same light, as linear sRGB, which is gray where the
+/// base's index is constant; or `base_color` if that is given. The result is linear sRGB, adapted
+/// from its white to the illuminant's as in `naive`; the matrices are irido's, 4e-5 away from the
+/// extension's rounded one. The formulas know no polarization: Light::unpolarized only.
 ///
-/// Throws DomainError if the method does not take the stack, the sides or the light, or if it is
-/// not one of these, and as IndexTable, StackPower, held_stack() and (naive, gltf) bradford() do.
-/// `tables` must outlive the result.
-/// Source: naive: Bacterius, Thin Film Interference for Computer Graphics (2013). gaussian: BB17
-/// (ACM TOG 36(4), 2017), eqs. 3 to 10, constants of its supplemental code. gltf: Khronos Group,
-/// KHR_materials_iridescence (2022), section Iridescence Fresnel. smits: B. E. Smits and G. W.
-/// Meyer, Newton's Colors: Simulating Interference Phenomena in Realistic Image Synthesis (1992).
+/// Throws DomainError if the method does not take the stack, the sides, the light or a base colour,
+/// or if it is not one of these, and as IndexTable, StackPower, held_stack() and (naive, gltf)
+/// bradford() do. `tables` must outlive the result. Source: naive: Bacterius, Thin Film
+/// Interference for Computer Graphics (2013). gaussian: BB17 (ACM TOG 36(4), 2017), eqs. 3 to 10,
+/// constants of its supplemental code. gltf: Khronos Group, KHR_materials_iridescence (2022),
+/// section Iridescence Fresnel. smits: B. E. Smits and G. W. Meyer, Newton's Colors: Simulating
+/// Interference Phenomena in Realistic Image Synthesis (1992).
 std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, const Stack& stack,
                                                   const ColorMethod& method,
-                                                  const ColorRequest& request);
+                                                  const ColorRequest& request,
+                                                  const std::optional<Triple>& base_color = {});
 
 }  // namespace irido

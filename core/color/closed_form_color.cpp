@@ -139,8 +139,8 @@ private:
 };
 
 /// Reflectance of a face at normal incidence.
-double normal_reflectance(Complex below, double above) {
-    return std::norm((below - above) / (below + above));
+double normal_reflectance(double below, double above) {
+    return std::pow((below - above) / (below + above), 2);
 }
 
 double schlick(double R0, double cos_theta) {
@@ -152,13 +152,12 @@ constexpr double kF0Guard = 1e-4, kLargestF0 = 0.9999;
 
 class Gltf : public ClosedForm {
 public:
-    Gltf(const Sensitivity& sensitivity, const Stack& held)
+    Gltf(const Sensitivity& sensitivity, const Stack& held, const Triple& base_color)
         : ClosedForm(middle_index("gltf", held), sensitivity.white(), ColorMethod::Kind::gltf),
           xyz_from_rgb_(xyz_from_srgb(sensitivity.white())),
           rgb_from_xyz_(rgb_from_xyz(rgb_space("srgb"))) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const double F0 = normal_reflectance(film_index(held, kRgb_nm[c]).substrate, 1);
-            const double root = std::sqrt(std::min(F0 + kF0Guard, kLargestF0));
+            const double root = std::sqrt(std::min(base_color[c] + kF0Guard, kLargestF0));
             base_[c] = (1 + root) / (1 - root);
         }
     }
@@ -221,10 +220,12 @@ std::unique_ptr<ColorAlgorithm> gaussian_color(const Sensitivity& sensitivity, c
 }
 
 std::unique_ptr<ColorAlgorithm> gltf_color(const Sensitivity& sensitivity, const Stack& held,
-                                           const ColorRequest& request) {
+                                           const Triple& base_color, const ColorRequest& request) {
     if (request.light != Light::unpolarized)
-        throw DomainError("method gltf must have unpolarized light");
-    return std::make_unique<Gltf>(sensitivity, held);
+        throw DomainError("method gltf must have unpolarized light (got " +
+                          std::string(request.light == Light::s ? "s" : "p") + ")");
+    for (const double component : base_color) require_in_range("base colour", component, 0, 1);
+    return std::make_unique<Gltf>(sensitivity, held, base_color);
 }
 
 }  // namespace irido

@@ -13,8 +13,9 @@ namespace irido {
 std::unique_ptr<ColorAlgorithm> gaussian_color(const Sensitivity& sensitivity, const Stack& held,
                                                std::size_t orders, const ColorRequest& request);
 
+///   base_color  linear sRGB, each in [0, 1]
 std::unique_ptr<ColorAlgorithm> gltf_color(const Sensitivity& sensitivity, const Stack& held,
-                                           const ColorRequest& request);
+                                           const Triple& base_color, const ColorRequest& request);
 
 std::unique_ptr<ColorAlgorithm> two_beam_color(const ColorTables& tables, Stack held,
                                                const ColorRequest& request);

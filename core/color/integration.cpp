@@ -43,6 +43,14 @@ constexpr double kHopeful = 10;
 /// Where the points are dense for a denominator, differences of neighbours are its slope.
 constexpr double kDense = 3.2;
 
+/// The last coefficients of a line that hides between points show its foot on them, which is at
+/// most degree times kFoot times the largest of these: 2/degree of what a single point has, and
+/// less where the feet on both sides cancel.
+constexpr double kFoot = 2;
+
+/// Part of what a line's foot is to first order, against its bound, before that is a coincidence.
+constexpr double kCoincidence = 0.01;
+
 /// One denominator on the points of a panel.
 struct Denominator {
     std::span<const double> re, im, log_scale;
@@ -88,6 +96,28 @@ void mark_hidden_zeros(std::span<const double> x, const Denominator& d,
                        kFarFromZero * spacing))
             marked[j] = true;
     }
+}
+
+/// How much of a point's weight a line can hide next to it that is not seen on the points. A pole
+/// of the amplitude at the distance d from the point and w from the real axis has a residue of at
+/// most 2 w, or the power would pass 1; it makes a line of an area of up to pi w. Where the
+/// spectrum is near 0 or 1 elsewhere, as in the gap of a lossless mirror, the line leaves (w/d)^2
+/// on the point. Where it is not, the stack absorbs, and the line leaves w/d times value (1 -
+/// value), because it interferes with what there is without it.
+///   foot   largest part of the values on the points that may be the line's
+///   value  of the spectrum on the point
+double hidden_share(double foot, double value) {
+    const double first_order = kCoincidence * std::abs(value * (1 - value));
+    const double width = foot < first_order * first_order ? foot / first_order : std::sqrt(foot);
+    return std::min(1.0, std::numbers::pi * width);
+}
+
+/// Size of the last coefficients among the sums over a rule's rows.
+double last_coefficient(const QuadratureRule& rule, std::span<const double> sums) {
+    double largest = 0;
+    for (const double value : sums.subspan(3 + rule.middle, rule.tail))
+        largest = std::max(largest, std::abs(value));
+    return largest;
 }
 
 class Integration {
@@ -255,10 +285,16 @@ private:
             return halves ? Outcome::halves : Outcome::twice_the_degree;
         }
         if (!poles.all_far && denominators_ > 0) {
-            const Triple hidden = hidden_weight(rule, samples, first);
-            for (Triple& error : panel_errors) {
-                for (std::size_t c = 0; c < 3; ++c) error[c] += hidden[c];
-                if (!must_end && !is_below(error, allowed))
+            mark_points(rule, samples, first);
+            const bool resolved = static_cast<double>(kDegrees[job.degree]) >= job.half_turn;
+            for (std::size_t k = 0; k < integrals_.size(); ++k) {
+                const double foot =
+                    kFoot * static_cast<double>(kDegrees[job.degree]) *
+                    last_coefficient(rule, {memory_.sums.data() + k * width, width});
+                const Triple hidden =
+                    hidden_weight(rule, samples.row(k) + first, resolved ? foot : 1);
+                for (std::size_t c = 0; c < 3; ++c) panel_errors[k][c] += hidden[c];
+                if (!must_end && !is_below(panel_errors[k], allowed))
                     return last_degree ? Outcome::halves : Outcome::twice_the_degree;
             }
         }
@@ -309,9 +345,8 @@ private:
         return {true, rate};
     }
 
-    /// Weight of the points that have a zero of a denominator next to them.
-    Triple hidden_weight(const QuadratureRule& rule, const Samples& samples,
-                         std::size_t first) const {
+    /// Marks the points that have a zero of a denominator next to them.
+    void mark_points(const QuadratureRule& rule, const Samples& samples, std::size_t first) const {
         std::vector<bool>& marked = memory_.marked;
         marked.assign(rule.points, false);
         for (std::size_t d = 0; d < denominators_; ++d) {
@@ -320,10 +355,17 @@ private:
             };
             mark_hidden_zeros(rule.panel.x, {row(0), row(1), row(2)}, memory_.zeros, marked);
         }
+    }
+
+    /// Weight that lines next to marked points can hide in one spectrum.
+    Triple hidden_weight(const QuadratureRule& rule, const double* values, double foot) const {
         Triple weight{};
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t j = 0; j < rule.points; ++j)
-                if (marked[j]) weight[c] += std::abs(rule.panel.weight[c][j]);
+        for (std::size_t j = 0; j < rule.points; ++j) {
+            if (!memory_.marked[j]) continue;
+            const double share = hidden_share(foot, values[j]);
+            for (std::size_t c = 0; c < 3; ++c)
+                weight[c] += share * std::abs(rule.panel.weight[c][j]);
+        }
         return weight;
     }
 

@@ -18,8 +18,15 @@ namespace irido {
 
 namespace {
 
-/// Past this exponent of attenuation nothing below returns a fringe.
-constexpr double kOpaqueExponent = 35;
+/// Past this exponent of attenuation, one way and of the power, fringes of what is below are less
+/// than a hundredth of the tolerance.
+double opaque_exponent(double tolerance) {
+    return std::log(100 / tolerance);
+}
+
+/// Periods that light of a group sees at once where it does not see its end: those that make a
+/// band gap. Edges of the gaps are found by halving panels.
+constexpr double kOpaquePeriods = 32;
 
 /// Layers computed for one spectrum before it is given up, about a second's worth of either kernel,
 /// and points that any stack may have.
@@ -41,33 +48,33 @@ double path_of_class(std::size_t k) {
     return kShortestPath_nm * std::exp2(static_cast<double>(k) / 2);
 }
 
-/// Twice the optical thickness that light passes before it is lost, nm, and the exponent of its
-/// loss.
+/// Twice the optical thickness, nm, of what light passes on its way to faces that it returns from,
+/// and the exponent of its loss.
 struct Path {
     double length_nm = 0;
     double exponent = 0;
 };
 
+/// Goes on to what is `opaque`, an exponent.
 ///   normal  kz/k0 of every material
 void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
-              Path& path) {
+              double opaque, Path& path) {
     for (const Element& element : elements) {
-        if (path.exponent >= kOpaqueExponent) return;
+        if (path.exponent >= opaque) return;
         if (const Layer* layer = std::get_if<Layer>(&element.value)) {
             const Complex kz = normal[layer->material];
-            const double loss = 2 * k0 * std::abs(kz.imag());  // a nm
-            double depth = layer->thickness_nm;
-            if (loss * depth > kOpaqueExponent) depth = kOpaqueExponent / loss;
-            if (layer->coherent) path.length_nm += 2 * depth * std::abs(kz.real());
-            path.exponent += loss * depth;
+            const double exponent = 2 * k0 * std::abs(kz.imag()) * layer->thickness_nm;
+            if (layer->coherent && exponent < opaque)
+                path.length_nm += 2 * layer->thickness_nm * std::abs(kz.real());
+            path.exponent += exponent;
         } else {
             const Group& group = std::get<Group>(element.value);
             Path period;
-            add_path(group.elements, normal, k0, period);
-            double repeat = static_cast<double>(group.repeat);
-            if (period.exponent > 0)
-                repeat = std::min(repeat, kOpaqueExponent / period.exponent + 1);
-            path.length_nm += repeat * period.length_nm;
+            add_path(group.elements, normal, k0, opaque, period);
+            const auto repeat = static_cast<double>(group.repeat);
+            const bool has_end = repeat * period.exponent < opaque;
+            path.length_nm +=
+                (has_end ? repeat : std::min(repeat, kOpaquePeriods)) * period.length_nm;
             path.exponent += repeat * period.exponent;
         }
     }
@@ -216,7 +223,8 @@ private:
             for (std::size_t m = 0; m < normal.size(); ++m)
                 normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, incidence).q2);
             Path path;
-            add_path(stack.elements, normal, on_path_.k0()[w], path);
+            add_path(stack.elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance),
+                     path);
             longest = std::max(longest, path.length_nm);
         }
         return longest;
@@ -367,12 +375,13 @@ std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, cons
 double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
                        IncidentAngle incidence) {
     constexpr double kPointsOfPiece = 20, kPointsPerPath = 0.032;  // of nm; as --stats says
+    constexpr double kUsualTolerance = 1e-6;
     std::vector<Complex> normal(indices.materials());
     for (std::size_t m = 0; m < normal.size(); ++m)
         normal[m] =
             std::sqrt(medium(indices.index(m, 0), indices.n(indices.incident())[0], incidence).q2);
     Path path;
-    add_path(stack.elements, normal, indices.k0()[0], path);
+    add_path(stack.elements, normal, indices.k0()[0], opaque_exponent(kUsualTolerance), path);
     return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *
            work_of(stack.elements);
 }

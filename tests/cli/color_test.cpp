@@ -183,6 +183,22 @@ TEST_CASE("methods that are not exact say how far they are off", "[cli][color]")
         check_refused(run_irido({"color", "1 | 1.5@525 | 1.3@70 | 1", "--method", method}), "film");
 }
 
+TEST_CASE("gltf takes the base colour that is typed", "[cli][color]") {
+    const std::vector<std::string> gold{"color", "1 | 1.3@300 | Au", "--quiet", "--method", "gltf"};
+    const auto with = [&](const std::string& base) {
+        std::vector<std::string> arguments = gold;
+        arguments.insert(arguments.end(), {"--base-color", base});
+        return run_irido(arguments);
+    };
+    CHECK(with("0,0,0").status == 0);
+    CHECK(with("0.5,0.6,0.7").out != run_irido(gold).out);
+    check_refused(with("1,1.2,0"), "--base-color: must be in [0, 1] (got 1.2)");
+    check_refused(with("1,0.5"), "--base-color: must be three numbers R,G,B (got 1,0.5)");
+    check_refused(with("0:1:0.5"), "--base-color: must be three numbers R,G,B (got 0:1:0.5)");
+    check_refused(run_irido({"color", "1 | 1.3@300 | Au", "--base-color", "1,1,1"}),
+                  "--base-color: needs --method gltf (got auto)");
+}
+
 TEST_CASE("a strip of colours", "[cli][color]") {
     const TemporaryFolder folder;
     CHECK(run_irido({"color", "air | TiO2@35 | Ti", "-a", "0,30,60", "-o", folder / "strip.svg"})

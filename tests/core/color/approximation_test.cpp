@@ -1,7 +1,9 @@
 #include "core/color/approximation.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/color/cases.hpp"
@@ -9,6 +11,7 @@
 #include "core/color/illuminant.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
+#include "core/material/library.hpp"
 #include "core/stack/builder.hpp"
 #include "tests/oracle/stack_oracle.hpp"
 
@@ -185,6 +188,52 @@ TEST_CASE("glTF's formulas give what its extension prints") {
     CHECK(largest_error(metal, {0.769013609716, 0.517782146708, 0.475215339168}) < 5e-5);
 }
 
+TEST_CASE("glTF's base colour is that of the bare base") {
+    const auto over = [](std::string_view metal) {
+        StackBuilder b;
+        b.add(b.layer(1.3, 250));
+        return b.over_material(b.material(find_material(metal).value().material));
+    };
+    const auto with_base = [](const Stack& stack, const std::optional<Triple>& base) {
+        const double angle_deg = 30;
+        StackColor result;
+        (*approximate_color(d65(), stack, {Kind::gltf}, {}, base))(stack, {&angle_deg, 1},
+                                                                   {&result, 1});
+        return result.xyz;
+    };
+    for (const char* const metal : {"Au", "Cu", "Ag"}) {
+        StackBuilder b;
+        const Stack bare = b.over_material(b.material(find_material(metal).value().material));
+        Triple base = linear_srgb(exact(bare, 0));
+        for (double& component : base) component = std::clamp(component, 0.0, 1.0);
+        CAPTURE(metal);
+        CHECK(largest_error(with_base(over(metal), {}), with_base(over(metal), base)) < 1e-5);
+    }
+    // a gray one: F0 of 1.5 + 3i
+    const Stack boar = film(1.33, 600, {1.5, 3});
+    const double F0 = std::norm((Complex(1.5, 3) - 1.0) / (Complex(1.5, 3) + 1.0));
+    CHECK(largest_error(with_base(boar, {}), with_base(boar, Triple{F0, F0, F0})) < 1e-14);
+
+    // over gold
+    double sum = 0, count = 0;
+    const Triple& white = d65().sensitivity().white();
+    for (double nm = 100; nm <= 400; nm += 50) {
+        Stack stack = over("Au");
+        std::get<Layer>(stack.elements.front().value).thickness_nm = nm;
+        for (const double angle : {0.0, 20.0, 40.0, 60.0, 85.0}) {
+            sum += ciede2000(lab(color(stack, angle, {Kind::gltf}).xyz, white),
+                             lab(exact(stack, angle), white));
+            ++count;
+        }
+    }
+    CHECK_THAT(sum / count, WithinAbs(6, 1.5));
+
+    for (const Triple& bad : {Triple{-0.1, 0, 0}, Triple{0, 1.1, 0}, Triple{0, 0, NAN}})
+        CHECK_THROWS_WITH(with_base(boar, bad), Contains("base colour must be in [0, 1]"));
+    CHECK_THROWS_WITH(approximate_color(d65(), boar, {Kind::naive}, {}, Triple{1, 1, 1}),
+                      "a base colour must come with method gltf");
+}
+
 TEST_CASE("approximations err as much as they are known to") {
     const auto mean_difference = [](std::string_view name, const ColorMethod& method) {
         double sum = 0, count = 0;
@@ -273,7 +322,7 @@ TEST_CASE("approximations refuse stacks that they do not suit", "[refused]") {
     CHECK(error(film({1.5, 0.1}, 300, 1.3), {Kind::gltf}) ==
           "method gltf must have a film that does not absorb (got k = 0.1 at 550 nm)");
     CHECK(error(film({1.5, 0.1}, 300, 1.3), {Kind::smits}) == "taken");
-    CHECK(error(one, {Kind::gltf}, s) == "method gltf must have unpolarized light");
+    CHECK(error(one, {Kind::gltf}, s) == "method gltf must have unpolarized light (got s)");
     CHECK(error(one, {Kind::equal, 1}) == "equal wavelengths must be in [2, 1e+06] (got 1)");
     CHECK(error(one, {Kind::equal, 1000001}) ==
           "equal wavelengths must be in [2, 1e+06] (got 1000001)");

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "core/color/held_stack.hpp"
@@ -9,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "core/math/parallel.hpp"
+#include "core/stability/regimes.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
 
@@ -383,4 +385,112 @@ TEST_CASE("a material unknown between 400 and 700 nm has no colour") {
 TEST_CASE("an angle or incident medium out of range is refused") {
     CHECK_THROWS_AS(color(mirror(5), 90.5, Side::reflected, 1e-6), DomainError);
     CHECK_THROWS_AS(color(StackBuilder({1.5, 0.1}).over(1), 0, Side::reflected, 1e-6), DomainError);
+}
+
+namespace {
+
+std::size_t stacks_to_try() {
+    const char* const text = std::getenv("IRIDO_TEST_TOLERANCES");
+    return text ? std::strtoull(text, nullptr, 10) : 0;
+}
+
+/// Copper in glass.
+Stack copper_in_glass(std::uint64_t repeat) {
+    StackBuilder b;
+    const std::size_t copper = b.material(find_material("Cu").value().material);
+    b.add(StackBuilder::group(repeat, {b.layer(1.99, 131.8), StackBuilder::layer_of(copper, 20)}));
+    return b.over(1.5);
+}
+
+/// Two or three layers up to 1e6 times, some of them absorbing, so that nothing comes through.
+Stack opaque_periods(oracle::Random& random) {
+    StackBuilder b;
+    std::vector<Element> period;
+    for (std::size_t left = 2 + random.below(2); left > 0; --left) {
+        const double k = random.one_in(3) ? 0 : random.log_uniform(1e-2, 1);
+        period.push_back(b.layer({random.uniform(1.2, 2.7), k}, random.uniform(30, 300)));
+    }
+    period.push_back(b.layer({random.uniform(0.1, 3), random.uniform(0.1, 5)}, 20));
+    b.add(StackBuilder::group(static_cast<std::uint64_t>(random.log_uniform(1e3, 1e6)), period));
+    return b.over(1.5);
+}
+
+}  // namespace
+
+TEST_CASE("what is attenuated out of the spectrum stands in no one's way") {
+    // black, and the same as fewer periods
+    const StackColor black = color(copper_in_glass(200), 30, Side::transmitted, 1e-6);
+    CHECK(black.error <= 1e-6);
+    CHECK(largest_error(black.xyz, {}) < 1e-8);
+    CHECK(black.evaluations < 3000);
+    for (const double tolerance : {1e-6, 1e-8}) {
+        const StackColor many = color(copper_in_glass(1000000), 30, Side::reflected, tolerance);
+        CHECK(many.error <= tolerance);
+        const Triple few = color(copper_in_glass(2000), 30, Side::reflected, 1e-10).xyz;
+        CHECK(largest_error(many.xyz, few) < tolerance);
+    }
+}
+
+TEST_CASE("periods that absorb are resolved at every tolerance") {
+    oracle::Random random(31);
+    for (int i = 0; i < 12; ++i) {
+        const Stack stack = opaque_periods(random);
+        const double angle = random.uniform(0, 85);
+        for (const Side side : {Side::reflected, Side::transmitted}) {
+            const StackColor quick = color(stack, angle, side, 1e-6);
+            const StackColor exact = color(stack, angle, side, 1e-8);
+            CAPTURE(oracle::text_of(stack), angle, quick.error, exact.error);
+            CHECK(quick.error <= 1e-6);
+            CHECK(exact.error <= 1e-8);
+            CHECK(largest_error(quick.xyz, exact.xyz) < 1e-6);
+        }
+    }
+}
+
+TEST_CASE("a line in front of an opaque mirror is not missed") {
+    // a cavity whose second mirror is followed by periods that nothing passes
+    StackBuilder b;
+    const Element high = b.layer({2.35, 1e-5}, 550 / 4.0 / 2.35);
+    const Element low = b.layer(1.38, 550 / 4.0 / 1.38);
+    b.add(StackBuilder::group(6, {high, low}));
+    b.add(b.layer(2.35, 550 / 2.0 / 2.35));
+    b.add(StackBuilder::group(6, {low, high}));
+    b.add(StackBuilder::group(1000000, {b.layer({1.7, 0.02}, 110), b.layer(1.5, 90)}));
+    const Stack stack = b.over(1.5);
+    std::vector<double> around{550};
+    for (double off = 1e-6; off < 3; off *= 2) {
+        around.push_back(550 - off);
+        around.push_back(550 + off);
+    }
+    const Triple exact =
+        oracle::stack_xyz(stack, observer(2), illuminant("D65"), 0, false, 1e-9, around);
+    for (const double tolerance : {1e-3, 1e-5, 1e-6}) {
+        const StackColor result = color(stack, 0, Side::reflected, tolerance);
+        CAPTURE(tolerance, result.error, result.evaluations);
+        CHECK(result.error <= tolerance);
+        CHECK(largest_error(result.xyz, exact) <= tolerance);
+    }
+}
+
+TEST_CASE("stacks of every regime have their colour within the tolerance") {
+    // IRIDO_TEST_TOLERANCES: stacks of each regime, 400 of which take hours. Those left out have
+    // fringes of up to 1e9 periods, or 1 m, that a million wavelengths do not resolve.
+    constexpr std::array<std::string_view, 9> kLong{
+        "absorber",      "repeats_pair",    "repeats_triple", "repeats_absorbing", "band_edge",
+        "hosted_mirror", "thousand_layers", "nested",         "brewster"};
+    const ColorTables tables(d65());
+    const std::size_t stacks = stacks_to_try();
+    for (const Regime& regime : regimes()) {
+        const bool is_long = std::ranges::find(kLong, regime.name) != kLong.end();
+        if (!regime.passive || is_long) continue;
+        for (std::size_t i = 0; i < std::max<std::size_t>(stacks, 10); ++i) {
+            Random random(i);
+            const StackCase one = regime.make(random);
+            const std::vector<StackColor> colors =
+                stack_color(tables, one.stack, {}, {.sides = {Side::reflected, Side::transmitted}},
+                            std::span(&one.angle_deg, 1));
+            CAPTURE(regime.name, i, oracle::text_of(one.stack), one.angle_deg);
+            for (const StackColor& result : colors) CHECK(result.error <= 1e-6);
+        }
+    }
 }
