@@ -22,7 +22,7 @@ std::string picture(const ColorQuestion& question, const StackColors& stack,
     const RgbSpace& space = rgb_space("srgb");
     const std::size_t sides = question.sides().size();
     for (std::size_t l = 0; l < stack.colors.size(); ++l) {
-        const Lighting& lighting = *question.lightings()[l];
+        const Illumination& lighting = *question.lightings()[l];
         const RgbTransform transform = rgb_transform(space, lighting.white(), Adaptation::bradford);
         for (std::size_t s = 0; s < sides; ++s) {
             const std::string side(letter(question.sides()[s]));

@@ -228,7 +228,10 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
     add_space_options(command, options);
     command
         .add_option("--method", options.method,
-                    "auto: the cheapest of the exact ones (--stats says which) [auto]\n"
+                    "auto: the cheapest of the exact ones for as many colours as are asked for\n"
+                    "(--stats says which): a row of a large sweep of one film may differ from\n"
+                    "that of a small one, within the tolerance; with a method by name it is\n"
+                    "the same row in any [auto]\n"
                     "quadrature: product quadrature of the spectrum, any stack\n"
                     "fourier: series over the orders of interference, one real film over\n"
                     "any substrate; exact for constant indices; fourier/M, M in [1, 1000],\n"

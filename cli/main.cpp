@@ -9,6 +9,7 @@
 #include "schemas/input_error.hpp"
 #include "schemas/nearest.hpp"
 #include "tables/atomic_file.hpp"
+#include "tables/version.hpp"
 
 namespace {
 
@@ -17,7 +18,7 @@ using namespace irido;
 constexpr int kCheckFailed = 1, kUsageOrInput = 2;
 
 std::string version_text() {
-    return std::string("irido ") + IRIDO_VERSION + ", " + IRIDO_COMPILER + ", SIMD " +
+    return "irido " + to_text(this_build()) + ", " + IRIDO_COMPILER + ", SIMD " +
            std::string(name_of(execution_of().simd));
 }
 
@@ -55,7 +56,7 @@ void require_known(CLI::App& parent, int argc, char** argv, int place) {
 int run_program(int argc, char** argv) {
     CLI::App program("What a stack of thin films does to light: spectra and colours.", "irido");
     program.require_subcommand(1);
-    program.set_version_flag("--version", version_text, "version, compiler and SIMD level");
+    program.set_version_flag("--version", version_text, "version, commit, compiler and SIMD level");
     program.get_formatter()->column_width(26);
     Run run;
     add_spectrum_command(program, run);
@@ -92,7 +93,7 @@ int main(int argc, char** argv) {
         return run_program(argc, argv);
     } catch (const BrokenPipe&) {
         return 0;
-    } catch (const ToleranceError& error) {
+    } catch (const CheckFailed& error) {
         return fail(error.what(), kCheckFailed);
     } catch (const std::bad_alloc&) {
         return fail("not enough memory for this request");

@@ -124,10 +124,9 @@ void require_once(const SweepCommand& command, const SweepSpace& space) {
     }
 }
 
-std::optional<double> swept_wavelength(const SweepSpace& space) {
-    for (const SweptColumn& column : space.columns())
-        if (column.path == kSweptWavelength) return column.numbers.front();
-    return {};
+bool varies_wavelength(const SweepSpace& space) {
+    return std::ranges::find(space.columns(), kSweptWavelength, &SweptColumn::path) !=
+           space.columns().end();
 }
 
 /// All that the rows depend on, but for the machine.
@@ -137,8 +136,7 @@ std::string request_hash(const SweepCommand& command, const Question& question,
     nlohmann::json vary = nlohmann::json::array();
     for (const SweptColumn& column : space.columns())
         vary.push_back({column.path, column.numbers, column.texts, column.codes, column.of_points});
-    const nlohmann::json request{{"version", IRIDO_VERSION},
-                                 {"compute", command.kind->name},
+    const nlohmann::json request{{"compute", command.kind->name},
                                  {"options", command.typed->typed()},
                                  {"data", question.data()},
                                  {"stack", source.document},
@@ -228,9 +226,7 @@ std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const Str
 
 int run_merge(const SweepCommand& command) {
     if (command.output.file.empty()) throw UsageError("--merge: needs --output FILE");
-    for (const std::string& text :
-         merge_streams(command.merge, command.output.file, resolved_stream_format(command.output)))
-        note(text, command.quiet);
+    merge_streams(command.merge, command.output.file, resolved_stream_format(command.output));
     return 0;
 }
 
@@ -251,11 +247,16 @@ int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& st
         note("ended early; the same command with --resume goes on", command.quiet);
         return 128 + orderly->signal();
     }
+    const std::uint64_t left_out = engine.counts().left_out, all = identity.end - begin;
+    if (left_out > 0 && left_out == all && stream.rows_done() == 0 && identity.shards == 1) {
+        stream.discard();
+        throw CheckFailed("nothing is left: none of " + std::to_string(all) +
+                          " can be computed, the first one " + engine.first_left_out());
+    }
     stream.finish();
-    if (engine.counts().left_out > 0)
-        note("left out " + std::to_string(engine.counts().left_out) + " of " +
-                 std::to_string(identity.end - begin) + ", the first one " +
-                 engine.first_left_out(),
+    if (left_out > 0)
+        note("left out " + std::to_string(left_out) + " of " + std::to_string(all) +
+                 ", the first one " + engine.first_left_out(),
              command.quiet);
     if (command.stats) print_stats(engine, stacks, progress);
     return 0;
@@ -278,7 +279,7 @@ int run_sweep(const SweepCommand& command) {
                               .stacks = stacks_of_structure(space),
                               .varied = varied_layers(space),
                               .structures = structures_together(space),
-                              .wavelength_nm = swept_wavelength(space),
+                              .varies_wavelength = varies_wavelength(space),
                               .in_sweep = true});
     const StackSource source = load_stack(command.stack);
     SweptStacks stacks(source, space, *question);
@@ -291,7 +292,8 @@ int run_sweep(const SweepCommand& command) {
                                   shard.of,
                                   ends[shard.number - 1],
                                   ends[shard.number],
-                                  engine.units()};
+                                  engine.units(),
+                                  !command.shard.empty()};
     std::optional<OrderlyEnd> orderly;
     if (!command.output.file.empty()) orderly.emplace();  // before there is a part
     std::error_code ignored;
@@ -361,7 +363,8 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
         ->type_name("COMMAND");
     command
         .add_option("--shard", typed.shard,
-                    "only part K of N, K in [1, N], each about as much work; for --merge")
+                    "only part K of N, K in [1, N], each about as much work; for --merge,\n"
+                    "with FILE.sweep beside it, which holds its checksum")
         ->type_name("K/N");
     command.add_flag("--resume", typed.resume,
                      "go on where an earlier run of the same command ended; nothing that\n"
@@ -369,10 +372,13 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
     command
         .add_option("--merge", typed.merge,
                     "put the files of all shards together, in any order, instead of\n"
-                    "computing: the same bytes as of one run")
+                    "computing: the same bytes as of one run. Refuses files that were\n"
+                    "changed, or are of another build of irido (--version) or another\n"
+                    "SIMD level (IRIDO_SIMD=avx2 forces one)")
         ->type_name("FILE");
     command.add_flag("--keep-going", typed.keep_going,
-                     "leave out combinations that cannot be computed, and say how many");
+                     "leave out combinations that cannot be computed, and say how many;\n"
+                     "if none is left that is exit status 1, and FILE stays as it was");
     if (!command.get_option_no_throw("--stats")) {
         command.add_flag("--stats", typed.stats, "say on standard error what was used again");
     } else {

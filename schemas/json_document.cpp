@@ -229,6 +229,18 @@ void set_value(json& document, std::string_view path, json value) {
     *place = std::move(value);
 }
 
+bool is_part_of(std::string_view path, std::string_view whole) {
+    const auto step_of = [](std::string_view& rest) {
+        std::string step = take_step(rest);  // indices may begin with zeros
+        const bool is_index = step.find_first_not_of("0123456789") == std::string::npos;
+        if (is_index) step.erase(0, std::min(step.find_first_not_of('0'), step.size()));
+        return step;
+    };
+    while (!path.empty() && !whole.empty())
+        if (step_of(path) != step_of(whole)) return false;
+    return whole.empty();
+}
+
 json value_from_text(std::string_view path, std::string_view text) {
     constexpr std::array<std::string_view, 3> kMaterials{"material", "incident", "substrate"};
     const std::string_view key = path.substr(path.rfind('.') + 1);

@@ -19,6 +19,9 @@ void set_value(nlohmann::json& document, std::string_view path, nlohmann::json v
 /// The same for what follows --set, "PATH=VALUE", with the value of that text.
 void set_value(nlohmann::json& document, std::string_view path_equals_value);
 
+/// Whether a dotted path leads to the same value as another one, or to a part of it.
+bool is_part_of(std::string_view path, std::string_view whole);
+
 /// The value that a text stands for at a dotted path: JSON, or else the text itself; where a
 /// material is expected, 1.9+1.5i is {"n": 1.9, "k": 1.5}. Throws InputError("PATH=TEXT", place,
 /// words) for a text that begins as JSON does ({, [ or ") and is none.

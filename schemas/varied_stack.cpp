@@ -33,9 +33,9 @@ std::optional<std::size_t> take_layer(std::string_view& path) {
 void require_apart(const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
         for (const std::string& other : paths) {
-            if (&path != &other && path == other) throw InputError(path, "", "varies twice");
-            if (path.starts_with(other + "."))
-                throw InputError(path, "", "is inside of \"" + other + "\", which varies, too");
+            if (&path == &other || !is_part_of(path, other)) continue;
+            if (is_part_of(other, path)) throw InputError(path, "", "varies twice");
+            throw InputError(path, "", "is inside of \"" + other + "\", which varies, too");
         }
 }
 

@@ -7,6 +7,7 @@
 #include "schemas/schema_check.hpp"
 #include "tables/hash.hpp"
 #include "tables/lut_values.hpp"
+#include "tables/version.hpp"
 
 namespace irido {
 
@@ -90,7 +91,9 @@ json axis_metadata(const LutAxis& axis) {
 json metadata_of(const Lut& lut) {
     check_shape(lut);
     json metadata = lut.facts.is_object() ? lut.facts : json::object();
-    metadata.emplace("irido", IRIDO_VERSION);
+    const Build& build = this_build();
+    if (metadata.emplace("irido", build.version).second && !build.commit.empty())
+        metadata["commit"] = build.commit;
     metadata.emplace("error", nullptr);
     metadata.emplace("notes", json::array());
     metadata["kind"] = lut.kind;

@@ -54,7 +54,8 @@ struct ColorRows {
         side.codes.reserve(rows);
     }
 
-    void add(const Lighting& lighting, const RgbSpace& space, double angle_deg, const Triple& xyz) {
+    void add(const Illumination& lighting, const RgbSpace& space, double angle_deg,
+             const Triple& xyz) {
         const auto [x, y] = chromaticity(xyz, lighting.white());
         const Triple rgb = lighting.transform(xyz);
         const std::array row{angle_deg, xyz[0], xyz[1], xyz[2], x, y, rgb[0], rgb[1], rgb[2]};
@@ -75,8 +76,8 @@ RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptatio
     }
 }
 
-Lighting::Lighting(std::string named, Sensitivity sensitivity, const RgbSpace& space,
-                   Adaptation adaptation)
+Illumination::Illumination(std::string named, Sensitivity sensitivity, const RgbSpace& space,
+                           Adaptation adaptation)
     : name(std::move(named)),
       tables(std::move(sensitivity)),
       transform(rgb_transform(space, white(), adaptation)) {}
@@ -121,11 +122,11 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
     const Observer& eye = parse_observer(typed.color.observer);
     const std::string& first = typed.color.illuminant;
     lightings_.push_back(
-        std::make_unique<Lighting>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
+        std::make_unique<Illumination>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
     if (!typed.compare) return;
     for (const std::string_view name : illuminant_names())
         if (name != first)
-            lightings_.push_back(std::make_unique<Lighting>(
+            lightings_.push_back(std::make_unique<Illumination>(
                 std::string(name), Sensitivity(eye, illuminant(name)), *space_, adaptation));
 }
 
@@ -242,7 +243,7 @@ Records ColorQuestion::records(const std::vector<StackColors>& stacks) const {
     rows.reserve(count);
     for (const StackColors& stack : stacks) {
         for (std::uint32_t l = 0; l < lightings_.size(); ++l) {
-            const Lighting& lighting = *lightings_[l];
+            const Illumination& lighting = *lightings_[l];
             for (std::size_t i = 0; i < stack.colors[l].size(); ++i) {
                 const StackColor& color = stack.colors[l][i];
                 rows.add(lighting, *space_, stack.angles_deg[i / sides().size()], color.xyz);

@@ -28,9 +28,9 @@ struct ColorQuestionOptions : QuestionOptions {
 RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptation adaptation);
 
 /// An illuminant, and what all colours under it have in common.
-struct Lighting {
-    Lighting(std::string name, Sensitivity sensitivity, const RgbSpace& space,
-             Adaptation adaptation);
+struct Illumination {
+    Illumination(std::string name, Sensitivity sensitivity, const RgbSpace& space,
+                 Adaptation adaptation);
 
     const Triple& white() const { return tables.sensitivity().white(); }
 
@@ -62,7 +62,7 @@ public:
 
     std::span<const Side> sides() const { return request_.sides; }
     /// The one asked for, and all others to be compared with it.
-    std::span<const std::unique_ptr<Lighting>> lightings() const { return lightings_; }
+    std::span<const std::unique_ptr<Illumination>> lightings() const { return lightings_; }
     /// Throws InputError, or ToleranceError if a colour is not as exact as asked.
     StackColors colors(const PreparedStack& prepared, const Stack& stack,
                        std::span<const double> angles_deg) const;
@@ -74,7 +74,7 @@ private:
 
     std::vector<double> angles_deg_;
     Table illuminant_;  ///< asked for
-    std::vector<std::unique_ptr<Lighting>> lightings_;
+    std::vector<std::unique_ptr<Illumination>> lightings_;
     ColorMethod method_;
     std::optional<Triple> base_color_;  ///< of gltf
     ColorRequest request_;

@@ -17,9 +17,14 @@
 
 namespace irido {
 
-/// A --tolerance that cannot be met: exit status 1.
-struct ToleranceError : std::runtime_error {
+/// What was asked for cannot be had, though nothing is wrong with the input: exit status 1.
+struct CheckFailed : std::runtime_error {
     using std::runtime_error::runtime_error;
+};
+
+/// A --tolerance that cannot be met.
+struct ToleranceError : CheckFailed {
+    using CheckFailed::CheckFailed;
 };
 
 /// How a question is answered, besides what is asked.
@@ -33,8 +38,8 @@ struct Answering {
     std::vector<LayerPlace> varied = {};
     /// Structures that may be prepared at the same time; they share the memory.
     std::size_t structures = 1;
-    /// Instead of the wavelengths asked for.
-    std::optional<double> wavelength_nm = {};
+    /// Every stack comes with a wavelength of its own, instead of those asked for.
+    bool varies_wavelength = false;
     /// One of many: neither notes nor errors of methods that are not exact, unless asked for.
     bool in_sweep = false;
 };

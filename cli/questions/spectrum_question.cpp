@@ -211,8 +211,9 @@ private:
 };
 
 SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering)
-    : wavelengths_nm_(answering.wavelength_nm
-                          ? std::vector{*answering.wavelength_nm}
+    : varies_wavelength_(answering.varies_wavelength),
+      wavelengths_nm_(varies_wavelength_
+                          ? std::vector<double>{}
                           : parse_list("--wavelengths", typed.wavelengths, kAllWavelengths.first_nm,
                                        kAllWavelengths.last_nm)),
       angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
@@ -240,13 +241,16 @@ std::unique_ptr<Answers> SpectrumQuestion::answers() const {
 }
 
 double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
-                                 double angle_deg, std::optional<double>) const {
+                                 double angle_deg, std::optional<double> wavelength_nm) const {
     constexpr double kStack = 2, kRow = 0.2, kOperation = 3e-5, kPlainPoint = 2;
     const StackPower power = stack_power(prepared.document, stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
     const IncidentAngle at = incident_angle(angle_deg);
-    const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
-                              {&at, 1}, needs, execution_);
+    std::optional<IndexTable> other;
+    const IndexTable& table = wavelength_nm
+                                  ? other.emplace(index_table(prepared.document, {*wavelength_nm}))
+                                  : static_cast<const SpectrumStack&>(prepared).table;
+    const Work work = work_of(power, table, {&at, 1}, needs, execution_);
     const bool is_plain = work.kernel == SimdLevel::plain;
     const double point = is_plain ? kPlainPoint : kOperation * work.operations_per_point;
     return kStack + kRow * static_cast<double>(rows_per_angle()) +

@@ -28,7 +28,7 @@ public:
     std::span<const double> angles_deg() const override { return angles_deg_; }
     bool takes_wavelength() const override { return true; }
     std::size_t rows_per_angle() const override {
-        return polarizations_.size() * wavelengths_nm_.size();
+        return polarizations_.size() * (varies_wavelength_ ? 1 : wavelengths_nm_.size());
     }
     RecordLayout layout(const StackDocument& document) const override;
     std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
@@ -42,7 +42,9 @@ public:
 private:
     friend class SpectrumAnswers;
 
-    std::vector<double> wavelengths_nm_, angles_deg_;
+    bool varies_wavelength_;
+    std::vector<double> wavelengths_nm_;  ///< none if they vary
+    std::vector<double> angles_deg_;
     std::string polarizations_;  ///< letters of "spu"
     std::vector<SpectrumColumn> columns_;
     Execution execution_;

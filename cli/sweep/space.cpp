@@ -159,9 +159,13 @@ void SweepSpace::add_list(const std::string& text) {
 
 void SweepSpace::check() const {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-        for (std::size_t b = 0; b < c; ++b)
-            if (columns_[b].path == columns_[c].path)
-                throw UsageError("--vary: " + columns_[c].path + " is varied twice");
+        for (std::size_t b = 0; b < columns_.size(); ++b) {
+            const std::string &path = columns_[c].path, &other = columns_[b].path;
+            if (b == c || !is_part_of(path, other)) continue;
+            const std::string by = columns_[c].of_points ? "--points: " : "--vary: ";
+            if (is_part_of(other, path)) throw UsageError(by + path + " is varied twice");
+            throw UsageError(by + path + " is inside of " + other + ", which varies, too");
+        }
         require_utf8(columns_[c].path);
         for (const std::string& text : columns_[c].texts) require_utf8(text);
     }

@@ -34,7 +34,7 @@ class SweepSpace {
 public:
     /// vary    PATH=LIST, where LIST is as everywhere, or values with commas, texts among them
     /// points  a CSV file of points; "" for none
-    /// Throws UsageError or InputError, also for a path that is varied twice.
+    /// Throws UsageError or InputError, also for a path that is varied twice, or inside of another.
     SweepSpace(const std::vector<std::string>& vary, const std::string& points);
 
     const std::vector<SweptColumn>& columns() const { return columns_; }

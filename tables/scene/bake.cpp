@@ -18,6 +18,7 @@
 #include "tables/atomic_file.hpp"
 #include "tables/lut_file.hpp"
 #include "tables/lut_metadata.hpp"
+#include "tables/version.hpp"
 
 namespace irido {
 
@@ -263,7 +264,7 @@ json planned_entry(const SceneTable& table) {
 }
 
 json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& entries) {
-    json manifest = {{"irido", IRIDO_VERSION},
+    json manifest = {{"irido", this_build().version},
                      {"numbers", kNumbersVersion},
                      {"scene", scene.name},
                      {"settings",
@@ -320,7 +321,13 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
             request.progress(static_cast<double>(done) / static_cast<double>(plan.tables.size()));
     }
     if (!result.faults.empty()) return result;
-    const std::string text = manifest_of(scene, plan, entries).dump(2) + "\n";
+    json manifest = manifest_of(scene, plan, entries);
+    // of the program that made the last table: another one that makes none changes nothing
+    const json found = read_manifest(request.folder);
+    const std::string commit =
+        result.made.empty() && found.is_object() ? found.value("commit", "") : this_build().commit;
+    if (!commit.empty()) manifest["commit"] = commit;
+    const std::string text = manifest.dump(2) + "\n";
     const std::string path = request.folder + "/" + kManifest;
     std::error_code ignored;
     // after new files, too: what is not newer than the manifest need not be read next time

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "tables/version.hpp"
+
 namespace irido {
 
 namespace {
@@ -140,7 +142,7 @@ std::string shader_source(std::string_view name, std::string_view language) {
     std::string body;
     std::vector<std::string_view> there;
     append(body, name, there);
-    std::string head = "// irido " IRIDO_VERSION ": " + std::string(name) + ", ";
+    std::string head = "// irido " + this_build().version + ": " + std::string(name) + ", ";
     head += language == "glsl" ? "GLSL (ES 3.00 and later; needs highp float)\n"
                                : "HLSL (shader model 4 and later)\n";
     head += "// SPDX-License-Identifier: MIT-0. No notice is needed where you paste this.\n";

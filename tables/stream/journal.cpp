@@ -33,9 +33,10 @@ std::string head_line(const JournalHead& head) {
     const StreamIdentity& id = head.identity;
     const json line = {{"a_journal_of", "irido sweep"},
                        {"begin", id.begin},
+                       {"commit", id.build.commit},
                        {"end", id.end},
                        {"format", head.format},
-                       {"irido", head.irido},
+                       {"irido", id.build.version},
                        {"layout", layout},
                        {"request", id.request},
                        {"shard", id.shard},
@@ -49,7 +50,6 @@ std::string head_line(const JournalHead& head) {
 JournalHead head_of(const std::string& text) {
     const json line = json::parse(text);
     JournalHead head;
-    line.at("irido").get_to(head.irido);
     line.at("format").get_to(head.format);
     for (const json& field : line.at("layout")) {
         RecordField to{field.at(0).get<std::string>(), RecordField::Type::number,
@@ -66,6 +66,7 @@ JournalHead head_of(const std::string& text) {
     line.at("shards").get_to(id.shards);
     line.at("simd").get_to(id.simd);
     line.at("total").get_to(id.total);
+    id.build = {line.at("irido").get<std::string>(), line.value("commit", "")};
     return head;
 }
 
@@ -100,6 +101,8 @@ void take_line(JournalContent& content, const std::string& line, std::uint64_t e
     } else if (word == "file") {
         content.file.emplace();
         words >> content.file->bytes >> content.file->inode >> content.file->changed_ns;
+        content.checksum.clear();
+        words >> content.checksum;
     } else {
         Checkpoint point{0, 0, 0, word == "safe", end};
         words >> point.units >> point.rows >> point.bytes;
@@ -196,9 +199,9 @@ void Journal::add_checkpoint(const Checkpoint& point) {
         std::to_string(point.rows) + " " + std::to_string(point.bytes));
 }
 
-void Journal::add_file(const FileMark& mark) {
+void Journal::add_file(const FileMark& mark, const std::string& checksum) {
     add("file " + std::to_string(mark.bytes) + " " + std::to_string(mark.inode) + " " +
-        std::to_string(mark.changed_ns));
+        std::to_string(mark.changed_ns) + (checksum.empty() ? "" : " " + checksum));
 }
 
 void Journal::add_complete() {

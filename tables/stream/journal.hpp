@@ -19,12 +19,11 @@ namespace irido {
 ///     boot ID                 a process writes on, since this start of the machine
 ///     done UNITS ROWS BYTES   so many bytes of the part are whole blocks
 ///     safe UNITS ROWS BYTES   and the disk has them
-///     file BYTES INODE TIME   the file that is to be given its name
+///     file BYTES INODE TIME [SHA256]  the file that is to be given its name; a shard's checksum
 ///     complete                it has its name
 
 /// The first line.
 struct JournalHead {
-    std::string irido;  ///< version
     std::string format;
     RecordLayout layout;
     StreamIdentity identity;
@@ -50,6 +49,7 @@ struct JournalContent {
     std::vector<Checkpoint> checkpoints;
     std::string boot;              ///< of the last such line
     std::optional<FileMark> file;  ///< if nothing but "complete" follows its line
+    std::string checksum;          ///< of that file, if it is a shard
     bool is_complete = false;
     std::uint64_t whole_bytes = 0;  ///< up to the last whole line's end
 };
@@ -76,7 +76,7 @@ public:
     void go_back(const Checkpoint& checkpoint);
     void add_boot();
     void add_checkpoint(const Checkpoint& checkpoint);
-    void add_file(const FileMark& mark);
+    void add_file(const FileMark& mark, const std::string& checksum);
     void add_complete();
     void sync() const { file_->sync(); }
     void remove() noexcept;

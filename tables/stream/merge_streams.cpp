@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include "tables/atomic_file.hpp"
+#include "tables/hash.hpp"
 #include "tables/stream/journal.hpp"
 #include "tables/stream/plain_file.hpp"
 #include "tables/stream/record_stream.hpp"
@@ -40,7 +40,8 @@ Shard read_shard(const std::string& path, const StreamFormat& format) {
     if (content.head->format != format.name)
         throw OutputError(path + ": is " + content.head->format + ", not " +
                           std::string(format.name) + " as the output");
-    if (std::filesystem::file_size(target, ignored) != content.file->bytes || ignored)
+    if (std::filesystem::file_size(target, ignored) != content.file->bytes || ignored ||
+        sha256_of_file(target) != content.checksum)
         throw OutputError(path + ": is not the file that its journal says: run it again");
     return {path, *content.head, content.checkpoints.back()};
 }
@@ -49,13 +50,20 @@ Shard read_shard(const std::string& path, const StreamFormat& format) {
 void require_same(const Shard& shard, const Shard& first) {
     const StreamIdentity &a = shard.identity(), &b = first.identity();
     const std::string than = " than " + first.path;
-    if (shard.head.irido != first.head.irido)
-        throw OutputError(shard.path + ": is of another version of irido" + than);
+    if (a.build != b.build)
+        throw OutputError(shard.path + ": is of irido " + to_text(a.build) + ", " + first.path +
+                          " of " + to_text(b.build) +
+                          ", whose numbers may differ: run all shards with one of them");
     if (a.request != b.request || a.total != b.total || shard.head.layout != first.head.layout)
         throw OutputError(shard.path + ": is of another request" + than);
     if (a.shards != b.shards)
         throw OutputError(shard.path + ": is one of " + std::to_string(a.shards) + " shards, " +
                           first.path + " one of " + std::to_string(b.shards));
+    if (a.simd != b.simd)
+        throw OutputError(shard.path + ": is of SIMD level " + a.simd + ", " + first.path + " of " +
+                          b.simd +
+                          ", whose last digits differ: run all shards with one of them, which the "
+                          "environment variable IRIDO_SIMD forces");
 }
 
 /// Throws OutputError unless the sorted shards are each there once.
@@ -94,20 +102,6 @@ void require_other(const std::vector<Shard>& shards, const std::string& path) {
     for (const Shard& shard : shards)
         if (std::filesystem::equivalent(shard.path, path, ignored))
             throw OutputError(path + ": is one of the shards: name another file");
-}
-
-std::vector<std::string> notes_on(const std::vector<Shard>& shards) {
-    std::map<std::string, std::string> levels;
-    for (const Shard& shard : shards) {
-        std::string& names = levels[shard.identity().simd];
-        names += (names.empty() ? "" : ", ") + shard.name();
-    }
-    if (levels.size() == 1) return {};
-    std::string text;
-    for (const auto& [level, names] : levels)
-        text += (text.empty() ? "" : "; ") + level + ": " + names;
-    return {"the shards are of different SIMD levels (" + text +
-            "): last digits may differ from those of one run"};
 }
 
 void write_to(int descriptor, std::string_view bytes, const std::string& path) {
@@ -170,8 +164,8 @@ void write_merged(const std::vector<Shard>& shards, const StreamFormat& format,
 
 }  // namespace
 
-std::vector<std::string> merge_streams(const std::vector<std::string>& paths,
-                                       const std::string& path, const StreamFormat& format) {
+void merge_streams(const std::vector<std::string>& paths, const std::string& path,
+                   const StreamFormat& format) {
     if (paths.empty()) throw OutputError(path + ": no shards to be merged");
     std::vector<Shard> shards;
     for (const std::string& shard : paths) shards.push_back(read_shard(shard, format));
@@ -181,7 +175,6 @@ std::vector<std::string> merge_streams(const std::vector<std::string>& paths,
     require_contiguous(shards);
     require_other(shards, path);
     write_merged(shards, format, path);
-    return notes_on(shards);
 }
 
 }  // namespace irido

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "tables/atomic_file.hpp"
+#include "tables/hash.hpp"
 #include "tables/stream/journal.hpp"
 #include "tables/stream/plain_file.hpp"
 
@@ -50,7 +51,7 @@ public:
           part_name_(part_name(target_.path)),
           made_name_(part_name_ + ".tmp"),
           format_(format),
-          head_{IRIDO_VERSION, std::string(format.name), layout, identity},
+          head_{std::string(format.name), layout, identity},
           journal_(target_.path, path) {}
 
     void begin();
@@ -123,8 +124,9 @@ void FileStream::begin() {
 void FileStream::require_same(const JournalHead& found) const {
     const std::string anew = ": run without --resume to begin anew, or name another file";
     const StreamIdentity &a = found.identity, &b = head_.identity;
-    if (found.irido != head_.irido)
-        fail(": its part is of irido " + found.irido + ", this is " + head_.irido + anew);
+    if (a.build != b.build)
+        fail(": its part is of irido " + to_text(a.build) + ", this is " + to_text(b.build) +
+             ", whose numbers may differ" + anew);
     if (found.format != head_.format)
         fail(": its part is " + found.format + ", not " + head_.format + anew);
     if (a.request != b.request || a.total != b.total || found.layout != head_.layout)
@@ -142,10 +144,12 @@ bool FileStream::take_finished(const JournalContent& found) {
     if (!found.file || !mark || found.checkpoints.empty()) return false;
     // once complete, it may have been moved to another disk
     if (found.is_complete ? mark->bytes != found.file->bytes : *mark != *found.file) return false;
+    const bool is_shard = head_.identity.is_shard;
+    if (is_shard && sha256_of_file(target_.path) != found.checksum) return false;
     at_ = found.checkpoints.back();
     is_complete_ = is_over_ = true;
     unlink(part_name_.c_str());
-    if (head_.identity.shards == 1) {
+    if (!is_shard) {
         journal_.remove();
     } else if (!found.is_complete) {
         journal_.add_complete();
@@ -230,7 +234,8 @@ void FileStream::give_name(const std::string& file) {
     const PlainFile made(file, PlainFile::Use::write, path_);
     if (fchmod(made.descriptor(), target_.mode) != 0) fail_to_write(path_, errno);
     made.sync();
-    journal_.add_file(mark_of(file).value_or(FileMark{}));
+    journal_.add_file(mark_of(file).value_or(FileMark{}),
+                      head_.identity.is_shard ? sha256_of_file(file) : "");
     if (std::rename(file.c_str(), target_.path.c_str()) != 0) fail_to_write(path_, errno);
 }
 
@@ -242,7 +247,7 @@ void FileStream::finish() {
     give_name(made_file());
     is_complete_ = is_over_ = true;
     if (format_.finish) unlink(part_name_.c_str());
-    if (head_.identity.shards == 1) return journal_.remove();
+    if (!head_.identity.is_shard) return journal_.remove();
     journal_.add_complete();
     journal_.sync();
 }
@@ -282,9 +287,11 @@ public:
     std::uint64_t rows_done() const override { return rows_; }
     bool is_complete() const override { return false; }
     void append(const std::string& bytes, std::uint64_t units, std::uint64_t rows) override {
-        begin();
-        if (rows_ > 0 && !bytes.empty()) write(format_.separator);
-        write(bytes);
+        if (!bytes.empty()) {
+            begin();
+            if (rows_ > 0) write(format_.separator);
+            write(bytes);
+        }
         units_ += units;
         rows_ += rows;
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tables/stream/stream_format.hpp"
+#include "tables/version.hpp"
 
 namespace irido {
 
@@ -18,6 +19,8 @@ struct StreamIdentity {
     std::uint64_t begin = 0;  ///< of the units of work of the whole that are this shard's
     std::uint64_t end = 0;
     std::uint64_t total = 0;  ///< units of the whole
+    bool is_shard = false;    ///< to be merged, perhaps the only one
+    Build build = this_build();
 };
 
 /// A file of records that is written in order, a block at a time, in constant memory, and can be
@@ -26,8 +29,8 @@ struct StreamIdentity {
 /// While it grows it is PATH.part, beside its journal PATH.sweep: a line that says what the file is
 /// and, after every so many blocks, how many units, rows and bytes are complete. finish() puts head
 /// and tail right and renames PATH.part to PATH; only then is there a PATH, and an older one is
-/// replaced. The journal is removed then, unless the file is one of several shards: their merging
-/// needs it.
+/// replaced. The journal is removed then, unless the file is a shard: merging needs it, and the
+/// checksum of the file that it has.
 ///
 /// A process that ends, however, costs no more than the work of the last millisecond or, after a
 /// second, the last thousandth of the time that it ran; a power cut that of the last seconds: what
@@ -58,7 +61,8 @@ public:
 /// `resume` continues a part of the same identity and begins one where there is none; without it,
 /// a part that is there is begun again. Holds a lock on the journal until it is destroyed. Throws
 /// OutputError if the file cannot be written, if another process is writing it, or if the part to
-/// be resumed is of another request, shard or SIMD level (the text says which, and what to do).
+/// be resumed is of another request, shard, SIMD level or build of irido (the text says which, and
+/// what to do).
 /// A device or a pipe is written to directly, without a part, and needs `rows` as record_output()
 /// does.
 std::unique_ptr<RecordStream> record_file(const std::string& path, const StreamFormat& format,
@@ -72,9 +76,9 @@ std::unique_ptr<RecordStream> record_output(const StreamFormat& format, const Re
                                             std::uint64_t rows);
 
 /// Puts the shards of one stream, in any order, together: the same bytes as of one run, in constant
-/// memory. Returns notes for the user (different SIMD levels). Throws OutputError if a file is not
-/// what its journal says, shards are missing or given twice, or they are of different requests.
-std::vector<std::string> merge_streams(const std::vector<std::string>& shards,
-                                       const std::string& path, const StreamFormat& format);
+/// memory. Throws OutputError if a file is not what its journal says, shards are missing or given
+/// twice, or they are of different requests, builds of irido or SIMD levels.
+void merge_streams(const std::vector<std::string>& shards, const std::string& path,
+                   const StreamFormat& format);
 
 }  // namespace irido

@@ -216,9 +216,9 @@ TEST_CASE("a part is resumed by its own command only", "[cli][sweep]") {
     const std::string file = folder / "f.csv";
     const Words sweep{"sweep",     kFilm,   "--vary",   "layers.0.thickness_nm=0:1e6:20",
                       "--compute", "color", "--method", "quadrature"};
-    const Outcome stopped =
-        run_shell("timeout -s INT 0.5 \"$IRIDO\"" + in_quotes(sweep + Words{"-o", file}) + "; echo $?",
-                  folder.path());
+    const Outcome stopped = run_shell(
+        "timeout -s INT 0.5 \"$IRIDO\"" + in_quotes(sweep + Words{"-o", file}) + "; echo $?",
+        folder.path());
     CHECK(stopped.out == "124\n");
     CHECK(stopped.err.find("--resume") != std::string::npos);
     const std::string part = read_file(file + ".part");
@@ -319,6 +319,128 @@ TEST_CASE("what cannot be computed is said, or left out", "[cli][sweep]") {
     CHECK(tolerance.err.find("at layers.0.thickness_nm=10: ") != std::string::npos);
 }
 
+TEST_CASE("wavelengths that cannot be computed take no other with them", "[cli][sweep]") {
+    const std::string oxide = "air | SiO2@100 | Si";  // known from 210 nm
+    const Words spectrum{"--compute", "spectrum", "--keep-going", "--quiet"};
+    const Table all = rows_of(Words{"sweep", oxide, "--vary", "wavelength_nm=500,600"} + spectrum);
+    REQUIRE(all.size() == 3);
+    for (const std::string list : {"150,500,600", "500,150,600", "500,600,150"}) {
+        CHECK(rows_of(Words{"sweep", oxide, "--vary", "wavelength_nm=" + list} + spectrum) == all);
+        CHECK(rows_of(Words{"sweep", oxide, "--vary", "wavelength_nm=" + list, "--shard", "1/1"} +
+                      spectrum) == all);
+    }
+    // with other values before and after it, in parts, and from a file
+    const std::string film = "layers.0.thickness_nm=100,200", light = "wavelength_nm=150,500,600";
+    const Table before = rows_of(Words{"sweep", oxide, "--vary", light, "--vary", film} + spectrum);
+    CHECK(before.size() == 5);
+    const Words after{"sweep", oxide, "--vary", film, "--vary", light};
+    const Table rows = rows_of(after + spectrum);
+    CHECK(rows.size() == 5);
+    Table parts;
+    for (const std::string shard : {"1/2", "2/2"}) {
+        const Table part = rows_of(after + Words{"--shard", shard} + spectrum);
+        parts.insert(parts.end(), part.begin() + (parts.empty() ? 0 : 1), part.end());
+    }
+    CHECK(parts == rows);
+    const TemporaryFolder folder;
+    write_text(folder / "p.csv",
+               "wavelength_nm,layers.0.thickness_nm\n150,100\n500,100\n600,200\n");
+    CHECK(rows_of(Words{"sweep", oxide, "--points", folder / "p.csv"} + spectrum).size() == 3);
+}
+
+TEST_CASE("a sweep in which nothing is left fails and replaces nothing", "[cli][sweep]") {
+    const TemporaryFolder folder;
+    const std::string file = folder / "rows.csv";
+    const Words sweep{
+        "sweep",    "air | SiO2@100 | Si", "--vary", "wavelength_nm=150,160", "--compute",
+        "spectrum", "--keep-going"};
+    const std::string reason =
+        "irido: error: nothing is left: none of 2 can be computed, the first one at "
+        "wavelength_nm=150: ";
+    const auto check_failed = [&](const Words& options) {
+        const Outcome outcome = run_irido(sweep + options);
+        INFO(outcome.err);
+        CHECK(outcome.status == 1);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err.starts_with(reason));
+    };
+    check_failed({});
+    check_failed({"-o", file});
+    check_failed({"-o", file, "--resume"});
+    CHECK(names_in(folder.path()).empty());
+    write_text(file, "older rows");
+    check_failed({"-o", file});
+    CHECK(read_file(file) == "older rows");
+    CHECK(names_in(folder.path()) == std::set<std::string>{"rows.csv"});
+    // one part of a whole may be empty
+    const Words part{
+        "sweep",    "air | SiO2@100 | Si", "--vary", "wavelength_nm=150,500", "--compute",
+        "spectrum", "--keep-going",        "--quiet"};
+    for (const std::string k : {"1", "2"})
+        CHECK(run_irido(part + Words{"--shard", k + "/2", "-o", folder / k + ".csv"}).status == 0);
+    CHECK(run_irido({"sweep", "--merge", folder / "2.csv", folder / "1.csv", "-o", file}).status ==
+          0);
+    CHECK(read_file(file) == out_of(part));
+}
+
+TEST_CASE("a job array of one, an edited digit, another SIMD level", "[cli][sweep]") {
+    const TemporaryFolder folder;
+    const std::string one = folder / "1.csv", two = folder / "2.csv", all = folder / "all.csv";
+    const Words sweep{"sweep",     kFilm,      "--vary", "layers.0.thickness_nm=100:200:10",
+                      "--compute", "spectrum", "-w",     "500"};
+    const std::string rows = out_of(sweep);
+    REQUIRE(run_irido(sweep + Words{"--shard", "1/1", "-o", one}).status == 0);
+    CHECK(names_in(folder.path()) == std::set<std::string>{"1.csv", "1.csv.sweep"});
+    CHECK(run_irido({"sweep", "--merge", one, "-o", all}).status == 0);
+    CHECK(read_file(all) == rows);
+    REQUIRE(run_irido(sweep + Words{"--shard", "1/2", "-o", one}).status == 0);
+    REQUIRE(run_irido(sweep + Words{"--shard", "2/2", "-o", two}).status == 0);
+    const Words merge{"sweep", "--merge", one, two, "-o", all};
+    std::string edited = read_file(two);
+    edited[edited.size() - 3] ^= 1;
+    write_text(two, edited);
+    check_refused(run_irido(merge), "2.csv: is not the file that its journal says: run it again");
+    REQUIRE(run_irido(sweep + Words{"--shard", "2/2", "-o", two, "--resume"}).status == 0);
+    CHECK(run_irido(merge).status == 0);
+    CHECK(read_file(all) == rows);
+    const std::string plain =
+        "IRIDO_SIMD=plain \"$IRIDO\"" + in_quotes(sweep + Words{"--shard", "2/2", "-o", two});
+    REQUIRE(run_shell(plain, folder.path()).status == 0);
+    check_refused(run_irido(merge), "is of SIMD level plain");
+}
+
+TEST_CASE("a value inside of another that varies is refused", "[cli][sweep][refused]") {
+    const std::string layer = R"({"material":1.4,"thickness_nm":5})";
+    const std::vector<std::pair<std::string, std::string>> pairs{
+        {"layers.0.thickness_nm=1,2", "layers.0=" + layer},
+        {"layers.0.material.n=1.5,1.6", "layers.0.material={\"n\":1.4}"},
+        {"layers.0.material.n=1.5,1.6", "layers.0=" + layer},
+        {"layers.0.thickness_nm=1,2", "layers=[" + layer + "]"},
+        {"layers.0.thickness_nm=1,2", "layers.00=" + layer}};
+    for (const auto& [inner, outer] : pairs) {
+        const std::string said = inner.substr(0, inner.find('=')) + " is inside of " +
+                                 outer.substr(0, outer.find('=')) + ", which varies, too";
+        const Words compute{"--compute", "color"};
+        check_refused(run_irido(Words{"sweep", kFilm, "--vary", inner, "--vary", outer} + compute),
+                      "--vary: " + said);
+        check_refused(run_irido(Words{"sweep", kFilm, "--vary", outer, "--vary", inner} + compute),
+                      "--vary: " + said);
+    }
+    for (const std::string twice : {"layers.0.thickness_nm=3", "layers.00.thickness_nm=3"})
+        check_refused(run_irido({"sweep", kFilm, "--vary", "layers.0.thickness_nm=1,2", "--vary",
+                                 twice, "--compute", "color"}),
+                      "is varied twice");
+    const TemporaryFolder folder;
+    write_text(folder / "p.csv", "layers.0.thickness_nm,substrate\n1,Ag\n2,Au\n");
+    check_refused(run_irido({"sweep", kFilm, "--points", folder / "p.csv", "--vary",
+                             "layers.0=" + layer, "--compute", "color"}),
+                  "--points: layers.0.thickness_nm is inside of layers.0");
+    // neighbours are no parts of each other
+    CHECK(run_irido({"sweep", kFilm, "--vary", "layers.0.material=1.4,1.5", "--vary",
+                     "layers.0.thickness_nm=1,2", "--compute", "color"})
+              .status == 0);
+}
+
 TEST_CASE("sweeps say what was used again", "[cli][sweep]") {
     const Outcome outcome = run_irido({"sweep", kFilm, "--vary", "substrate=Ag,Au,Cu", "--vary",
                                        "layers.0.thickness_nm=0:100:10", "--compute", "spectrum",
@@ -330,7 +452,7 @@ TEST_CASE("a sweep that cannot be written leaves nothing", "[cli][sweep]") {
     const TemporaryFolder folder;
     const std::string command =
         "\"$IRIDO\"" + in_quotes({"sweep", kFilm, "--vary", "layers.0.thickness_nm=0:20000:1",
-                               "--compute", "color", "--quiet"});
+                                  "--compute", "color", "--quiet"});
     for (const std::string& format : kFormats) {
         const Outcome full =
             run_shell("ulimit -f 100; " + command + " -o f." + format + "; echo $?", folder.path());

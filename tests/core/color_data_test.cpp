@@ -70,7 +70,7 @@ void check_observer(const Observer& eye, std::array<double, 3> sums, double peak
 
 }  // namespace
 
-TEST_CASE("observers hold the published tables", "[color]") {
+TEST_CASE("observers hold the tables of CIE 15 and ISO/CIE 11664-1", "[color]") {
     // Sums over the rows in exact decimal arithmetic.
     check_observer(observer(2), {106.865469489595, 106.856917101172, 106.892251278636}, 555);
     check_observer(observer(10), {116.648519508908, 116.661877102312, 116.673980514647}, 557);
@@ -136,7 +136,7 @@ TEST_CASE("illuminant A follows its formula in full precision", "[color]") {
     CHECK_THAT(power_at(a, 830), WithinRel(261.60233976557685, 4e-15));
 }
 
-TEST_CASE("5 nm sums give the published chromaticities", "[color]") {
+TEST_CASE("5 nm sums give the chromaticities of CIE 15", "[color]") {
     struct Published {
         std::string_view name;
         int degrees;

@@ -59,7 +59,7 @@ constexpr std::array<Pair, 34> kPairs{{
 
 }  // namespace
 
-TEST_CASE("CIEDE2000 gives the published differences", "[color]") {
+TEST_CASE("CIEDE2000 gives the differences of Sharma, Wu and Dalal", "[color]") {
     for (const Pair& pair : kPairs) {
         INFO("pair " << &pair - kPairs.data() + 1);
         CHECK_THAT(ciede2000(pair.lab1, pair.lab2), WithinAbs(pair.difference, 5e-5));

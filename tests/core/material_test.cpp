@@ -220,7 +220,7 @@ TEST_CASE("an index that cannot be computed with is refused by name and value", 
     CHECK(index_at(constant(1.5, -0.1), 500) == Complex(1.5, -0.1));
 }
 
-TEST_CASE("the Lorentz-Drude model gives the published index of silver", "[material]") {
+TEST_CASE("the Lorentz-Drude model gives the index of silver of Rakic et al.", "[material]") {
     // A. D. Rakic et al., Appl. Opt. 37, 5271 (1998), and its table at 550 nm: 0.1342 + 3.1723i.
     LorentzDrude silver{1,
                         9.01,
@@ -474,7 +474,7 @@ TEST_CASE("catalogue and printed values of single materials", "[library]") {
     CHECK(n_of(built_in("vacuum"), 500) == 1.0);
 }
 
-TEST_CASE("tables keep the published rows", "[library]") {
+TEST_CASE("tables keep the rows of their sources", "[library]") {
     const auto at = [](const char* name, double nm) { return index_at(built_in(name), nm); };
     // P. B. Johnson and R. W. Christy (1972), rows at 2.26, 2.01 and 3.37 eV.
     CHECK(at("Ag", 548.6) == Complex(0.06, 3.586));

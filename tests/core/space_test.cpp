@@ -64,7 +64,7 @@ Triple white(std::string_view name, int degrees) {
 
 }  // namespace
 
-TEST_CASE("matrices have the published digits", "[color]") {
+TEST_CASE("matrices have the digits of their standards", "[color]") {
     SECTION("srgb: IEC 61966-2-1, four decimals") {
         check_close(
             xyz_from_rgb(rgb_space("srgb")),
@@ -140,7 +140,7 @@ TEST_CASE("the two matrices of a space are inverse and map white to one", "[colo
     }
 }
 
-TEST_CASE("Bradford adaptation between D65 and D50 as published", "[color]") {
+TEST_CASE("Bradford adaptation between D65 and D50 as Lindbloom has it", "[color]") {
     // B. Lindbloom, "Chromatic Adaptation", seven decimals, with the whites of ASTM E308.
     const Triple d65{0.95047, 1, 1.08883};
     const Triple d50{0.96422, 1, 0.82521};

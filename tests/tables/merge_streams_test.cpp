@@ -12,13 +12,15 @@ using namespace irido;
 using namespace irido::test;
 using Catch::Contains;
 using Catch::Equals;
+using Catch::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
 
 StreamIdentity identity_of(std::uint64_t total, std::uint64_t shard = 1, std::uint64_t shards = 1) {
-    return {"request", "avx2", shard, shards, total * (shard - 1) / shards, total * shard / shards,
-            total};
+    return {
+        "request", "avx2",    shard, shards, total * (shard - 1) / shards, total * shard / shards,
+        total,     shards > 1};
 }
 
 /// Two rows a unit, but none in the first ten units.
@@ -48,7 +50,7 @@ struct Shards {
         }
     }
     std::string merged() const {
-        CHECK(merge_streams(paths, folder / "merged", format).empty());
+        merge_streams(paths, folder / "merged", format);
         return read_file(folder / "merged");
     }
     std::string refused() const {
@@ -112,22 +114,73 @@ TEST_CASE("a merging replaces a file and writes to a device", "[tables][stream]"
     fs::permissions(shards.folder / "merged", fs::perms(0600));
     const std::string bytes = shards.merged();
     CHECK(fs::status(shards.folder / "merged").permissions() == fs::perms(0600));
-    CHECK(merge_streams(shards.paths, "/dev/null", shards.format).empty());
+    merge_streams(shards.paths, "/dev/null", shards.format);
     CHECK_THROWS_WITH(merge_streams(shards.paths, "/dev/full", shards.format),
                       Equals("/dev/full: cannot be written: No space left on device"));
     const Shards h5(*find_stream_format("h5"));
     CHECK_THROWS_WITH(merge_streams(h5.paths, "/dev/null", h5.format), Contains("not a file"));
 }
 
-TEST_CASE("shards of different SIMD levels are merged with a note", "[tables][stream]") {
+TEST_CASE("shards of different numbers are refused", "[tables][stream][refused]") {
     const Shards shards(*find_stream_format("json"));
+    const std::string &first = shards.paths[0], &second = shards.paths[1];
     StreamIdentity identity = identity_of(47, 2, 3);
     identity.simd = "baseline";
-    write_shard(shards.paths[1], shards.format, identity);
-    const auto notes = merge_streams(shards.paths, shards.folder / "merged", shards.format);
-    CHECK(notes == std::vector<std::string>{
-                       "the shards are of different SIMD levels (avx2: 1, 3; baseline: 2): "
-                       "last digits may differ from those of one run"});
+    write_shard(second, shards.format, identity);
+    CHECK_THAT(shards.refused(),
+               StartsWith(second + ": is of SIMD level baseline, " + first + " of avx2") &&
+                   Contains("IRIDO_SIMD"));
+    for (const Build& build :
+         {Build{"0.0.9", this_build().commit}, Build{this_build().version, "0123456789ab"},
+          Build{this_build().version, "0123456789ab-dirty-01234567"}}) {
+        identity = identity_of(47, 2, 3);
+        identity.build = build;
+        write_shard(second, shards.format, identity);
+        CHECK_THAT(shards.refused(),
+                   Equals(second + ": is of irido " + to_text(build) + ", " + first + " of " +
+                          to_text(this_build()) +
+                          ", whose numbers may differ: run all shards with one of them"));
+    }
+}
+
+TEST_CASE("shards that were edited are refused", "[tables][stream][refused]") {
+    for (const StreamFormat* const format : stream_formats()) {
+        INFO(format->name);
+        const Shards shards(*format);
+        const std::string& path = shards.paths[2];
+        const std::string bytes = read_file(path);
+        const std::string said = path + ": is not the file that its journal says: run it again";
+        std::string digit = bytes;
+        digit[bytes.size() - 12] ^= 1;
+        write_text(path, digit);
+        CHECK_THAT(shards.refused(), Equals(said));
+        if (format->name == "csv") {  // two lines swapped
+            const std::size_t second = bytes.find('\n') + 1, third = bytes.find('\n', second) + 1;
+            const std::size_t end = bytes.find('\n', third) + 1;
+            write_text(path, bytes.substr(0, second) + bytes.substr(third, end - third) +
+                                 bytes.substr(second, third - second) + bytes.substr(end));
+            CHECK_THAT(shards.refused(), Equals(said));
+        }
+        // the run again, as it was or as one that goes on
+        const StreamIdentity identity = identity_of(47, 3, 3);
+        CHECK_FALSE(record_file(path, *format, sample_layout(), identity, true)->is_complete());
+        write_shard(path, *format, identity);
+        CHECK(read_file(path) == bytes);
+        CHECK(record_file(path, *format, sample_layout(), identity, true)->is_complete());
+        CHECK(!shards.merged().empty());
+    }
+}
+
+TEST_CASE("a single shard is merged, too", "[tables][stream]") {
+    for (const StreamFormat* const format : stream_formats()) {
+        INFO(format->name);
+        Shards shards(*format, 47, 1);
+        CHECK_THAT(shards.refused(), Contains("there is no journal"));
+        StreamIdentity identity = identity_of(47);
+        identity.is_shard = true;
+        write_shard(shards.paths[0], *format, identity);
+        CHECK(shards.merged() == read_file(shards.paths[0]));
+    }
 }
 
 TEST_CASE("shards that are not one whole are refused", "[tables][stream]") {

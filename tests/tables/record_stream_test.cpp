@@ -38,8 +38,9 @@ std::uint64_t rows_before(std::uint64_t unit) {
 }
 
 StreamIdentity identity_of(std::uint64_t total, std::uint64_t shard = 1, std::uint64_t shards = 1) {
-    return {"request", "avx2", shard, shards, total * (shard - 1) / shards, total * shard / shards,
-            total};
+    return {
+        "request", "avx2",    shard, shards, total * (shard - 1) / shards, total * shard / shards,
+        total,     shards > 1};
 }
 
 void append_units(RecordStream& stream, const StreamFormat& format, const StreamIdentity& identity,
@@ -423,6 +424,13 @@ TEST_CASE("a part of something else is not gone on with", "[tables][stream]") {
     other = identity;
     other.simd = "baseline";
     CHECK_THAT(refused(csv, sample_layout(), other), Contains("set IRIDO_SIMD=avx2"));
+    other = identity;
+    other.build.commit = "0123456789ab";
+    CHECK_THAT(refused(csv, sample_layout(), other),
+               Equals(path + ": its part is of irido " + to_text(this_build()) + ", this is " +
+                      this_build().version +
+                      " (0123456789ab), whose numbers may differ: run without --resume to begin "
+                      "anew, or name another file"));
     CHECK_THAT(refused(csv, sample_layout(), identity_of(90, 3, 3)),
                Contains("its part is shard 2 of 3, not shard 3 of 3"));
     CHECK_THAT(refused(csv, sample_layout(), identity_of(90, 2, 4)), Contains("not shard 2 of 4"));

@@ -32,6 +32,7 @@
 #include "tables/lut_metadata.hpp"
 #include "tables/lut_texels.hpp"
 #include "tables/lut_values.hpp"
+#include "tables/version.hpp"
 
 namespace irido {
 
@@ -179,7 +180,7 @@ std::string key_values_of(const Lut& lut, const Texture& texture) {
     if (texel_blocks(lut).count > 1) metadata["blocks"] = texel_blocks(lut).count;
     std::string out;  // keys by code point
     append_entry(out, "KTXorientation", texture.depth > 0 ? "rdi\0"sv : "rd\0"sv);
-    append_entry(out, "KTXwriter", "irido " IRIDO_VERSION "\0"sv);
+    append_entry(out, "KTXwriter", "irido " + this_build().version + '\0');
     append_entry(out, kMetadataKey, metadata_text(metadata));
     return out;
 }

@@ -159,7 +159,7 @@ TEST_CASE("the naive colour is R at three wavelengths") {
     }
 }
 
-TEST_CASE("Gaussian fits with the phases of published Fresnel formulas") {
+TEST_CASE("Gaussian fits with the phases of BB17's Fresnel formulas") {
     // BB17's series to order 3 with the reflectances and phases of its supplemental code (after
     // Born and Wolf), which uses other formulas than core; evaluated apart, X, Y, Z over a mirror's
     struct Golden {

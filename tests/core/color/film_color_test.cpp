@@ -105,7 +105,7 @@ TEST_CASE("colours of one film are those of the oracle", "[film_color]") {
     }
 }
 
-TEST_CASE("published colours of one film", "[film_color]") {
+TEST_CASE("colours of one film agree with exact integrals to 12 digits", "[film_color]") {
     // Exact integrals of the piecewise linear tables, good to 1e-12: D65, 2 degrees
     struct Golden {
         Stack stack;

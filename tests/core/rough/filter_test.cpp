@@ -58,12 +58,12 @@ const std::vector<double> kAlphas{1e-4, 1e-3, 0.01, 0.1, 0.2, 0.5, 0.999, 1};
 TEST_CASE("the transmission filter has the values of a 60-digit evaluation", "[rough]") {
     const TransmissionFilter filter(0.2);
     // computed independently to 60 digits
-    const std::vector<std::pair<Angles, double>> published{
+    const std::vector<std::pair<Angles, double>> expected{
         {{20, 15}, 1.8901438839298736},   {{20, 45}, 0.2722569611850245},
         {{20, 75}, 0.023254638025755423}, {{60, 15}, 0.07600163461048545},
         {{60, 45}, 0.7872043926777261},   {{60, 75}, 0.33354570223087154},
     };
-    for (const auto& [at, F] : published) CHECK_THAT(filter(at.i, at.d), WithinRel(F, 1e-14));
+    for (const auto& [at, F] : expected) CHECK_THAT(filter(at.i, at.d), WithinRel(F, 1e-14));
 }
 
 TEST_CASE("the reference of the filter is the integral over psi by tanh-sinh", "[rough]") {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+namespace irido {
+
+/// Which sources a program was built from.
+struct Build {
+    std::string version;  ///< "0.1.0"
+    /// "cc98dd7a1b2c", with "-dirty-" and a checksum of the changes where the sources differ from
+    /// that commit; "" outside of a checkout.
+    std::string commit;
+
+    bool operator==(const Build&) const = default;
+};
+
+/// This program.
+const Build& this_build();
+
+/// "0.1.0 (cc98dd7a1b2c)", or the version alone.
+std::string to_text(const Build& build);
+
+}  // namespace irido
