@@ -70,8 +70,7 @@ struct Line {
 
 Line without_comment(const TextLine& line) {
     std::string_view text = trimmed(line.text);
-    const bool is_comment =
-        text.starts_with("//") || text.find_first_of("#;!%") == 0;
+    const bool is_comment = text.starts_with("//") || text.find_first_of("#;!%") == 0;
     if (!is_comment) return {line, line.text.substr(0, line.text.find('#')), false};
     const std::size_t first = text.find_first_not_of("#;!%/ \t");
     return {line, first == std::string_view::npos ? text.substr(0, 0) : text.substr(first), true};
@@ -217,8 +216,8 @@ private:
         if (!found.empty()) return with_units(std::move(found), above.subspan(place + 1));
         if (unknown == nullptr) return {};
         fail(unknown->whole, trimmed(unknown->text),
-             "names other columns than are known, " + std::to_string(count) + " of: " +
-                 names_.known + " (got " + in_quotes(trimmed(unknown->text)) +
+             "names other columns than are known, " + std::to_string(count) +
+                 " of: " + names_.known + " (got " + in_quotes(trimmed(unknown->text)) +
                  "; a line that is no header begins with #)");
     }
 
@@ -258,11 +257,11 @@ using Spelling = std::pair<std::string_view, std::string_view>;
 
 /// Letters and marks of names of columns that are not ASCII, or that are more than a letter.
 constexpr std::array kSpellings{
-    Spelling{"\u00B5", "u"},     Spelling{"\u03BC", "u"},     Spelling{"\u00C5", "angstrom"},
-    Spelling{"\u212B", "angstrom"}, Spelling{"\u00E5", "a"},  Spelling{"\u00F6", "o"},
-    Spelling{"\u03BB", "lambda"}, Spelling{"\u03B5", "eps"},  Spelling{"\u03BA", "kappa"},
-    Spelling{"\u207B\u00B9", "-1"}, Spelling{"\u2081", "1"},  Spelling{"\u2082", "2"},
-    Spelling{"\u2212", "-"},     Spelling{"^", ""},           Spelling{"1/cm", "cm-1"},
+    Spelling{"\u00B5", "u"},        Spelling{"\u03BC", "u"},   Spelling{"\u00C5", "angstrom"},
+    Spelling{"\u212B", "angstrom"}, Spelling{"\u00E5", "a"},   Spelling{"\u00F6", "o"},
+    Spelling{"\u03BB", "lambda"},   Spelling{"\u03B5", "eps"}, Spelling{"\u03BA", "kappa"},
+    Spelling{"\u207B\u00B9", "-1"}, Spelling{"\u2081", "1"},   Spelling{"\u2082", "2"},
+    Spelling{"\u2212", "-"},        Spelling{"^", ""},         Spelling{"1/cm", "cm-1"},
     Spelling{"epsilon", "eps"}};
 
 struct UnitName {
@@ -317,8 +316,7 @@ std::vector<TextLine> lines_of(std::string_view text) {
 }
 
 std::string place_of(const TextLine& line, std::string_view part) {
-    return std::to_string(line.number) + ":" +
-           std::to_string(part.data() - line.text.data() + 1);
+    return std::to_string(line.number) + ":" + std::to_string(part.data() - line.text.data() + 1);
 }
 
 ColumnText read_columns(std::span<const TextLine> lines, const std::string& name,

@@ -49,8 +49,8 @@ Table read_spectrum_csv(std::string_view text, const std::string& name) {
                 name, place_of(row.line, row.cells[1]),
                 "the value must be in [0, 1e+30] (got " + to_text(row.values[1]) + ")");
         largest = std::max(largest, row.values[1]);
-        rows.push_back(
-            {wavelength_of(row, column_name.unit.value_or(SpectralUnit::nm), name), row.values[1], 0});
+        rows.push_back({wavelength_of(row, column_name.unit.value_or(SpectralUnit::nm), name),
+                        row.values[1], 0});
     }
     if (largest < 1 / kLargestPower)
         throw InputError(name, "",
@@ -58,9 +58,9 @@ Table read_spectrum_csv(std::string_view text, const std::string& name) {
     std::ranges::stable_sort(rows, {}, [](const IndexRow& row) { return row[0]; });
     for (std::size_t i = 1; i < rows.size(); ++i)
         if (rows[i][0] == rows[i - 1][0])
-            throw InputError(name, "",
-                             "must have one row a wavelength (got two at " + to_text(rows[i][0]) +
-                                 " nm)");
+            throw InputError(
+                name, "",
+                "must have one row a wavelength (got two at " + to_text(rows[i][0]) + " nm)");
     return column(rows, 1);
 }
 

@@ -305,7 +305,8 @@ private:
     Material from_file(const std::string& path, const std::string& pointer) {
         const std::filesystem::path place = std::filesystem::path(folder_) / path;
         if (!is_material_file(place.string())) {
-            report(pointer, "must end in .csv, .txt, .tsv, .dat, .nk, .mat, .yml or .yaml (got \"" + path + "\")");
+            report(pointer, "must end in .csv, .txt, .tsv, .dat, .nk, .mat, .yml or .yaml (got \"" +
+                                path + "\")");
             return {path, RefractiveIndex{}};
         }
         try {
@@ -339,16 +340,16 @@ private:
         }
     }
 
-    /// An incident medium whose k is one number is judged here, others at the wavelengths asked for.
+    /// An incident medium whose k is one number is judged here, others at the wavelengths asked
+    /// for.
     void require_real(std::size_t incident) {
         if (is_broken("/incident") || result_.stack.materials.empty()) return;
         const Material& medium = result_.stack.materials[incident];
         if (!is_constant(medium)) return;
         const double k = std::get<Constant>(std::get<RefractiveIndex>(medium.model).k).value;
         if (std::abs(k) >= kTransparentBelow_k)
-            report("/incident",
-                   "must neither absorb nor amplify: its k must be below 1e-3 (got " + to_text(k) +
-                       ")");
+            report("/incident", "must neither absorb nor amplify: its k must be below 1e-3 (got " +
+                                    to_text(k) + ")");
         else if (k != 0)
             result_.notes.push_back(file_ + ": /incident: " + incident_note(k));
     }

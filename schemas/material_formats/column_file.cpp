@@ -153,8 +153,8 @@ MaterialFile material_of_columns(const ColumnText& table, const std::vector<std:
     if (layout.is_permittivity) take_roots(rows);
     if (table.header.empty() && !layout.unit) note_angstroms(rows, notes);
     const bool has_k = std::ranges::any_of(rows, [](const IndexRow& row) { return row[2] != 0; });
-    return material_of(name, column(rows, 1),
-                       has_k ? std::optional(column(rows, 2)) : std::nullopt, std::move(notes));
+    return material_of(name, column(rows, 1), has_k ? std::optional(column(rows, 2)) : std::nullopt,
+                       std::move(notes));
 }
 
 MaterialFile read_column_file(std::string_view text, const std::string& name) {

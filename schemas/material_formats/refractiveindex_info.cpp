@@ -97,7 +97,8 @@ std::vector<double> numbers_of(const YAML::Node& value, const Reader& reader) {
 
 /// Until 2018 the key was called range.
 WavelengthRange range_of(const YAML::Node& item, const Reader& reader) {
-    const char* const key = item["wavelength_range"] || !item["range"] ? "wavelength_range" : "range";
+    const char* const key =
+        item["wavelength_range"] || !item["range"] ? "wavelength_range" : "range";
     const auto ends = numbers_of(value_of(item, key, reader), reader);
     if (ends.size() != 2 || !(ends[0] > 0) || !(ends[0] <= ends[1]))
         reader.fail(std::string(key) + " must be two increasing wavelengths in um");
@@ -270,8 +271,8 @@ std::optional<double> temperature_in(const YAML::Node& map) {
     const std::string text = map["temperature"].Scalar();
     const std::string_view word = std::string_view(text).substr(0, text.find_first_of(" \t"));
     const auto value = parse_number(word);
-    const bool is_celsius = text.find('C') != std::string::npos ||
-                            text.find("\u2103") != std::string::npos;
+    const bool is_celsius =
+        text.find('C') != std::string::npos || text.find("\u2103") != std::string::npos;
     const double celsius = value.value_or(20) - (is_celsius ? 0 : 273.15);
     if (!value || !(celsius >= -40 && celsius <= 100)) return std::nullopt;
     return std::round(celsius * 2) / 2;  // 293 K is 20 C

@@ -112,7 +112,8 @@ long double formula(const Item& item, long double L) {
             return n2;
         case '7': {
             const long double u = 1 / (L2 - 0.028L);
-            return c(1) + c(2) * u + c(3) * u * u + c(4) * L2 + c(5) * L2 * L2 + c(6) * L2 * L2 * L2;
+            return c(1) + c(2) * u + c(3) * u * u + c(4) * L2 + c(5) * L2 * L2 +
+                   c(6) * L2 * L2 * L2;
         }
         case '8': {
             const long double r = c(1) + c(2) * L2 / (L2 - c(3)) + c(4) * L2;
@@ -127,7 +128,8 @@ long double formula(const Item& item, long double L) {
 /// Ciddor's air of 15 C, as dense as at another temperature.
 long double air(long double um, long double celsius) {
     const long double s2 = 1 / std::pow(std::clamp(um, 0.23L, 1.69L), 2.0L);
-    return 1 + (0.05792105L / (238.0185L - s2) + 0.00167917L / (57.362L - s2)) * 288.15L / (celsius + 273.15L);
+    return 1 + (0.05792105L / (238.0185L - s2) + 0.00167917L / (57.362L - s2)) * 288.15L /
+                   (celsius + 273.15L);
 }
 
 long double vacuum_of(long double um, long double celsius) {
@@ -161,7 +163,8 @@ void compare(const std::string& path, const Text& text, const Material& material
     for (const Item& item : text.items) {
         const bool is_formula = item.type.starts_with("formula");
         for (const std::size_t part : {0U, 1U}) {  // n, k
-            const bool gives = is_formula ? part == 0 : item.type.find("nk"[part], 10) != std::string::npos;
+            const bool gives =
+                is_formula ? part == 0 : item.type.find("nk"[part], 10) != std::string::npos;
             if (!gives || has[part]) continue;
             has[part] = true;
             std::vector<std::pair<long double, long double>> points;

@@ -78,7 +78,8 @@ TEST_CASE("CSV faults are told by line and column", "[csv]") {
     CHECK(material_error("400\n") == "a.csv: 1:1: must have 2 to 3 columns (got 1)");
     CHECK(material_error("400,1,2,3\n") == "a.csv: 1:1: must have 2 to 3 columns (got 4)");
     CHECK(material_error("400,1,0\n500,1\n") == "a.csv: 2:1: must have 3 columns (got 2)");
-    CHECK(material_error("-5,1\n600,1\n") == "a.csv: 1:1: the wavelength must be positive (got -5)");
+    CHECK(material_error("-5,1\n600,1\n") ==
+          "a.csv: 1:1: the wavelength must be positive (got -5)");
 }
 
 TEST_CASE("a message holds no control characters and no long text", "[csv]") {
@@ -145,12 +146,12 @@ TEST_CASE("columns go by name and unit", "[csv]") {
 
 TEST_CASE("columns come apart at semicolons, tabs, commas and blanks", "[csv]") {
     const Dispersion n = Table{{400, 500}, {1.5, 1.25}};
-    const auto text = GENERATE(
-        "400;1.5\n500;1.25\n", "400;1,5\n500;1,25\n", "400\t1,5\n500\t1,25\n",
-        "400\t1.5\n500\t1.25\n", "400 1.5\n500   1.25\n", "  400 1,5\n  500 1,25\n",
-        "\"400\",\"1,5\"\n\"500\",\"1,25\"\n", "400,1.5,\n500,1.25,\n", "400,1.5\r500,1.25\r",
-        "500,1.25\n400,1.5\n", "! text\n% text\n// text\n400 1.5 # here\n\n500 1.25",
-        "500,1.25\n400,1\n400,2\n");
+    const auto text =
+        GENERATE("400;1.5\n500;1.25\n", "400;1,5\n500;1,25\n", "400\t1,5\n500\t1,25\n",
+                 "400\t1.5\n500\t1.25\n", "400 1.5\n500   1.25\n", "  400 1,5\n  500 1,25\n",
+                 "\"400\",\"1,5\"\n\"500\",\"1,25\"\n", "400,1.5,\n500,1.25,\n",
+                 "400,1.5\r500,1.25\r", "500,1.25\n400,1.5\n",
+                 "! text\n% text\n// text\n400 1.5 # here\n\n500 1.25", "500,1.25\n400,1\n400,2\n");
     CAPTURE(text);
     CHECK(index_of(text).n == n);
 }

@@ -29,8 +29,9 @@ void check_index(std::string_view text, double nm, double n, double k) {
 }  // namespace
 
 TEST_CASE("SOPRA's pairs stand in equal steps of their unit", "[formats]") {
-    const std::string ev = "1  1.0  3.0  4\n 1.50 0.000\n 1.52 0.001\n 1.55 ; .010\n 1.60 .050\n"
-                           " 1.70 0.200\nfrom a model\n";
+    const std::string ev =
+        "1  1.0  3.0  4\n 1.50 0.000\n 1.52 0.001\n 1.55 ; .010\n 1.60 .050\n"
+        " 1.70 0.200\nfrom a model\n";
     check_index(ev, kEvNm / 1.0, 1.5, 0);
     check_index(ev, kEvNm / 2.0, 1.55, 0.01);
     check_index(ev, kEvNm / 2.5, 1.6, 0.05);
@@ -45,8 +46,9 @@ TEST_CASE("SOPRA's pairs stand in equal steps of their unit", "[formats]") {
 }
 
 TEST_CASE("SOPRA's exchange text", "[formats]") {
-    const std::string text = "VERSION*1*\nFORMAT*1*\nPOINTS*2*\nDATA1*1*4.00000000e2*1.6*0.0*\n"
-                             "DATA1*2*5.00000000e2*1.58*0.001*\nCOMMENT*synthetic*\nEOF*\n";
+    const std::string text =
+        "VERSION*1*\nFORMAT*1*\nPOINTS*2*\nDATA1*1*4.00000000e2*1.6*0.0*\n"
+        "DATA1*2*5.00000000e2*1.58*0.001*\nCOMMENT*synthetic*\nEOF*\n";
     check_index(text, 400, 1.6, 0);
     check_index(text, 500, 1.58, 0.001);
     CHECK(error_of("VERSION*1*\nPOINTS*3*\nDATA1*1*400*1.6*0*\n") ==
@@ -68,14 +70,13 @@ TEST_CASE("Woollam's tables", "[formats]") {
 }
 
 TEST_CASE("the CSV of the refractiveindex.info site has a block of n and one of k", "[formats]") {
-    const std::string text =
-        "wl,n\n0.4,1.5\n0.6,1.48\n\nwl,k\n0.3,0.3\n0.5,0.1\n0.7,0.2\n";
+    const std::string text = "wl,n\n0.4,1.5\n0.6,1.48\n\nwl,k\n0.3,0.3\n0.5,0.1\n0.7,0.2\n";
     check_index(text, 500, 1.49, 0.1);
     check_index(text, 400, 1.5, 0.2);
     check_index("wl\tn\n0.4\t1.5\n0.6\t1.48\nwl\tk\n0.4\t0.1\n0.6\t0.1\n", 600, 1.48, 0.1);
     check_index("wl,n,k\n0.4,1.5,0.1\n0.6,1.48,0.1\n", 600, 1.48, 0.1);
-    const MaterialFile part = read_material_file(
-        "wl,n\n0.4,1.50\n0.6,1.48\nwl,k\n0.4,0.001\n0.5,0.0005\n", "m.csv");
+    const MaterialFile part =
+        read_material_file("wl,n\n0.4,1.50\n0.6,1.48\nwl,k\n0.4,0.001\n0.5,0.0005\n", "m.csv");
     CHECK(range_of(part.material) == WavelengthRange{400, 500});
     REQUIRE(part.notes.size() == 1);
     CHECK(part.notes[0] ==
@@ -105,5 +106,7 @@ TEST_CASE("formats are told by the content, whatever the name", "[formats]") {
           "m.txt: is a binary file of Matlab, not a text");
     CHECK(error_of(std::string_view("\xFF\xFEn\0m\0", 6)) ==
           "m.txt: must be UTF-8 text (got UTF-16)");
-    CHECK(error_of(std::string_view("\x7F" "ELF\0\1", 6)) == "m.txt: is no text");
+    CHECK(error_of(std::string_view("\x7F"
+                                    "ELF\0\1",
+                                    6)) == "m.txt: is no text");
 }

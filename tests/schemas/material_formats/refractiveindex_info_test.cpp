@@ -133,7 +133,8 @@ TEST_CASE("k before n", "[rii]") {
 }
 
 TEST_CASE("where k is not known the material is not, unless k is very small", "[rii]") {
-    const auto glass = read("DATA:\n" + kFormulaN + table("k", "        0.28 1e-6\n        0.29 1e-7\n"));
+    const auto glass =
+        read("DATA:\n" + kFormulaN + table("k", "        0.28 1e-6\n        0.29 1e-7\n"));
     CHECK(range_of(glass.material) == WavelengthRange{380, 780});
     CHECK(index_at(glass.material, 400).imag() == 1e-7);
     CHECK(has_note(glass,
@@ -152,9 +153,10 @@ TEST_CASE("where k is not known the material is not, unless k is very small", "[
     CHECK(has_note(shorter,
                    "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 1e-05 is held "
                    "below 400 nm"));
-    CHECK(has_note(shorter,
-                   "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 0.1 is not small, "
-                   "and the material not known above 600 nm"));
+    CHECK(
+        has_note(shorter,
+                 "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 0.1 is not small, "
+                 "and the material not known above 600 nm"));
     CHECK(error_of("DATA:\n" + kFormulaN + table("k", "        0.9 0.1\n        1.1 0.1\n")) ==
           "m.yml: n is known from 380 to 780 nm and k from 900 to 1100 nm: nowhere both");
 }
@@ -169,7 +171,8 @@ TEST_CASE("what is relative to air is converted to vacuum", "[rii]") {
     const auto in_air = GENERATE(
         as<std::string>{},
         "SPECS:\n    n_is_absolute: false\n    wavelength_is_vacuum: false\n    temperature: 20.0 "
-        "\xC2\xB0""C\n",
+        "\xC2\xB0"
+        "C\n",
         "SPECS:\n    n_absolute: false\n    wavelength_vacuum: false\n",
         "CONDITIONS:\n    n_is_absolute: false\n    \xCE\xBB_is_vacuum: false\n    temperature: "
         "293.15\n",
@@ -183,9 +186,9 @@ TEST_CASE("what is relative to air is converted to vacuum", "[rii]") {
         told |= note.starts_with("n relative to air and wavelengths in air (20 C") &&
                 note.ends_with("converted to vacuum");
     CHECK(told);
-    CHECK_THAT(n_at("DATA:\n" + table("n", "        0.5 1.5\n        0.6 1.5\n") + in_air,
-                    vacuum_500),
-               WithinAbs(1.5 * air, 1e-15));
+    CHECK_THAT(
+        n_at("DATA:\n" + table("n", "        0.5 1.5\n        0.6 1.5\n") + in_air, vacuum_500),
+        WithinAbs(1.5 * air, 1e-15));
 }
 
 TEST_CASE("what says that it is absolute is not converted", "[rii]") {
@@ -220,10 +223,15 @@ TEST_CASE("a formula whose last coefficient is missing is refused", "[rii]") {
         std::size_t most;
     };
     const std::vector<std::size_t> odd{1, 3, 5, 7, 9, 11, 13, 15, 17}, to_11{1, 3, 5, 7, 9, 11};
-    for (const auto& [formula, counts, most] :
-         {Whole{1, odd, 17}, {2, odd, 17}, {3, odd, 17}, {4, {1, 5, 9, 11, 13, 15, 17}, 17},
-          {5, to_11, 11}, {6, to_11, 11}, {7, {1, 2, 3, 4, 5, 6}, 6}, {8, {1, 3, 4}, 4},
-          {9, {1, 3, 6}, 6}})
+    for (const auto& [formula, counts, most] : {Whole{1, odd, 17},
+                                                {2, odd, 17},
+                                                {3, odd, 17},
+                                                {4, {1, 5, 9, 11, 13, 15, 17}, 17},
+                                                {5, to_11, 11},
+                                                {6, to_11, 11},
+                                                {7, {1, 2, 3, 4, 5, 6}, 6},
+                                                {8, {1, 3, 4}, 4},
+                                                {9, {1, 3, 6}, 6}})
         for (std::size_t count = 0; count <= most + 1; ++count) {
             std::string text = "DATA:\n  - type: formula " + std::to_string(formula) +
                                "\n    wavelength_range: 0.4 0.8\n    coefficients:";
@@ -232,9 +240,10 @@ TEST_CASE("a formula whose last coefficient is missing is refused", "[rii]") {
             const bool whole = std::ranges::find(counts, count) != counts.end();
             CHECK((error_of(text + "\n") == "no error") == whole);
         }
-    CHECK(error_of("DATA:\n  - type: formula 2\n    wavelength_range: 0.4 0.8\n"
-                   "    coefficients: 3.6453 2.2057 0.1879 1.8377\n") ==
-          "m.yml: DATA/0: formula 2 must have 1, 3, 5, 7, 9, 11, 13, 15 or 17 coefficients (got 4)");
+    CHECK(
+        error_of("DATA:\n  - type: formula 2\n    wavelength_range: 0.4 0.8\n"
+                 "    coefficients: 3.6453 2.2057 0.1879 1.8377\n") ==
+        "m.yml: DATA/0: formula 2 must have 1, 3, 5, 7, 9, 11, 13, 15 or 17 coefficients (got 4)");
 }
 
 TEST_CASE("rows out of order are sorted, equal wavelengths averaged", "[rii]") {
