@@ -109,7 +109,8 @@ int run_show(const MaterialsOptions& options) {
 }
 
 void add_show(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& options, Run& run) {
-    CLI::App* show = materials.add_subcommand("show", "n and k of a built-in material or of a file.");
+    CLI::App* show =
+        materials.add_subcommand("show", "n and k of a built-in material or of a file.");
     show->add_option("NAME", options->name,
                      "as irido materials list names it, or a file that stacks take\n"
                      "(.csv, .txt, .tsv, .dat, .nk, .mat, .yml), - for standard input")
