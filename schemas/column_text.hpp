@@ -40,6 +40,7 @@ struct ColumnNames {
     bool (*are)(const std::vector<std::string>& header);
     std::string known;  ///< what they are, for messages
     std::size_t fewest = 2, most = 3;
+    std::string others = {};  ///< what else is read, for texts that have no rows
 };
 
 /// Reads a table of numbers whose cells are set apart by semicolons, tabs, commas or blanks, the

@@ -158,7 +158,9 @@ MaterialFile material_of_columns(const ColumnText& table, const std::vector<std:
 }
 
 MaterialFile read_column_file(std::string_view text, const std::string& name) {
-    const ColumnNames names{are_index_columns, known_columns()};
+    const ColumnNames names{are_index_columns, known_columns(), 2, 3,
+                            "; other files: refractiveindex.info (YAML, CSV), SOPRA (.nk, .MAT), "
+                            "Woollam (.mat)"};
     const ColumnText table = read_columns(lines_of(text), name, names);
     if (!table.header.empty()) return material_of_columns(table, table.header, name);
     if (table.has_semicolon_comments)

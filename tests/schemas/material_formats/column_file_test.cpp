@@ -66,8 +66,8 @@ TEST_CASE("CSV dress: header, comments, blanks, CRLF, byte-order mark, number fo
 
 TEST_CASE("CSV faults are told by line and column", "[csv]") {
     const std::string none = "a.csv: has no rows of numbers; known columns: " + known_columns();
-    CHECK(material_error("") == none);
-    CHECK(material_error("nm,n\n# nothing\n") == none);
+    CHECK(material_error("").starts_with(none));
+    CHECK(material_error("nm,n\n# nothing\n").ends_with("Woollam (.mat)"));
     CHECK(material_error("400,1.5\n500,abc\n") == "a.csv: 2:5: must be a number (got 'abc')");
     CHECK(material_error("400,1.5\nnm,n\n") == "a.csv: 2:1: must be a number (got 'nm')");
     CHECK(material_error("400,1.80-17\n") == "a.csv: 1:5: must be a number (got '1.80-17')");
