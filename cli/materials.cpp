@@ -2,8 +2,12 @@
 #include <memory>
 
 #include "cli/command.hpp"
+#include "core/error.hpp"
 #include "core/material/library.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/material_file.hpp"
 #include "schemas/nearest.hpp"
+#include "schemas/text_file.hpp"
 
 namespace irido {
 
@@ -55,22 +59,39 @@ int run_list(const MaterialsOptions& options) {
     return 0;
 }
 
-/// What was asked for, or every nm of the visible range in which the material is known.
+/// What was asked for, or every nm of the visible range in which the material is known, or a
+/// hundred steps of its own range if it is not known there.
 std::vector<double> wavelengths_of(const MaterialsOptions& options, WavelengthRange range) {
     if (!options.wavelengths.empty())
         return parse_list("--wavelengths", options.wavelengths, kAllWavelengths.first_nm,
                           kAllWavelengths.last_nm);
     std::vector<double> values = parse_list("--wavelengths", "380:780:1", 1, 1e7);
     std::erase_if(values, [&](double v) { return v < range.first_nm || v > range.last_nm; });
+    constexpr int kSteps = 100;
+    if (values.empty() && range.first_nm == range.last_nm) return {range.first_nm};
+    for (int i = 0; values.size() <= static_cast<std::size_t>(i) && i <= kSteps; ++i)
+        values.push_back(range.first_nm + (range.last_nm - range.first_nm) * i / kSteps);
     return values;
 }
 
+/// A built-in material, or that of a file.
+MaterialFile shown_material(const std::string& name) {
+    if (auto found = find_material(name))
+        return {std::move(found->material), {}, std::move(found->source)};
+    if (name == "-" || is_material_file(name))
+        return read_material_file(read_text(name), shown_path(name));
+    throw UsageError("there is no material '" + name + "'" +
+                     did_you_mean(name, library_names_and_aliases()) +
+                     ", see irido materials list; files end in .csv, .txt, .tsv, .dat, .nk, .mat, "
+                     ".yml or .yaml");
+}
+
 int run_show(const MaterialsOptions& options) {
-    const LibraryMaterial found = material_named(options.name);
-    const WavelengthRange range = range_of(found.material);
+    const MaterialFile shown = shown_material(options.name);
+    const WavelengthRange range = range_of(shown.material);
     Column::Numbers wavelength, n, k;
     for (const double nm : wavelengths_of(options, range)) {
-        const Complex index = index_at(found.material, nm);
+        const Complex index = index_at(shown.material, nm);
         wavelength.push_back(nm);
         n.push_back(index.real());
         k.push_back(index.imag());
@@ -78,22 +99,30 @@ int run_show(const MaterialsOptions& options) {
     std::string lowest, highest;
     append_number(lowest, range.first_nm);
     append_number(highest, range.last_nm);
-    note(found.material.name + ", " + lowest + " to " + highest + " nm: " + found.source,
+    note(shown.material.name + ", " + lowest + " to " + highest + " nm" +
+             (shown.source.empty() ? "" : ": " + shown.source),
          options.quiet);
+    for (const std::string& text : shown.notes)
+        note(shown.material.name + ": " + text, options.quiet);
     write_records({{{"wavelength_nm", wavelength}, {"n", n}, {"k", k}}}, options.output);
     return 0;
 }
 
 void add_show(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& options, Run& run) {
-    CLI::App* show = materials.add_subcommand("show", "n and k of a built-in material.");
-    show->add_option("NAME", options->name, "as irido materials list names it")->required();
+    CLI::App* show =
+        materials.add_subcommand("show", "n and k of a built-in material or of a file.");
+    show->add_option("NAME", options->name,
+                     "as irido materials list names it, or a file that stacks take\n"
+                     "(.csv, .txt, .tsv, .dat, .nk, .mat, .yml), - for standard input")
+        ->required();
     show->add_option("-w,--wavelengths", options->wavelengths,
                      "vacuum wavelengths, nm [380:780:1, where it is known]")
         ->type_name("LIST");
     add_output_options(*show, options->output, "csv, json or npy [csv]");
-    show->add_flag("--quiet", options->quiet, "no source and range on standard error");
+    show->add_flag("--quiet", options->quiet, "no source, range and notes on standard error");
     set_examples(*show, {"irido materials show Au -w 400:800:100",
-                         "irido materials show water -w 589.3 -f json"});
+                         "irido materials show water -w 589.3 -f json",
+                         "irido materials show schemas/examples/materials/N-BK7.yml"});
     show->callback([options, &run] { run = [options] { return run_show(*options); }; });
 }
 

@@ -6,6 +6,7 @@
 #include "cli/command.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/json_document.hpp"
+#include "schemas/material_file.hpp"
 #include "schemas/nearest.hpp"
 #include "schemas/scene_document.hpp"
 #include "schemas/text_file.hpp"
@@ -38,8 +39,18 @@ bool is_stack(const json& document) {
            document.contains("substrate");
 }
 
+std::vector<std::string> material_problems(const std::string& text, const std::string& file) {
+    try {
+        read_material_file(text, file);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+    return {};
+}
+
 std::vector<std::string> problems_of(const std::string& path) {
     const std::string text = read_text(path), file = shown_path(path);
+    if (is_material_file(path)) return material_problems(text, file);
     const std::string folder = std::filesystem::path(path).parent_path().string();
     json document;
     try {
@@ -86,7 +97,9 @@ int print_schema(const std::string& name) {
 
 void add_validate_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "validate", "Check stacks, scenes, manifests: every error of every file, or FILE: ok.");
+        "validate",
+        "Check stacks, scenes, manifests and material files: every error of every file, or\n"
+        "FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto schema = std::make_shared<std::string>();
     CLI::Option* option =
@@ -98,7 +111,8 @@ void add_validate_command(CLI::App& program, Run& run) {
             ->expected(0, 1);
     command
         ->add_option("FILE", *files,
-                     "stack or scene files or manifests (.json), - for standard input")
+                     "stack or scene files or manifests (.json), material files (.csv,\n"
+                     ".txt, .tsv, .dat, .nk, .mat, .yml), - for JSON on standard input")
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});

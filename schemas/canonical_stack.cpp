@@ -18,9 +18,15 @@ json range_json(const WavelengthRange& range) {
 struct DispersionJson {
     json operator()(const Constant& constant) const { return constant.value; }
     json operator()(const Formula& formula) const {
-        return {{"formula", formula.number},
-                {"coefficients", formula.coefficients},
-                {"range_nm", range_json(formula.range)}};
+        json result = {{"formula", formula.number},
+                       {"coefficients", formula.coefficients},
+                       {"range_nm", range_json(formula.range)}};
+        const auto& [index_to_air, wavelength_in_air, temperature_c] = formula.reference;
+        if (index_to_air || wavelength_in_air)
+            result["in_air"] = {{"index", index_to_air},
+                                {"wavelength", wavelength_in_air},
+                                {"temperature_c", temperature_c}};
+        return result;
     }
     json operator()(const Table& table) const {
         json rows = json::array();
@@ -47,7 +53,8 @@ json table_json(const Table& n, const Dispersion& k) {
 /// A formula as the document's cauchy or sellmeier, where it is one known everywhere.
 json formula_json(const Formula& formula, const Dispersion& k) {
     const std::vector<double>& c = formula.coefficients;
-    if (k != Dispersion(Constant{0}) || formula.range != kAllWavelengths || c.empty())
+    if (k != Dispersion(Constant{0}) || formula.range != kAllWavelengths || c.empty() ||
+        formula.reference != Reference{})
         return nullptr;
     json terms = json::array();
     if (formula.number == 5) {

@@ -1,28 +1,48 @@
 #include "schemas/material_file.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <string_view>
 
-#include "schemas/material_csv.hpp"
-#include "schemas/refractiveindex_info.hpp"
+#include "schemas/material_formats/column_file.hpp"
+#include "schemas/material_formats/material_format.hpp"
+#include "schemas/material_formats/refractiveindex_info.hpp"
 #include "schemas/text_file.hpp"
 
 namespace irido {
 
+namespace {
+
+constexpr std::array<std::string_view, 8> kEndings{".csv", ".txt", ".tsv", ".dat",
+                                                   ".nk",  ".mat", ".yml", ".yaml"};
+
+std::string ending_of(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return ending;
+}
+
+}  // namespace
+
 bool is_material_file(const std::string& path) {
-    const std::string kind = std::filesystem::path(path).extension().string();
-    return kind == ".csv" || kind == ".yml" || kind == ".yaml";
+    return std::ranges::find(kEndings, ending_of(path)) != kEndings.end();
+}
+
+MaterialFile read_material_file(std::string_view text, const std::string& name) {
+    for (const MaterialFormat& format : material_formats())
+        if (format.is(text)) return format.read(text, name);
+    const std::string ending = ending_of(name);
+    if (ending == ".yml" || ending == ".yaml") return read_refractiveindex_info(text, name);
+    return read_column_file(text, name);
 }
 
 const MaterialFile& MaterialFiles::read(const std::string& path) {
     const std::scoped_lock guard(lock_);
     const auto known = known_.find(path);
     if (known != known_.end()) return known->second;
-    const std::string text = read_text(path);
-    return known_
-        .emplace(path, path.ends_with(".csv") ? read_material_csv(text, path)
-                                              : read_refractiveindex_info(text, path))
-        .first->second;
+    return known_.emplace(path, read_material_file(read_text(path), path)).first->second;
 }
 
 }  // namespace irido

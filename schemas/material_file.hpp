@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/material/material.hpp"
@@ -16,8 +17,12 @@ struct MaterialFile {
     std::string source;              ///< the publication that the file names, on one line
 };
 
-/// Whether a path ends as those of material files do: in .csv, .yml or .yaml.
+/// Whether a path ends as those of material files do: in .csv, .txt, .tsv, .dat, .nk, .mat, .yml or
+/// .yaml, in capitals or not. The format is told by the content, whatever the ending.
 bool is_material_file(const std::string& path);
+
+/// The material in a text of any format (material_formats/). Throws InputError with file `name`.
+MaterialFile read_material_file(std::string_view text, const std::string& name);
 
 /// Material files, each read once. Safe from many threads.
 class MaterialFiles {

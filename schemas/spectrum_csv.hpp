@@ -7,8 +7,9 @@
 
 namespace irido {
 
-/// The spectrum in a CSV text `nm,value` (csv_rows.hpp): at least two rows, no value negative, not
-/// all zero. Throws InputError with file `name` and "line:column".
+/// The spectrum in a table of two columns (column_text.hpp), wavelength and power per wavelength:
+/// wavelengths in nm, or as the header says in um or angstroms, in any order. At least two rows, no
+/// value negative, not all zero. Throws InputError with file `name` and "line:column".
 Table read_spectrum_csv(std::string_view text, const std::string& name);
 
 }  // namespace irido

@@ -7,13 +7,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
 #include <variant>
 
 #include "core/error.hpp"
+#include "core/interference/index_table.hpp"
 #include "core/material/library.hpp"
+#include "schemas/index_rows.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/json_document.hpp"
 #include "schemas/nearest.hpp"
@@ -68,20 +71,21 @@ LorentzDrude read_lorentz_drude(const json& object) {
     return model;
 }
 
-/// Rows [nm, n] or [nm, n, k]; k is 0 where it is left out.
-RefractiveIndex read_table(const json& rows) {
+/// Rows [nm, n] or [nm, n, k]: k is known in the rows that give it, and 0 if none does.
+MaterialFile read_table(const json& rows, const std::string& name) {
     Table n;
     Table k;
     for (const json& row : rows) {
         n.wavelength_nm.push_back(row[0].get<double>());
         n.value.push_back(row[1].get<double>());
-        k.value.push_back(row.size() > 2 ? row[2].get<double>() : 0);
+        if (row.size() < 3) continue;
+        k.wavelength_nm.push_back(row[0].get<double>());
+        k.value.push_back(row[2].get<double>());
     }
     const bool is_real =
         std::all_of(k.value.begin(), k.value.end(), [](double v) { return v == 0; });
-    if (is_real) return {std::move(n), Constant{0}};
-    k.wavelength_nm = n.wavelength_nm;
-    return {std::move(n), std::move(k)};
+    return material_of(name, std::move(n), is_real ? std::nullopt : std::optional(std::move(k)),
+                       {});
 }
 
 std::string index_text(double n, double k) {
@@ -264,9 +268,11 @@ private:
         }
         if (object.contains("table")) {
             require_increasing(object["table"], pointer + "/table");
-            const RefractiveIndex index = read_table(object["table"]);
-            note_gain(index, pointer);
-            return {pointer, index};
+            MaterialFile read = read_table(object["table"], pointer);
+            for (const std::string& note : read.notes)
+                result_.notes.push_back(file_ + ": " + pointer + ": " + note);
+            note_gain(std::get<RefractiveIndex>(read.material.model), pointer);
+            return std::move(read.material);
         }
         if (object.contains("cauchy")) {
             return {pointer, RefractiveIndex{read_cauchy(object["cauchy"])}};
@@ -299,7 +305,8 @@ private:
     Material from_file(const std::string& path, const std::string& pointer) {
         const std::filesystem::path place = std::filesystem::path(folder_) / path;
         if (!is_material_file(place.string())) {
-            report(pointer, "must end in .csv, .yml or .yaml (got \"" + path + "\")");
+            report(pointer, "must end in .csv, .txt, .tsv, .dat, .nk, .mat, .yml or .yaml (got \"" +
+                                path + "\")");
             return {path, RefractiveIndex{}};
         }
         try {
@@ -333,23 +340,18 @@ private:
         }
     }
 
-    /// The incident medium has no k: none at all where that is one number, none to speak of in the
-    /// middle of the visible where it is a function.
+    /// An incident medium whose k is one number is judged here, others at the wavelengths asked
+    /// for.
     void require_real(std::size_t incident) {
-        constexpr double kMiddle_nm = 550, kNegligible = 1e-5;
         if (is_broken("/incident") || result_.stack.materials.empty()) return;
-        Material medium = result_.stack.materials[incident];
-        const bool is_number = is_constant(medium);
-        medium.outside = Outside::clamp;
-        double k = 0;
-        try {
-            k = index_at(medium, kMiddle_nm).imag();
-        } catch (const DomainError&) {
-            return;  // said where it is used
-        }
-        if (std::abs(k) > (is_number ? 0 : kNegligible))
-            report("/incident",
-                   "must neither absorb nor amplify: its k must be 0 (got " + to_text(k) + ")");
+        const Material& medium = result_.stack.materials[incident];
+        if (!is_constant(medium)) return;
+        const double k = std::get<Constant>(std::get<RefractiveIndex>(medium.model).k).value;
+        if (std::abs(k) >= kTransparentBelow_k)
+            report("/incident", "must neither absorb nor amplify: its k must be below 1e-3 (got " +
+                                    to_text(k) + ")");
+        else if (k != 0)
+            result_.notes.push_back(file_ + ": /incident: " + incident_note(k));
     }
 
     const json& document_;
@@ -368,6 +370,11 @@ std::string folder_of(const std::string& path) {
 }
 
 }  // namespace
+
+std::string incident_note(double k) {
+    return "the incident medium is taken as transparent, its k of up to " + to_text(k) +
+           " left out";
+}
 
 const char* stack_schema_text() {
     return

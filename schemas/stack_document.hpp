@@ -54,6 +54,9 @@ std::vector<std::string> stack_problems(const nlohmann::json& document, const st
 /// The same of a file ("-" for standard input). Throws InputError if it cannot be read.
 std::vector<std::string> validate_stack_file(const std::string& path);
 
+/// What to say of an incident medium whose k is not 0, but small.
+std::string incident_note(double k);
+
 /// The text of stack.schema.json.
 const char* stack_schema_text();
 

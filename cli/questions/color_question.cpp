@@ -65,6 +65,15 @@ struct ColorRows {
     }
 };
 
+/// The incident medium's index at every nm that counts.
+IndexTable incident_table(const Stack& stack, WavelengthRange support) {
+    Material medium = stack.materials[stack.incident];
+    medium.outside = Outside::clamp;
+    std::vector<double> wavelengths;
+    for (double nm = support.first_nm; nm <= support.last_nm; ++nm) wavelengths.push_back(nm);
+    return {Stack{{medium}, 0, {}, 0}, wavelengths};
+}
+
 }  // namespace
 
 RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptation adaptation) {
@@ -159,6 +168,8 @@ std::unique_ptr<const PreparedStack> ColorQuestion::prepare(StackDocument docume
                        answering_.note);
     const std::string file = document.file;
     try {
+        const WavelengthRange support = lightings_.front()->tables.sensitivity().support();
+        note_incident(document, incident_table(document.stack, support), answering_.note);
         auto prepared = std::make_unique<ColorStack>(std::move(document));
         for (const auto& lighting : lightings_)
             prepared->algorithms.push_back(

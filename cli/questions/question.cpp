@@ -1,6 +1,8 @@
 #include "cli/questions/question.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/questions/bands_question.hpp"
@@ -12,6 +14,14 @@ namespace irido {
 
 nlohmann::json Question::data() const {
     return nullptr;
+}
+
+void note_incident(const StackDocument& document, const IndexTable& table,
+                   const std::function<void(const std::string&)>& say) {
+    if (is_constant(document.stack.materials[document.stack.incident])) return;  // said when read
+    double largest = 0;
+    for (const double k : table.k(table.incident())) largest = std::max(largest, std::abs(k));
+    if (largest > 0) say(document.file + ": /incident: " + incident_note(largest));
 }
 
 Records records_of(const Question& question, const PreparedStack& prepared) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/interference/index_table.hpp"
 #include "core/interference/spectrum.hpp"
 #include "schemas/stack_document.hpp"
 #include "tables/records.hpp"
@@ -98,6 +99,10 @@ public:
     virtual double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                            std::optional<double> wavelength_nm) const = 0;
 };
+
+/// Says so if an incident medium that has k is taken as transparent at the table's wavelengths.
+void note_incident(const StackDocument& document, const IndexTable& table,
+                   const std::function<void(const std::string&)>& say);
 
 /// The rows of the prepared stack itself at the question's angles.
 Records records_of(const Question& question, const PreparedStack& prepared);

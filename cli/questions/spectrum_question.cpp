@@ -219,7 +219,8 @@ SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering
       angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
       columns_(parse_spectrum_columns(typed.columns)),
-      execution_(answering.execution) {}
+      execution_(answering.execution),
+      note_(answering.note) {}
 
 RecordLayout SpectrumQuestion::layout(const StackDocument& document) const {
     const StackPower power = stack_power(document, document.stack);
@@ -233,7 +234,9 @@ RecordLayout SpectrumQuestion::layout(const StackDocument& document) const {
 
 std::unique_ptr<const PreparedStack> SpectrumQuestion::prepare(StackDocument document) const {
     spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));
-    return std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
+    auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
+    note_incident(prepared->document, prepared->table, note_);
+    return prepared;
 }
 
 std::unique_ptr<Answers> SpectrumQuestion::answers() const {

@@ -48,6 +48,7 @@ private:
     std::string polarizations_;  ///< letters of "spu"
     std::vector<SpectrumColumn> columns_;
     Execution execution_;
+    std::function<void(const std::string&)> note_;
 };
 
 }  // namespace irido

@@ -10,13 +10,6 @@
 
 namespace irido {
 
-namespace {
-
-/// Absorption of an incident medium that passes as none: catalogue glasses have k of 1e-8.
-constexpr double kNegligibleAbsorption = 1e-5;
-
-}  // namespace
-
 IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     : wavelength_nm_(std::move(wavelength_nm)),
       materials_(stack.materials.size()),
@@ -55,10 +48,10 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     largest_wavenumber_ = largest_k0 * largest_index;
     for (std::size_t w = 0; w < count; ++w) {
         const Complex incident = index(incident_, w);
-        if (incident.real() > 0 && std::abs(incident.imag()) <= kNegligibleAbsorption) continue;
-        throw DomainError(
-            "the incident medium must be transparent (got n = " + to_text(incident.real()) +
-            ", k = " + to_text(incident.imag()) + " at " + to_text(wavelength_nm_[w]) + " nm)");
+        if (incident.real() > 0 && std::abs(incident.imag()) < kTransparentBelow_k) continue;
+        throw DomainError("the incident medium must be transparent, |k| below 1e-3 (got n = " +
+                          to_text(incident.real()) + ", k = " + to_text(incident.imag()) + " at " +
+                          to_text(wavelength_nm_[w]) + " nm)");
     }
 }
 

@@ -8,11 +8,15 @@
 
 namespace irido {
 
+/// |k| below which an incident medium passes as transparent: its waves are those of a real index,
+/// and what it absorbs on its own path is not part of any answer.
+inline constexpr double kTransparentBelow_k = 1e-3;
+
 /// Complex index of every material of a stack at every wavelength, computed once for all angles.
 class IndexTable {
 public:
-    /// Throws DomainError as index_at does, and if the incident medium absorbs: |k| above 1e-5 (a
-    /// smaller k is left out).
+    /// Throws DomainError as index_at does, and if the incident medium's |k| is not below
+    /// kTransparentBelow_k at one of the wavelengths (a smaller k is left out there).
     IndexTable(const Stack& stack, std::vector<double> wavelength_nm);
 
     /// Becomes the table of a stack of constant indices, given by another table of it, at other

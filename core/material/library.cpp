@@ -32,6 +32,7 @@ struct Entry {
     int formula = 0;  ///< number of a dispersion formula, 0 for none
     std::array<double, kMostCoefficients> coefficients = {};  ///< trailing zeros do not count
     WavelengthRange range = {};                               ///< of the formula
+    bool in_air = false;  ///< formula of a catalogue: index and wavelengths of air of 20 C
     std::span<const Row> nk = {};
     std::span<const Point> n = {};
     std::span<const Point> k = {};
@@ -76,8 +77,8 @@ struct Entry {
 #include "core/material/data/silk-k.inc"
 
 constexpr std::string_view kSchott =
-    "SCHOTT optical glass catalogue (2017-01-20). Glass, 20 C, relative to air. Its very small k "
-    "is left out.";
+    "SCHOTT optical glass catalogue (2017-01-20). Glass, 20 C, measured in air, converted to "
+    "vacuum. Its very small k is left out.";
 constexpr std::string_view kAspnesStudna =
     "D. E. Aspnes and A. A. Studna, Phys. Rev. B 27, 985 (1983). Crystal, ellipsometry, room "
     "temperature.";
@@ -116,7 +117,10 @@ Table column(std::span<const Element> rows, double Element::*value) {
 Formula formula_of(const Entry& entry) {
     const auto last = std::find_if(entry.coefficients.rbegin(), entry.coefficients.rend(),
                                    [](double value) { return value != 0; });
-    return {entry.formula, {entry.coefficients.begin(), last.base()}, entry.range};
+    return {entry.formula,
+            {entry.coefficients.begin(), last.base()},
+            entry.range,
+            {entry.in_air, entry.in_air, 20}};
 }
 
 RefractiveIndex index_of(const Entry& entry) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/material/air.hpp"
 
 namespace irido {
 
@@ -114,9 +115,9 @@ double value_at(const Constant& constant, const Query&) {
     return constant.value;
 }
 
-double value_at(const Formula& formula, const Query& query) {
+/// What the formula gives for a wavelength in um, both as it means them.
+double formula_value(const Formula& formula, double um, const Query& query) {
     const Coefficients c(formula);
-    const double um = query.wavelength_nm / 1000;
     switch (formula.number) {
         case 1:
             return query.root(sellmeier(c, um, false));
@@ -141,6 +142,15 @@ double value_at(const Formula& formula, const Query& query) {
     }
     throw DomainError(name_of(query.material) + ": formula number must be in [1, 9] (got " +
                       std::to_string(formula.number) + ")");
+}
+
+double value_at(const Formula& formula, const Query& query) {
+    const auto& [index_to_air, wavelength_in_air, temperature_c] = formula.reference;
+    const double nm =
+        std::clamp(query.wavelength_nm, formula.range.first_nm, formula.range.last_nm);
+    const double own_nm = wavelength_in_air ? air_wavelength(nm, temperature_c) : nm;
+    const double value = formula_value(formula, own_nm / 1000, query);
+    return index_to_air ? value * index_of_air(nm, temperature_c) : value;
 }
 
 double value_at(const Table& table, const Query& query) {
@@ -176,7 +186,7 @@ WavelengthRange known_range(const Dispersion& dispersion) {
 }
 
 WavelengthRange known_range(const RefractiveIndex& index) {
-    return known_range(index.n);
+    return common(known_range(index.n), known_range(index.k));
 }
 
 bool contains(WavelengthRange range, double wavelength_nm) {
@@ -185,12 +195,12 @@ bool contains(WavelengthRange range, double wavelength_nm) {
 
 Complex value_at(const RefractiveIndex& index, const Query& query) {
     const auto evaluate = [&](const auto& dispersion) { return value_at(dispersion, query); };
-    const bool has_k = contains(known_range(index.k), query.wavelength_nm);
-    return {std::visit(evaluate, index.n), has_k ? std::visit(evaluate, index.k) : 0.0};
+    return {std::visit(evaluate, index.n), std::visit(evaluate, index.k)};
 }
 
 Complex value_at(const LorentzDrude& model, const Query& query) {
-    const double energy = kPhotonEnergyEvNm / query.wavelength_nm;
+    const double energy = kPhotonEnergyEvNm / std::clamp(query.wavelength_nm, model.range.first_nm,
+                                                         model.range.last_nm);
     Complex permittivity = model.eps_infinity;
     for (const auto& [strength, damping, resonance] : model.oscillators)
         if (strength != 0)
@@ -207,16 +217,19 @@ std::string in_words(WavelengthRange range) {
     return to_text(range.first_nm) + " to " + to_text(range.last_nm) + " nm";
 }
 
-/// The wavelength at which the material is evaluated when `wavelength_nm` is asked for.
-double known_wavelength(const Material& material, double wavelength_nm) {
+/// Throws unless the material is known at the wavelength, or holds its end values.
+void require_known(const Material& material, double wavelength_nm) {
     require_in_range("wavelength_nm", wavelength_nm, kAllWavelengths.first_nm,
                      kAllWavelengths.last_nm);
-    const WavelengthRange range = range_of(material);
-    if (contains(range, wavelength_nm)) return wavelength_nm;
-    if (material.outside == Outside::clamp)
-        return std::clamp(wavelength_nm, range.first_nm, range.last_nm);
-    throw DomainError(name_of(material) + " is known from " + in_words(range) + " (asked for " +
-                      to_text(wavelength_nm) + ")");
+    if (material.outside == Outside::clamp || contains(range_of(material), wavelength_nm)) return;
+    const auto refuse = [&](const std::string& what, WavelengthRange range) {
+        throw DomainError(what + " is known from " + in_words(range) + " (asked for " +
+                          to_text(wavelength_nm) + ")");
+    };
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    if (index != nullptr && contains(known_range(index->n), wavelength_nm))
+        refuse("k of " + name_of(material), known_range(index->k));
+    refuse(name_of(material), index != nullptr ? known_range(index->n) : range_of(material));
 }
 
 }  // namespace
@@ -227,7 +240,8 @@ WavelengthRange range_of(const Material& material) {
 }
 
 Complex index_at(const Material& material, double wavelength_nm) {
-    const Query query{material, known_wavelength(material, wavelength_nm)};
+    require_known(material, wavelength_nm);
+    const Query query{material, wavelength_nm};
     const Complex index =
         std::visit([&](const auto& model) { return value_at(model, query); }, material.model);
     query.require("n", index.real(), 0, kLargestIndex);
@@ -244,21 +258,26 @@ bool is_constant(const Material& material) {
 }
 
 std::vector<double> kinks(const Material& material, WavelengthRange between) {
-    const WavelengthRange known = range_of(material);
+    const bool holds = material.outside == Outside::clamp;
+    const WavelengthRange known = holds ? kAllWavelengths : range_of(material);
     std::vector<double> found;
     const auto take = [&](double nm) {
-        if (nm > between.first_nm && nm < between.last_nm && nm >= known.first_nm &&
-            nm <= known.last_nm)
+        if (nm > between.first_nm && nm < between.last_nm && contains(known, nm))
             found.push_back(nm);
+    };
+    const auto take_ends = [&](WavelengthRange range) {
+        if (!holds) return;
+        take(range.first_nm);
+        take(range.last_nm);
     };
     if (const auto* index = std::get_if<RefractiveIndex>(&material.model))
         for (const Dispersion* dispersion : {&index->n, &index->k})
             if (const auto* table = std::get_if<Table>(dispersion))
                 std::for_each(table->wavelength_nm.begin(), table->wavelength_nm.end(), take);
-    if (material.outside == Outside::clamp) {
-        take(known.first_nm);
-        take(known.last_nm);
-    }
+            else
+                take_ends(known_range(*dispersion));
+    else
+        take_ends(range_of(material));
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;

@@ -25,14 +25,24 @@ struct Constant {
     bool operator==(const Constant&) const = default;
 };
 
+/// What an index and its wavelengths are measured in: vacuum, or air at 101325 Pa (air.hpp).
+struct Reference {
+    bool index_to_air = false;       ///< n is the index divided by that of air
+    bool wavelength_in_air = false;  ///< wavelengths are those in air
+    double temperature_c = 20;       ///< of that air
+    bool operator==(const Reference&) const = default;
+};
+
 /// One of the nine dispersion formulas of the refractiveindex.info database (n only).
 /// number        1..9;   coefficients  c1, c2, ... for wavelengths in um, missing ones are 0
+/// range         vacuum wavelengths;   reference  what the formula takes and gives
 /// Source: M. N. Polyanskiy, Sci. Data 11, 94 (2024), and the database's definition sheet.
 /// Formula 2 is Sellmeier with squared poles, formula 5 is Cauchy's series.
 struct Formula {
     int number = 5;
     std::vector<double> coefficients;
     WavelengthRange range;
+    Reference reference = {};
     bool operator==(const Formula&) const = default;
 };
 
@@ -47,7 +57,7 @@ struct Table {
 /// n or k as a function of the wavelength.
 using Dispersion = std::variant<Constant, Formula, Table>;
 
-/// n + i k given as two real functions; k is 0 where it is not given.
+/// n + i k given as two real functions, each known in its own range.
 struct RefractiveIndex {
     Dispersion n = Constant{1};
     Dispersion k = Constant{0};
@@ -81,13 +91,13 @@ struct Material {
 /// All vacuum wavelengths that irido accepts, nm.
 inline constexpr WavelengthRange kAllWavelengths{1, 1e7};
 
-/// Where n is known; kAllWavelengths for constants.
+/// Where n and k are known, both; kAllWavelengths for constants. first_nm > last_nm if nowhere.
 WavelengthRange range_of(const Material& material);
 
-/// n + i k at one vacuum wavelength in kAllWavelengths. Outside range_of(material) the end value
-/// holds if the material says clamp. Throws DomainError that names the material, its range and the
-/// wavelength, or the value if the result is no index that irido computes with:
-/// n in [0, 1e4], k in [-1e4, 1e4], |n + ik| >= 1e-6.
+/// n + i k at one vacuum wavelength in kAllWavelengths. If the material says clamp, n holds its end
+/// values outside the range of n, and k those of k. Throws DomainError that names the material, its
+/// range (that of n or of k) and the wavelength, or the value if the result is no index that irido
+/// computes with: n in [0, 1e4], k in [-1e4, 1e4], |n + ik| >= 1e-6.
 Complex index_at(const Material& material, double wavelength_nm);
 
 /// True if the index is the same at every wavelength.

@@ -16,7 +16,7 @@ namespace irido {
 
 /// Changes whenever irido computes other numbers for the same request: tables made before are then
 /// made again.
-inline constexpr int kNumbersVersion = 1;
+inline constexpr int kNumbersVersion = 2;
 
 /// A table that a scene needs, before its size is known.
 struct SceneTable {

@@ -268,7 +268,8 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
          "/layers/0/material: TiO2-rutile is known from 430 to 1530 nm (asked for 380)"},
         {{"spectrum", "1 | gold@10 | Agg"}, "/substrate: "},
         {{"spectrum", "1+0.1i | 1"}, "/incident: "},
-        {{"spectrum", "Au | 1"}, "/incident: must neither absorb nor amplify: its k must be 0"},
+        {{"spectrum", "Au | 1"},
+         "/incident: the incident medium must be transparent, |k| below 1e-3 (got n = "},
         {{"spectrum", stack, "-o", "/no/such/folder/x.csv"},
          "/no/such/folder/x.csv: cannot be written: No such file or directory"},
     };

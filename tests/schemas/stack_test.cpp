@@ -177,7 +177,11 @@ TEST_CASE("Models have the coefficients that their formulas need") {
                                      .model) == metal);
     const RefractiveIndex table{Table{{400, 700}, {1.5, 1.4}}, Table{{400, 700}, {0, 0.1}}};
     CHECK(std::get<RefractiveIndex>(
-              material_of({{"table", {{400, 1.5}, {700, 1.4, 0.1}}}}).model) == table);
+              material_of({{"table", {{400, 1.5, 0}, {700, 1.4, 0.1}}}}).model) == table);
+    // a row without k says nothing of it
+    const json gap{{"table", {{400, 1.5, 0.2}, {500, 1.5}, {600, 1.5, 0.4}, {700, 1.4}}}};
+    CHECK(index_at(material_of(gap), 500).imag() == Approx(0.3).epsilon(1e-15));
+    CHECK(range_of(material_of(gap)) == WavelengthRange{400, 600});
     const RefractiveIndex real{Table{{400, 700}, {1.5, 1.4}}, Constant{0}};
     CHECK(std::get<RefractiveIndex>(material_of({{"table", {{400, 1.5}, {700, 1.4}}}}).model) ==
           real);
@@ -198,7 +202,8 @@ TEST_CASE("Materials come by name and from files") {
     CHECK(material_of({{"file", "glass.csv"}, {"name", "my glass"}}).name == "my glass");
     CHECK(material_of({{"n", 1.5}, {"name", "my glass"}}).name == "my glass");
     CHECK(error_of(film({{"file", "illegal/not-json.json"}})) ==
-          "f: /layers/0/material/file: must end in .csv, .yml or .yaml (got "
+          "f: /layers/0/material/file: must end in .csv, .txt, .tsv, .dat, .nk, .mat, .yml or "
+          ".yaml (got "
           "\"illegal/not-json.json\")");
 }
 
@@ -206,7 +211,14 @@ TEST_CASE("The incident medium is lossless, indices do not vanish, layers are bo
     json absorbing = film(1.5);
     absorbing["incident"] = {{"n", 1.5}, {"k", -0.1}};
     CHECK(error_of(absorbing) ==
-          "f: /incident: must neither absorb nor amplify: its k must be 0 (got -0.1)");
+          "f: /incident: must neither absorb nor amplify: its k must be below 1e-3 (got -0.1)");
+    json nearly = film(1.5);
+    nearly["incident"] = {{"n", 1.5}, {"k", 5e-4}};
+    CHECK(read(nearly).notes ==
+          std::vector<std::string>{"f: /incident: the incident medium is taken as transparent, its "
+                                   "k of up to 5e-04 left out"});
+    nearly["incident"] = "Ag";  // judged at the wavelengths asked for
+    CHECK(error_of(nearly) == "accepted");
     CHECK(error_of(film({{"n", 1e-7}, {"k", 0}})) ==
           "f: /layers/0/material: must be at least 1e-6 in size (got 1e-07)");
     CHECK(error_of(film({{"n", 0}, {"k", 1e-6}})) == "accepted");
@@ -250,7 +262,7 @@ TEST_CASE("validate lists what the schema and what the reader finds") {
         f + "/layers/1/material/nn: unknown key (did you mean \"n\"?)",
         f + "/layers/2: must be a layer {\"material\", \"thickness_nm\"} or a group {\"repeat\", "
             "\"layers\"} (got 5)",
-        f + "/incident: must neither absorb nor amplify: its k must be 0 (got 1)",
+        f + "/incident: must neither absorb nor amplify: its k must be below 1e-3 (got 1)",
         f + "/layers/0/material: there is no material \"watr\" (did you mean \"water\"?)",
         f + "/layers/3/layers/0/material/file: " + (file.parent_path() / "none.csv").string() +
             ": cannot be read: No such file or directory",

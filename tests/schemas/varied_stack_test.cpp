@@ -104,7 +104,7 @@ TEST_CASE("whole layers vary, and keys that are not there yet", "[varied]") {
           mirror().file + ": /layers/1/repeat: unknown key");
     const VariedStack incident(mirror(), {"incident"});
     CHECK(error_of([&] {
-              incident.document(std::vector<json>{"Ag"});
+              incident.document(std::vector<json>{{{"n", 1}, {"k", 1}}});
           }).starts_with(mirror().file + ": /incident: must neither absorb nor amplify"));
 }
 

@@ -1,10 +1,11 @@
-#include "schemas/refractiveindex_info.hpp"
+#include "schemas/material_formats/refractiveindex_info.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 
+#include "core/material/air.hpp"
 #include "schemas/input_error.hpp"
 
 using namespace irido;
@@ -89,13 +90,39 @@ TEST_CASE("n and k from separate grids", "[rii]") {
     CHECK(file.notes.empty());
 }
 
-TEST_CASE("n given twice: the first counts, k comes from the table", "[rii]") {
-    const auto index = index_of("DATA:\n" + kFormulaN +
-                                table("nk",
-                                      "        0.4 9 0.1\n"
-                                      "        0.7 9 0.2\n"));
+TEST_CASE("n given twice must agree, k comes from the table", "[rii]") {
+    const auto both = [&](double apart) {
+        return "DATA:\n" + kFormulaN +
+               table("nk", "        0.4 " + std::to_string(1.525 + apart) + " 0.1\n        0.7 " +
+                               std::to_string(1.5 + 0.004 / 0.49) + " 0.2\n");
+    };
+    const auto index = index_of(both(0.001));
     CHECK(std::holds_alternative<Formula>(index.n));
     CHECK(index.k == Dispersion{Table{{400, 700}, {0.1, 0.2}}});
+    bool told = false;
+    for (const std::string& note : read(both(0.001)).notes)
+        told |= note.starts_with("DATA/1: n given twice, at most 0.001") &&
+                note.ends_with(" apart: the first counts");
+    CHECK(told);
+    CHECK(error_of(both(0.01)) == "m.yml: DATA/1: n is given twice, and not alike");
+    CHECK(error_of("DATA:\n" + kFormulaN + kFormulaN) ==
+          "m.yml: DATA/1: n is given twice, and not alike");
+    CHECK(error_of("DATA:\n" + kFormulaN + table("n", "        0.9 1.5\n        1.1 1.5\n")) ==
+          "m.yml: DATA/1: n is given twice, and not alike");
+}
+
+TEST_CASE("blocks that do not overlap are joined", "[rii]") {
+    const std::string low = table("k", "        0.38 0.1\n        0.5 0.2\n");
+    const std::string high = table("k", "        0.6 0.3\n        0.78 0.4\n");
+    for (const std::string& blocks : {low + high, high + low}) {
+        const auto file = read("DATA:\n" + kFormulaN + blocks);
+        CHECK(std::get<RefractiveIndex>(file.material.model).k ==
+              Dispersion{Table{{380, 500, 600, 780}, {0.1, 0.2, 0.3, 0.4}}});
+        CHECK(has_note(file, "DATA/2: k joined to that before it, linear from 500 to 600 nm"));
+    }
+    CHECK(error_of("DATA:\n" + kFormulaN + low + low).find("apart") == std::string::npos);
+    CHECK(error_of("DATA:\n" + kFormulaN + low + table("k", "        0.4 0.3\n")) ==
+          "m.yml: DATA/2: k is given twice, and not alike");
 }
 
 TEST_CASE("k before n", "[rii]") {
@@ -105,23 +132,118 @@ TEST_CASE("k before n", "[rii]") {
     CHECK(std::holds_alternative<Table>(index.k));
 }
 
-TEST_CASE("k is 0 where the file does not give it, and the reader says so", "[rii]") {
-    const auto apart = read("DATA:\n" + kFormulaN +
-                            table("k",
-                                  "        0.28 1e-6\n"
-                                  "        0.29 1e-7\n"));
-    CHECK(range_of(apart.material) == WavelengthRange{380, 780});
-    CHECK(index_at(apart.material, 400).imag() == 0);
-    CHECK(has_note(apart,
-                   "k is known from 280 to 290 nm only, n from 380 to 780 nm: k = 0 elsewhere"));
+TEST_CASE("where k is not known the material is not, unless k is very small", "[rii]") {
+    const auto glass =
+        read("DATA:\n" + kFormulaN + table("k", "        0.28 1e-6\n        0.29 1e-7\n"));
+    CHECK(range_of(glass.material) == WavelengthRange{380, 780});
+    CHECK(index_at(glass.material, 400).imag() == 1e-7);
+    CHECK(has_note(glass,
+                   "k is known from 280 to 290 nm only, n from 380 to 780 nm: k = 1e-07 is held "
+                   "above 290 nm"));
 
     const auto shorter =
-        read("DATA:\n" + kFormulaN + table("k", "        0.4 0.1\n        0.9 0.1\n"));
-    CHECK(range_of(shorter.material) == WavelengthRange{380, 780});
-    CHECK(index_at(shorter.material, 399).imag() == 0);
-    CHECK(index_at(shorter.material, 401).imag() == 0.1);
+        read("DATA:\n" + kFormulaN + table("k", "        0.4 1e-5\n        0.6 0.1\n"));
+    CHECK(range_of(shorter.material) == WavelengthRange{380, 600});
+    CHECK(index_at(shorter.material, 399).imag() == 1e-5);
+    CHECK(index_at(shorter.material, 600).imag() == 0.1);
+    CHECK_THROWS_WITH(index_at(shorter.material, 601),
+                      "k of m.yml is known from 380 to 600 nm (asked for 601)");
+    CHECK_THROWS_WITH(index_at(shorter.material, 781),
+                      "m.yml is known from 380 to 780 nm (asked for 781)");
     CHECK(has_note(shorter,
-                   "k is known from 400 to 900 nm only, n from 380 to 780 nm: k = 0 elsewhere"));
+                   "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 1e-05 is held "
+                   "below 400 nm"));
+    CHECK(
+        has_note(shorter,
+                 "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 0.1 is not small, "
+                 "and the material not known above 600 nm"));
+    CHECK(error_of("DATA:\n" + kFormulaN + table("k", "        0.9 0.1\n        1.1 0.1\n")) ==
+          "m.yml: n is known from 380 to 780 nm and k from 900 to 1100 nm: nowhere both");
+}
+
+TEST_CASE("what is relative to air is converted to vacuum", "[rii]") {
+    const std::string formula = "DATA:\n" + kFormulaN;
+    const double plain = 1.5 + 0.004 / 0.25, air = index_of_air(vacuum_wavelength(500, 20), 20);
+    const double vacuum_500 = vacuum_wavelength(500, 20);
+    const auto n_at = [](const std::string& text, double nm) {
+        return index_at(read(text).material, nm).real();
+    };
+    const auto in_air = GENERATE(
+        as<std::string>{},
+        "SPECS:\n    n_is_absolute: false\n    wavelength_is_vacuum: false\n    temperature: 20.0 "
+        "\xC2\xB0"
+        "C\n",
+        "SPECS:\n    n_absolute: false\n    wavelength_vacuum: false\n",
+        "CONDITIONS:\n    n_is_absolute: false\n    \xCE\xBB_is_vacuum: false\n    temperature: "
+        "293.15\n",
+        "CONDITIONS:\n    temperature: 293\nPROPERTIES:\n    glass_code: 517642.251\n",
+        "REFERENCES: |\n    <a href=\"x\">MAKER Zemax catalog 2017-11</a>\n");
+    CAPTURE(in_air);
+    CHECK_THAT(n_at(formula + in_air, vacuum_500), WithinAbs(plain * air, 1e-15));
+    CHECK(range_of(read(formula + in_air).material) == WavelengthRange{380, 780});
+    bool told = false;
+    for (const std::string& note : read(formula + in_air).notes)
+        told |= note.starts_with("n relative to air and wavelengths in air (20 C") &&
+                note.ends_with("converted to vacuum");
+    CHECK(told);
+    CHECK_THAT(
+        n_at("DATA:\n" + table("n", "        0.5 1.5\n        0.6 1.5\n") + in_air, vacuum_500),
+        WithinAbs(1.5 * air, 1e-15));
+}
+
+TEST_CASE("what says that it is absolute is not converted", "[rii]") {
+    const std::string absolute =
+        "SPECS:\n    n_is_absolute: true\n    wavelength_is_vacuum: true\n    glass_code: 1\n"
+        "PROPERTIES:\n    glass_code: 517642.251\n";
+    CHECK(index_at(read("DATA:\n" + kFormulaN + absolute).material, 500) ==
+          index_at(read("DATA:\n" + kFormulaN).material, 500));
+    // each by itself: at 22 C
+    const std::string index_only = "SPECS:\n    n_is_absolute: false\n    temperature: 22 C\n";
+    CHECK_THAT(index_at(read("DATA:\n" + kFormulaN + index_only).material, 500).real(),
+               WithinAbs((1.5 + 0.004 / 0.25) * index_of_air(500, 22), 1e-15));
+}
+
+TEST_CASE("files of before 2018 and lists of YAML are read", "[rii]") {
+    const auto expected = index_of("DATA:\n" + kFormulaN);
+    CHECK(index_of("DATA:\n  - type: formula 5\n    range: 0.38 0.78\n    coefficients: 1.5 0.004 "
+                   "-2\n") == expected);
+    CHECK(index_of("DATA:\n  - type: formula 5\n    wavelength_range: [0.38, 0.78]\n"
+                   "    coefficients: [1.5, 0.004, -2]\n") == expected);
+    CHECK(index_of("DATA:\n  - type: tabulated nk\n    data:\n      - [0.4, 1.5, 0.1]\n"
+                   "      - 0.5 1.4 0.2\n") ==
+          index_of("DATA:\n" + table("nk", "        0.4 1.5 0.1\n        0.5 1.4 0.2\n")));
+    CHECK(error_of("DATA:\n  - type: formula 5\n    coefficients: [1, [2, 3]]\n    range: 1 2\n") ==
+          "m.yml: DATA/0: a list of numbers must hold nothing else");
+}
+
+TEST_CASE("a formula whose last coefficient is missing is refused", "[rii]") {
+    struct Whole {
+        int formula;
+        std::vector<std::size_t> counts;
+        std::size_t most;
+    };
+    const std::vector<std::size_t> odd{1, 3, 5, 7, 9, 11, 13, 15, 17}, to_11{1, 3, 5, 7, 9, 11};
+    for (const auto& [formula, counts, most] : {Whole{1, odd, 17},
+                                                {2, odd, 17},
+                                                {3, odd, 17},
+                                                {4, {1, 5, 9, 11, 13, 15, 17}, 17},
+                                                {5, to_11, 11},
+                                                {6, to_11, 11},
+                                                {7, {1, 2, 3, 4, 5, 6}, 6},
+                                                {8, {1, 3, 4}, 4},
+                                                {9, {1, 3, 6}, 6}})
+        for (std::size_t count = 0; count <= most + 1; ++count) {
+            std::string text = "DATA:\n  - type: formula " + std::to_string(formula) +
+                               "\n    wavelength_range: 0.4 0.8\n    coefficients:";
+            for (std::size_t i = 0; i < count; ++i) text += " 0.1";
+            CAPTURE(formula, count);
+            const bool whole = std::ranges::find(counts, count) != counts.end();
+            CHECK((error_of(text + "\n") == "no error") == whole);
+        }
+    CHECK(
+        error_of("DATA:\n  - type: formula 2\n    wavelength_range: 0.4 0.8\n"
+                 "    coefficients: 3.6453 2.2057 0.1879 1.8377\n") ==
+        "m.yml: DATA/0: formula 2 must have 1, 3, 5, 7, 9, 11, 13, 15 or 17 coefficients (got 4)");
 }
 
 TEST_CASE("rows out of order are sorted, equal wavelengths averaged", "[rii]") {
@@ -226,7 +348,7 @@ TEST_CASE("faults in tables and formulas are told", "[rii]") {
           "m.yml: DATA/0: needs the text 'wavelength_range'");
     CHECK(error_of("DATA:\n  - type: formula 8\n    coefficients: 1 2 3 4 5\n"
                    "    wavelength_range: 0.4 1\n") ==
-          "m.yml: DATA/0: formula 8 must have 1 to 4 coefficients (got 5)");
+          "m.yml: DATA/0: formula 8 must have 1, 3 or 4 coefficients (got 5)");
     for (const char* range : {"1", "1 0.4", "0 1", "-1 1", "0.4 1 2"})
         CHECK(error_of("DATA:\n  - type: formula 5\n    coefficients: 1\n    wavelength_range: " +
                        std::string(range) + "\n") ==
