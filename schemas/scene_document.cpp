@@ -124,6 +124,7 @@ private:
     /// Reads the stack with one end of what varies; false if it has faults there.
     bool read_at(SceneMaterial& material, double ValueRange::*end) const {
         StackSource& source = material.source;
+        const std::size_t faults = material.faults.size();
         for (const VariedRange& vary : material.vary) {
             try {
                 set_value(source.document, vary.path, vary.range.*end);
@@ -133,7 +134,7 @@ private:
                      "names no number of the stack (" + std::string(error.what()) + ")"});
             }
         }
-        if (!material.faults.empty()) return false;
+        if (material.faults.size() > faults) return false;
         try {
             material.document = read_stack(source.document, source.file, source.folder);
         } catch (const InputError&) {
@@ -141,7 +142,7 @@ private:
                  stack_problems(source.document, source.file, source.folder))
                 material.faults.push_back(fault_of_line(material, line));
         }
-        return material.faults.empty();
+        return material.faults.size() == faults;
     }
 
     /// A line of stack_problems(), "FILE: POINTER: message".

@@ -26,6 +26,7 @@ constexpr std::size_t kDroppedSamples = 65;  ///< along an axis that has one sam
 constexpr std::size_t kWorstCells = 8;       ///< that are looked at on a finer grid
 constexpr std::size_t kFineSamples = 9;      ///< along each side of these
 constexpr std::size_t kEndSamples = 1025;    ///< along a range that may end early
+constexpr std::size_t kFewSamples = 256;     ///< of a level that is measured, not estimated
 
 std::size_t size_of(const std::vector<LutAxis>& axes, std::size_t first, std::size_t last) {
     std::size_t count = 1;
@@ -486,6 +487,10 @@ std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized
                           threads);
     };
     for (std::vector<LutAxis> grid : grids_of(sized)) {
+        if (size_of(grid, 0, grid.size()) <= kFewSamples) {
+            errors.push_back(compared(grid).error().value);
+            continue;
+        }
         const double sigma =
             std::exchange(grid.front().values.front(), sized.axes.front().values.front());
         const Comparison sharp = compared(grid);

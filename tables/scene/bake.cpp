@@ -180,9 +180,10 @@ json found_entry(const std::string& folder, const std::string& file, const std::
     const std::size_t bytes = size_of_table(path);
     if (bytes == 0) throw LutError("its file is not there, or not a regular file");
     const Lut lut = read_lut(path);
-    if (lut.facts.value("id", "") != id)
-        throw LutError("its file has another table (" + lut.kind + " " +
-                       lut.facts.value("id", "that no bake has made") + ")");
+    const std::string own_id = lut.facts.value("id", "");
+    if (own_id.empty()) throw LutError("its file has a table without an id (" + lut.kind + ")");
+    if (own_id != id)
+        throw LutError("its file has another table (" + lut.kind + " " + own_id + ")");
     if (const auto problems = lut_problems(lut); !problems.empty())
         throw LutError("its file is damaged: " + problems.front());
     json entry = entry_of(lut, metadata_of(lut));
@@ -298,7 +299,8 @@ std::string why_unknown(const Scene& scene, const ScenePlan& plan, const SceneTa
     const auto add = [&](const std::string& what) {
         changed += (changed.empty() ? "" : ", ") + what;
     };
-    for (const auto& [key, value] : settings_of(scene, plan).items())
+    const json settings = settings_of(scene, plan);
+    for (const auto& [key, value] : settings.items())
         if (manifest["settings"].value(key, json()) != value) add(key);
     if (!changed.empty()) return "changed: " + changed;
     const MaterialPlan& material =
@@ -531,7 +533,7 @@ json planned_entry(const SceneTable& table) {
                   {"axes", axes},
                   {"channels", lut.channels},
                   {"dtype", name_of(lut.type)},
-                  {"request", lut.facts["request"]},
+                  {"request", lut.facts.value("request", json::object())},
                   {"error", nullptr},
                   {"notes", lut.facts["notes"]}};
     if (const auto levels = estimated_level_errors(plan, lut, table.making.threads);

@@ -337,7 +337,7 @@ TEST_CASE("validate says what plan would refuse, each thing once and with its pl
         {R"("stack": "1 | (1.5@95 | 1.75@82)^20 | 1.5", "shading": "bragg")",
          "/shading: material a: bragg needs the first layer's material on both sides of the "
          "mirror"},
-        {R"("stack": {"layers": [{"material": 1.33, "thickness_nm": -1}], "substrate": 1.5},
+        {R"("stack": {"incident": 1, "layers": [{"material": 1.33, "thickness_nm": -1}], "substrate": 1.5},
             "shading": "color")",
          "/stack/layers/0/thickness_nm: material a: must be in [0, 1e9] (got -1)"},
         {R"("stack": "no.json", "shading": "color")",
@@ -364,8 +364,8 @@ TEST_CASE("validate says what plan would refuse, each thing once and with its pl
 TEST_CASE("validate says all that is wrong with all materials", "[cli][validate][scene]") {
     const TemporaryFolder folder;
     write_text(folder / "scene.json", R"({"materials": [
-        {"name": "a", "stack": {"layers": [{"material": -2, "thickness_nm": -1}], "substrate": 1},
-         "shading": "color", "angles_deg": [9, 1]},
+        {"name": "a", "stack": {"incident": 1, "layers": [{"material": -2, "thickness_nm": -1}],
+         "substrate": 1}, "shading": "color", "angles_deg": [9, 1]},
         {"name": "b", "stack": "1 | 1.33@9 | 1", "shading": "color"},
         {"name": "c", "stack": "1 | 1.33@9 | 1", "shading": "rough-layers",
          "vary": {"layers.0.thickness_nm": [1, 2]}}]})");
