@@ -104,14 +104,14 @@ Row baked(const std::string& name, const Scene& scene, const std::string& folder
         const Scene again = read_scene(scene.file);
         const ScenePlan plan = plan_scene(again, execution_of(options.threads));
         BakeRequest request;
-        request.folder = folder;
+        request.place.folder = folder;
         request.threads = options.threads;
         result = bake(again, plan, request);
         row.tables = plan.tables.size();
     });
     if (!result.faults.empty())
-        throw DomainError(name + ": material " + result.faults.begin()->first + ": " +
-                          result.faults.begin()->second);
+        throw DomainError(
+            fault_text(scene, result.faults.begin()->first, result.faults.begin()->second.front()));
     row.written = result.manifest_written ? 1 : 0;
     for (const std::string& made : result.made) row.written += made.ends_with(")") ? 0 : 1;
     for (const auto& file : fs::directory_iterator(folder))
@@ -128,7 +128,7 @@ Lut lut_of(const SceneTable& table, const nlohmann::json& entry, const std::stri
 double worst_of_bake(const Scene& scene, const std::string& folder, const Execution& execution,
                      const RandomPoints& points) {
     const ScenePlan plan = plan_scene(scene, execution);
-    const TableEntries entries = baked_tables(folder);
+    const TableEntries entries = baked_scene({folder}, scene).tables;
     double worst = 0;
     for (const SceneTable& table : plan.tables) {
         const LutPlan function = table.kind->plan(table.request);

@@ -59,8 +59,9 @@ std::vector<std::string> problems_of(const std::string& path) {
         return {error.what()};
     }
     if (is_stack(document)) return stack_problems(document, file, folder);
-    if (document.contains("tables")) return manifest_problems(document, file);
-    return scene_problems(document, file, folder);
+    if (document.contains("tables"))
+        return manifest_problems(document, file, path == "-" ? "" : folder.empty() ? "." : folder);
+    return problems_of_scene(document, file, folder, execution_of());
 }
 
 int run_validate(const std::vector<std::string>& files) {
@@ -116,8 +117,11 @@ void add_validate_command(CLI::App& program, Run& run) {
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});
-    command->footer(command->get_footer() +
-                    "\n\nExit status: 0 if all are right, 1 if not, 2 if a file cannot be read.");
+    command->footer(
+        command->get_footer() +
+        "\n\nOf a scene, everything that is known before its tables are computed; of a manifest\n"
+        "with its tables beside it, every file is read.\n\n"
+        "Exit status: 0 if all are right, 1 if not, 2 if a file cannot be read.");
     command->callback([files, schema, option, &run] {
         if (option->count() > 0 || !option->empty()) {
             run = [schema] { return print_schema(schema->empty() ? "stack" : *schema); };

@@ -33,14 +33,28 @@ ValueRange range_of(const json& value) {
     return {value[0].get<double>(), value[1].get<double>()};
 }
 
+/// Those of the schema; of a document that breaks none, names that are there twice.
+std::vector<Problem> broken_rules(const json& document) {
+    static const Schema schema(json::parse(scene_schema_text()));
+    std::vector<Problem> problems = check(schema, document);
+    if (!problems.empty()) return problems;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < document["materials"].size(); ++i) {
+        const std::string name = document["materials"][i]["name"].get<std::string>();
+        if (!names.insert(name).second)
+            problems.push_back({"/materials/" + std::to_string(i) + "/name",
+                                "must be unique (got \"" + name + "\")"});
+    }
+    return problems;
+}
+
 class Reader {
 public:
     Reader(const json& document, std::string file, std::string folder)
         : document_(document), file_(std::move(file)), folder_(std::move(folder)) {}
 
     Scene read() {
-        static const Schema schema(json::parse(scene_schema_text()));
-        for (const Problem& problem : check(schema, document_))
+        for (const Problem& problem : broken_rules(document_))
             throw InputError(file_, problem.pointer, problem.message);
         scene_.file = file_;
         scene_.name = document_.value("name", "");
@@ -54,14 +68,9 @@ public:
             scene_.delta_e = tolerance->value("delta_e", scene_.delta_e);
             scene_.relative = tolerance->value("relative", scene_.relative);
         }
-        std::set<std::string> names;
-        for (std::size_t i = 0; i < document_["materials"].size(); ++i) {
-            const std::string pointer = "/materials/" + std::to_string(i);
-            scene_.materials.push_back(material(document_["materials"][i], pointer));
-            if (!names.insert(scene_.materials.back().name).second)
-                throw InputError(file_, pointer + "/name",
-                                 "must be unique (got \"" + scene_.materials.back().name + "\")");
-        }
+        for (std::size_t i = 0; i < document_["materials"].size(); ++i)
+            scene_.materials.push_back(
+                material(document_["materials"][i], "/materials/" + std::to_string(i)));
         return std::move(scene_);
     }
 
@@ -69,71 +78,93 @@ private:
     SceneMaterial material(const json& object, const std::string& pointer) {
         SceneMaterial result;
         result.name = object["name"].get<std::string>();
+        result.pointer = pointer;
         result.shading = shading_of(object["shading"].get<std::string>());
-        result.source = source(object["stack"], pointer + "/stack");
-        if (object.contains("vary"))
-            for (const auto& [path, value] : object["vary"].items())
-                result.vary.push_back(
-                    {path, ascending(range_of(value), pointer + "/vary" + pointer_step(path))});
-        // the stack at both ends of what varies
-        result.document = read(result, &ValueRange::last, object["stack"].is_object(), pointer);
-        result.document = read(result, &ValueRange::first, object["stack"].is_object(), pointer);
-        for (const std::string& note : result.document.notes) scene_.notes.push_back(note);
-        if (object.contains("angles_deg"))
-            result.angles_deg = ascending(range_of(object["angles_deg"]), pointer + "/angles_deg");
+        result.has_angles = object.contains("angles_deg");
+        if (result.has_angles) result.angles_deg = range(result, object, "angles_deg");
         result.is_rough = object.contains("roughness");
-        if (result.is_rough)
-            result.alpha = ascending(range_of(object["roughness"]), pointer + "/roughness");
+        if (result.is_rough) result.alpha = range(result, object, "roughness");
         result.transmission = object.value("transmission", false);
         result.thickness_spread_nm = object.value("thickness_spread_nm", 0.0);
+        if (object.contains("vary"))
+            for (const auto& [path, value] : object["vary"].items())
+                result.vary.push_back({path, ascending(result, range_of(value),
+                                                       pointer + "/vary" + pointer_step(path))});
+        try {
+            result.source = source(object["stack"], pointer + "/stack");
+            // the stack at both ends of what varies
+            if (read_at(result, &ValueRange::last)) read_at(result, &ValueRange::first);
+        } catch (const std::exception& error) {
+            result.faults.push_back(fault_of(result, error));
+        }
+        for (const std::string& note : result.document.notes) scene_.notes.push_back(note);
         return result;
     }
 
+    /// An inline stack is called by its pointer, a file as the scene calls it.
     StackSource source(const json& stack, const std::string& pointer) const {
-        if (stack.is_object()) return {stack, file_ + ": " + pointer, folder_};
+        if (stack.is_object()) return {stack, pointer, folder_};
         const std::string text = stack.get<std::string>();
         if (text.empty() || text == "-")
-            throw InputError(file_, pointer,
+            throw InputError("", pointer,
                              "must be a stack, a file or an expression (got \"" + text + "\")");
         const bool is_expression = text.find('|') != std::string::npos;
+        const std::string path =
+            is_expression ? text : (std::filesystem::path(folder_) / text).string();
         try {
-            StackSource loaded = load_stack(
-                {is_expression ? text : (std::filesystem::path(folder_) / text).string(), {}});
-            loaded.file = file_ + ": " + pointer + ": " + loaded.file;
+            StackSource loaded = load_stack({path, {}});
+            if (!is_expression) loaded.file = text;
             return loaded;
         } catch (const InputError& error) {
-            throw InputError(file_, pointer, error.what());
+            const std::string file = error.file == path ? text : error.file;
+            throw InputError("", pointer, InputError(file, error.where, error.message).what());
         }
     }
 
-    /// The stack with one end of what varies. An error inside of an inline stack gets a pointer
-    /// into the scene.
-    StackDocument read(SceneMaterial& material, double ValueRange::*end, bool is_inline,
-                       const std::string& pointer) const {
+    /// Reads the stack with one end of what varies; false if it has faults there.
+    bool read_at(SceneMaterial& material, double ValueRange::*end) const {
+        StackSource& source = material.source;
+        const std::size_t faults = material.faults.size();
         for (const VariedRange& vary : material.vary) {
             try {
-                set_value(material.source.document, vary.path, vary.range.*end);
+                set_value(source.document, vary.path, vary.range.*end);
             } catch (const InputError& error) {
-                throw InputError(
-                    file_, pointer + "/vary" + pointer_step(vary.path),
-                    "names no number of the stack (" + std::string(error.what()) + ")");
+                material.faults.push_back(
+                    {material.pointer + "/vary" + pointer_step(vary.path),
+                     "names no number of the stack (" + std::string(error.what()) + ")"});
             }
         }
+        if (material.faults.size() > faults) return false;
         try {
-            return read_stack(material.source.document, material.source.file,
-                              material.source.folder);
-        } catch (const InputError& error) {
-            const bool is_pointer = error.where.empty() || error.where.starts_with('/');
-            if (!is_inline || !is_pointer || error.file != material.source.file) throw;
-            throw InputError(file_, pointer + "/stack" + error.where, error.message);
+            material.document = read_stack(source.document, source.file, source.folder);
+        } catch (const InputError&) {
+            for (const std::string& line :
+                 stack_problems(source.document, source.file, source.folder))
+                material.faults.push_back(fault_of_line(material, line));
         }
+        return material.faults.size() == faults;
     }
 
-    ValueRange ascending(ValueRange range, const std::string& pointer) const {
-        if (range.first <= range.last) return range;
-        throw InputError(
-            file_, pointer,
-            "must ascend (got [" + to_text(range.first) + ", " + to_text(range.last) + "])");
+    /// A line of stack_problems(), "FILE: POINTER: message".
+    static SceneFault fault_of_line(const SceneMaterial& material, const std::string& line) {
+        const std::string pointer = material.pointer + "/stack", prefix = pointer + ": ";
+        if (!line.starts_with(prefix)) return {pointer, line};
+        const std::string rest = line.substr(prefix.size());
+        const std::size_t end = rest.starts_with('/') ? rest.find(": ") : std::string::npos;
+        if (end == std::string::npos) return {pointer, rest};
+        return {pointer + rest.substr(0, end), rest.substr(end + 2)};
+    }
+
+    static ValueRange range(SceneMaterial& material, const json& object, const std::string& key) {
+        return ascending(material, range_of(object[key]), material.pointer + "/" + key);
+    }
+
+    static ValueRange ascending(SceneMaterial& material, ValueRange range,
+                                const std::string& pointer) {
+        if (range.first > range.last)
+            material.faults.push_back({pointer, "must ascend (got [" + to_text(range.first) + ", " +
+                                                    to_text(range.last) + "])"});
+        return range;
     }
 
     const json& document_;
@@ -154,25 +185,36 @@ const char* scene_schema_text() {
         ;
 }
 
-std::vector<std::string> scene_problems(const json& document, const std::string& file,
-                                        const std::string& folder) {
-    static const Schema schema(json::parse(scene_schema_text()));
+std::vector<std::string> scene_problems(const json& document, const std::string& file) {
     std::vector<std::string> lines;
-    for (const Problem& problem : check(schema, document))
+    for (const Problem& problem : broken_rules(document))
         lines.emplace_back(InputError(file, problem.pointer, problem.message).what());
-    if (!lines.empty()) return lines;
-    try {
-        Reader(document, file, folder).read();
-    } catch (const InputError& error) {
-        lines.emplace_back(error.what());
-    }
     return lines;
 }
 
+Scene read_scene(const json& document, const std::string& file, const std::string& folder) {
+    return Reader(document, file, folder).read();
+}
+
 Scene read_scene(const std::string& path) {
-    const json document = parse_json(read_text(path), shown_path(path));
-    return Reader(document, shown_path(path), std::filesystem::path(path).parent_path().string())
-        .read();
+    return read_scene(parse_json(read_text(path), shown_path(path)), shown_path(path),
+                      std::filesystem::path(path).parent_path().string());
+}
+
+SceneFault fault_of(const SceneMaterial& material, const std::exception& error) {
+    const auto* input = dynamic_cast<const InputError*>(&error);
+    if (!input) return {material.pointer, error.what()};
+    if (input->file.empty() && input->where.starts_with(material.pointer))
+        return {input->where, input->message};
+    const std::string stack = material.pointer + "/stack";
+    const bool is_pointer = input->where.empty() || input->where.starts_with('/');
+    if (input->file == stack && is_pointer) return {stack + input->where, input->message};
+    return {stack, input->what()};
+}
+
+std::string fault_text(const Scene& scene, const std::string& material, const SceneFault& fault) {
+    return InputError(scene.file, fault.pointer, "material " + material + ": " + fault.reason)
+        .what();
 }
 
 }  // namespace irido

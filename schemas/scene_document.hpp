@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -29,13 +30,23 @@ struct VariedRange {
     ValueRange range;
 };
 
+/// Why something of a scene cannot be.
+struct SceneFault {
+    std::string pointer;  ///< where in the scene: /materials/3/roughness
+    std::string reason;   ///< in words
+    bool operator==(const SceneFault&) const = default;
+};
+
 /// A material of a scene. Angles in degrees, alpha in [1e-4, 1].
 struct SceneMaterial {
     std::string name;
+    std::string pointer;             ///< in the scene: /materials/3
+    std::vector<SceneFault> faults;  ///< why it cannot be; then its stack may be missing
     StackSource source;
     StackDocument document;
     std::vector<VariedRange> vary;  ///< at most two
     ValueRange angles_deg{0, 90};
+    bool has_angles = false;  ///< the scene gives them
     bool is_rough = false;
     ValueRange alpha;
     bool transmission = false;
@@ -56,14 +67,23 @@ struct Scene {
     std::vector<std::string> notes;  ///< what the readers of stacks say
 };
 
-/// Reads a scene file ("-" for standard input). Throws InputError for the first thing that is
-/// wrong, in the scene or in one of its stacks.
+/// Reads a scene file ("-" for standard input). Throws InputError if it breaks the schema or two
+/// materials have one name. What else is wrong with a material is among its faults.
 Scene read_scene(const std::string& path);
 
-/// The broken rules of scene.schema.json, one line each; of a scene that breaks none, the first
-/// thing that is wrong with its stacks; nothing if it can be used.
-std::vector<std::string> scene_problems(const nlohmann::json& document, const std::string& file,
-                                        const std::string& folder);
+/// The same of a document.
+Scene read_scene(const nlohmann::json& document, const std::string& file,
+                 const std::string& folder);
+
+/// For what read_scene() throws, one line each.
+std::vector<std::string> scene_problems(const nlohmann::json& document, const std::string& file);
+
+/// What an error means that came up while a material was read or computed: an error inside of an
+/// inline stack gets its pointer into the scene.
+SceneFault fault_of(const SceneMaterial& material, const std::exception& error);
+
+/// "FILE: POINTER: material NAME: reason".
+std::string fault_text(const Scene& scene, const std::string& material, const SceneFault& fault);
 
 /// The text of scene.schema.json.
 const char* scene_schema_text();

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
@@ -23,6 +26,7 @@ constexpr std::size_t kDroppedSamples = 65;  ///< along an axis that has one sam
 constexpr std::size_t kWorstCells = 8;       ///< that are looked at on a finer grid
 constexpr std::size_t kFineSamples = 9;      ///< along each side of these
 constexpr std::size_t kEndSamples = 1025;    ///< along a range that may end early
+constexpr std::size_t kFewSamples = 256;     ///< of a level that is measured, not estimated
 
 std::size_t size_of(const std::vector<LutAxis>& axes, std::size_t first, std::size_t last) {
     std::size_t count = 1;
@@ -160,6 +164,27 @@ public:
         worst.resize(std::min(worst.size(), kWorstCells));
         for (const Difference& one : worst) keep(result, largest(cell_of(one.at), 1).front());
         return result;
+    }
+
+    /// The largest differences at the middles of all cells, and where.
+    std::vector<Difference> worst_middles() const {
+        std::vector<LutAxis> targets = axes_;
+        for (std::size_t a = 0; a < axes_.size(); ++a)
+            if (const std::vector<double> samples = between(a); !samples.empty())
+                targets[a].values = samples;
+        return largest(targets, kWorstCells);
+    }
+
+    /// The samples of the grid around a place.
+    std::vector<LutAxis> ends_of_cell(const std::vector<double>& at) const {
+        std::vector<LutAxis> ends = axes_;
+        for (std::size_t a = 0; a < axes_.size(); ++a) {
+            const std::vector<double>& x = axes_[a].values;
+            const std::size_t i = axes_[a].cell_of(at[a]);
+            ends[a].values = {x[i]};
+            if (x.size() > 1) ends[a].values.push_back(x[i + 1]);
+        }
+        return ends;
     }
 
 private:
@@ -451,6 +476,53 @@ std::vector<InterpolationError> interpolation_errors(const LutPlan& plan, const 
 
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making) {
     return sized(kind, plan, making);
+}
+
+std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized,
+                                           unsigned threads) {
+    std::vector<double> errors;
+    if (!sized.mips) return errors;
+    const auto compared = [&](const std::vector<LutAxis>& grid) {
+        return Comparison(plan, grid, as_stored(evaluated(plan, grid, threads), sized.type),
+                          threads);
+    };
+    for (std::vector<LutAxis> grid : grids_of(sized)) {
+        if (size_of(grid, 0, grid.size()) <= kFewSamples) {
+            errors.push_back(compared(grid).error().value);
+            continue;
+        }
+        const double sigma =
+            std::exchange(grid.front().values.front(), sized.axes.front().values.front());
+        const Comparison sharp = compared(grid);
+        double& worst = errors.emplace_back(0);
+        for (const Comparison::Difference& place : sharp.worst_middles()) {
+            std::vector<LutAxis> cell = sharp.ends_of_cell(place.at);
+            cell.front().values = {sigma};
+            worst = std::max(worst, compared(cell).worst_middles().front().value);
+        }
+    }
+    return errors;
+}
+
+double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads) {
+    constexpr std::size_t few = 8;  // samples along an axis
+    constexpr double evaluations =
+        4;  // of the values, between them along each of two axes and both
+    double seconds = 0;
+    for (std::vector<LutAxis> grid : grids_of(sized)) {
+        const auto all = static_cast<double>(size_of(grid, 0, grid.size()));
+        for (LutAxis& axis : grid)
+            if (axis.count() > few)
+                axis.values = equally_spaced(axis.values.front(), axis.values.back(), few);
+        const auto start = std::chrono::steady_clock::now();
+        plan.evaluate(grid);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        seconds += taken.count() * evaluations *
+                   std::max(1.0, all / static_cast<double>(size_of(grid, 0, grid.size())));
+    }
+    const unsigned cores =
+        threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    return seconds / cores;
 }
 
 Lut make_lut(const LutKind& kind, LutPlan plan, const LutMaking& making) {

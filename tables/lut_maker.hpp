@@ -54,4 +54,12 @@ Lut make_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 /// The same without its values and their error: what the table will be.
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
+/// Of each mip level of a sized table its interpolation error, or what few samples show of it: in
+/// the cells in which it would be worst without a spread. Empty if there are no levels.
+std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized, unsigned threads);
+
+/// Seconds that make_lut() will take for the values of a sized table and their error, from the time
+/// that few samples of each level take.
+double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads);
+
 }  // namespace irido

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
+#include "core/color/held_stack.hpp"
+#include "core/color/stack_color.hpp"
 #include "core/interference/film.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/random.hpp"
@@ -134,6 +137,22 @@ Triple film_xyz(const Film& film, double cos_theta, int orders, double sigma_nm,
     return xyz;
 }
 
+/// With the indices that shaders take, whatever the wavelength.
+Stack without_dispersion(Stack stack, const Sensitivity& sensitivity) {
+    const Stack held = held_stack(stack, sensitivity);
+    for (std::size_t m = 0; m < stack.materials.size(); ++m) {
+        const Complex index = index_at(held.materials[m], kShaderIndices_nm);
+        stack.materials[m].model = RefractiveIndex{Constant{index.real()}, Constant{index.imag()}};
+    }
+    return stack;
+}
+
+/// Some samples of a range, or its only one.
+std::vector<double> few_of(const std::vector<double>& samples) {
+    constexpr std::size_t few = 9;
+    return samples.size() < 2 ? samples : equally_spaced(samples.front(), samples.back(), few);
+}
+
 }  // namespace
 
 std::vector<double> sampled(const Lut& lut, std::size_t level, const std::vector<double>& place) {
@@ -216,6 +235,43 @@ double worst_fourier_difference(const Scene& scene, const SceneMaterial& materia
         const std::vector<LutAxis> axes = axes_at(exact, place);
         return exact.measure.differences(axes, exact.evaluate(axes), seen).front();
     });
+}
+
+double dispersion_difference(const Scene& scene, const SceneMaterial& material,
+                             const Execution& execution) {
+    const LutRequest request = color_request_of(scene, material, execution);
+    const ColorTables tables(*request.sensitivity);
+    const ColorValues values(request);
+    const VariedStack varied(request.source, paths_of(request.vary));
+    const LutMeasure measure = color_measure(request);
+    std::vector<double> angles_deg;
+    for (const double cosine : few_of(request.list("cos")))
+        angles_deg.push_back(angle_of_cosine(cosine));
+    const auto colors = [&](const Stack& stack) {
+        std::vector<double> all;
+        for (const StackColor& color :
+             stack_color(tables, stack, {}, request.color, angles_deg, execution.threads))
+            std::ranges::copy(values(color.xyz), std::back_inserter(all));
+        return all;
+    };
+    std::vector<std::vector<double>> places{{}};
+    for (const VariedValue& vary : request.vary) {
+        std::vector<std::vector<double>> more;
+        for (const auto& place : places)
+            for (const double value : few_of(vary.values)) {
+                more.push_back(place);
+                more.back().push_back(value);
+            }
+        places = std::move(more);
+    }
+    double worst = 0;
+    for (const auto& place : places) {
+        const Stack stack = varied.at(place);
+        const std::vector<double> exact = colors(stack),
+                                  seen = colors(without_dispersion(stack, *request.sensitivity));
+        worst = std::max(worst, std::ranges::max(measure.differences({}, exact, seen)));
+    }
+    return worst;
 }
 
 }  // namespace irido

@@ -31,4 +31,9 @@ double worst_fourier_difference(const Scene& scene, const SceneMaterial& materia
                                 const MaterialPlan& plan, const Lut* sensitivity,
                                 const Execution& execution, const RandomPoints& points);
 
+/// Largest Delta E 2000 of a material's reflected light that comes from taking all indices where
+/// shaders take them, at places of its angles and of what varies, up to nine of each.
+double dispersion_difference(const Scene& scene, const SceneMaterial& material,
+                             const Execution& execution);
+
 }  // namespace irido

@@ -14,6 +14,7 @@
 #include "core/interference/index_table.hpp"
 #include "schemas/canonical_stack.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/schema_check.hpp"
 #include "schemas/varied_stack.hpp"
 #include "tables/color_values.hpp"
 #include "tables/hash.hpp"
@@ -23,8 +24,9 @@ namespace irido {
 namespace {
 
 using nlohmann::json;
+using Kind = Omission::Kind;
 
-constexpr double kMiddle_nm = 550;      ///< where the constants of shaders are taken
+constexpr double kMiddle_nm = kShaderIndices_nm;
 constexpr std::size_t kRangeSize = 16;  ///< of a range whose size the tolerance decides
 constexpr double kOpaque_k = 1e-6;      ///< of a base of which no light comes back
 constexpr double kRed_nm = 700;         ///< the fringes of longer waves are hardly seen
@@ -45,6 +47,13 @@ double square(double x) {
 
 std::string in_text(const ValueRange& range) {
     return to_text(range.first) + " to " + to_text(range.last);
+}
+
+/// The option of a request that has cosines of angles; "" if there is none.
+std::string angle_option(const LutRequest& request) {
+    for (const char* name : {"cos", "cos-theta"})
+        if (request.has(name)) return name;
+    return "";
 }
 
 /// Plans one material after the other.
@@ -69,11 +78,13 @@ public:
             plan.shading = material.shading;
             plan.angles_deg = material.angles_deg;
             plan.vary = material.vary;
+            plan.faults = material.faults;
             const std::size_t omissions = result_.omissions.size();
             try {
-                plan_material(material, plan);
-            } catch (const std::runtime_error& error) {  // InputError, DomainError, LutError
-                plan.fault = error.what();
+                if (plan.faults.empty()) plan.faults = shading_faults(material);
+                if (plan.faults.empty()) plan_material(material, plan);
+            } catch (const std::exception& error) {  // whatever it is, it is this material's
+                plan.faults.push_back(fault_of(material, error));
                 plan.tables.clear();
                 result_.omissions.resize(omissions);
             }
@@ -93,6 +104,45 @@ public:
     }
 
 private:
+    /// What the shading does not take, as far as the scene itself says it.
+    std::vector<SceneFault> shading_faults(const SceneMaterial& material) const {
+        const std::string name(name_of(material.shading));
+        std::vector<SceneFault> faults;
+        const auto add = [&](const std::string& step, const std::string& reason) {
+            faults.push_back({material.pointer + step, reason});
+        };
+        const bool is_rough_layers = material.shading == Shading::rough_layers;
+        if (is_rough_layers && !material.is_rough) add("", name + " needs \"roughness\"");
+        if (is_rough_layers || (material.shading == Shading::albedo && material.is_rough))
+            for (const VariedRange& vary : material.vary)
+                if (!vary.range.is_one())
+                    add("/vary" + pointer_step(vary.path), "nothing may vary with the shading " +
+                                                               name + " of a rough surface (got " +
+                                                               in_text(vary.range) + ")");
+        if (material.shading == Shading::bragg)
+            if (const std::string fault = mirror_fault(material.document.stack); !fault.empty())
+                add("/shading", "bragg needs " + fault);
+        return faults;
+    }
+
+    /// What a shader's mirror needs and this stack has not; "" if it has all.
+    static std::string mirror_fault(const Stack& stack) {
+        const auto* group =
+            stack.elements.size() == 1 ? std::get_if<Group>(&stack.elements[0].value) : nullptr;
+        if (!group || group->elements.size() != 2 ||
+            !std::ranges::all_of(group->elements, [](const Element& e) {
+                return std::holds_alternative<Layer>(e.value);
+            }))
+            return "one repeated group of two layers and nothing else";
+        const auto& first = std::get<Layer>(group->elements[0].value);
+        const auto& second = std::get<Layer>(group->elements[1].value);
+        if (first.material != stack.incident || first.material != stack.substrate)
+            return "the first layer's material on both sides of the mirror";
+        if (IndexTable(stack, {kMiddle_nm}).index(second.material, 0).imag() != 0)
+            return "layers that do not absorb";
+        return "";
+    }
+
     void plan_material(const SceneMaterial& material, MaterialPlan& plan) {
         for (const HeldRange& held : held_ranges(material.document.stack, *sensitivity_))
             if (!held.usable)
@@ -103,10 +153,11 @@ private:
         if (material.angles_deg.first > all_angles.first ||
             material.angles_deg.last < all_angles.last)
             omit(material, "angles",
-                 "those outside of " + in_text(material.angles_deg) + " degrees never occur");
+                 "those outside of " + in_text(material.angles_deg) + " degrees never occur",
+                 Kind::given);
         for (const VariedRange& vary : material.vary)
             if (vary.range.is_one())
-                omit(material, vary.path, "is always " + to_text(vary.range.first));
+                omit(material, vary.path, "is always " + to_text(vary.range.first), Kind::given);
         plan_ignored(material);
         switch (material.shading) {
             case Shading::color:
@@ -128,25 +179,31 @@ private:
         const std::string name(name_of(shading));
         if (material.is_rough &&
             (shading == Shading::color || shading == Shading::fourier || shading == Shading::bragg))
-            omit(material, "roughness", "the shading " + name + " is of smooth surfaces");
+            omit(material, "roughness", "the shading " + name + " is of smooth surfaces",
+                 Kind::loss);
         if (material.thickness_spread_nm != 0 &&
             (shading == Shading::bragg || shading == Shading::rough_layers ||
              (shading == Shading::albedo && material.is_rough)))
-            omit(material, "mip levels", "the shading " + name + " has no spread of a thickness");
+            omit(material, "mip levels", "the shading " + name + " has no spread of a thickness",
+                 Kind::loss);
         const bool has_constants = shading == Shading::fourier || shading == Shading::bragg;
         const bool has_dispersion = !std::ranges::all_of(
             material.document.stack.materials, [](const Material& m) { return is_constant(m); });
         if (has_constants && has_dispersion)
             omit(material, "dispersion",
-                 "the shader takes the indices of " + to_text(kMiddle_nm) + " nm");
+                 "the shader takes the indices of " + to_text(kMiddle_nm) + " nm", Kind::loss);
     }
 
     void omit_transmission(const SceneMaterial& material, const std::string& reason) {
-        omit(material, "transmission", material.transmission ? reason : "was not asked for");
+        if (material.transmission)
+            omit(material, "transmission", reason);
+        else
+            omit(material, "transmission", "was not asked for", Kind::given);
     }
 
-    void omit(const SceneMaterial& material, const std::string& what, const std::string& reason) {
-        result_.omissions.push_back({material.name, what, reason});
+    void omit(const SceneMaterial& material, const std::string& what, const std::string& reason,
+              Kind kind = Kind::skipped) {
+        result_.omissions.push_back({material.name, what, reason, kind});
     }
 
     /// What a kind is asked, but for its own options.
@@ -182,6 +239,10 @@ private:
         table.kind = find_lut_kind(kind);
         table.request = std::move(request);
         table.making = making;
+        if (!angle_option(table.request).empty()) {
+            table.largest_angle_deg = material.angles_deg.last;
+            table.may_end_early = !material.has_angles;
+        }
         table.inputs = inputs_of(table);
         table.id = sha256_of(table.inputs.dump()).substr(0, 16);
         table.file = std::string(kind) + "-" + table.id + "." + scene_.format;
@@ -207,6 +268,7 @@ private:
         for (const auto& [name, value] : request.options)
             std::visit([&](const auto& v) { inputs["options"][name] = v; }, value);
         if (table.kind->stack) inputs["stack"] = canonical_stack(request.document.stack);
+        if (table.may_end_early) inputs["may_end_early"] = true;
         for (const VariedValue& vary : request.vary)
             inputs["vary"][vary.path] = {vary.values.front(), vary.values.back()};
         if (table.kind->stack && !request.vary.empty()) inputs["stack_at_end"] = end_of(request);
@@ -243,7 +305,7 @@ private:
         use(material, plan, "reflection", "color", request, making_of(true));
         plan.snippets = {"color"};
         if (!material.transmission) {
-            omit(material, "transmission", "was not asked for");
+            omit_transmission(material, "");
         } else if (is_opaque(material)) {
             omit(material, "transmission", "the base absorbs all that enters it");
         } else {
@@ -255,9 +317,10 @@ private:
     /// Levels of the thickness's spread, for mips.
     void plan_spread(const SceneMaterial& material, LutRequest& request) {
         const double spread = material.thickness_spread_nm;
-        if (spread == 0) return omit(material, "mip levels", "no spread is given");
+        if (spread == 0) return omit(material, "mip levels", "no spread is given", Kind::given);
         if (request.vary.size() != 1 || !request.vary.front().path.ends_with("thickness_nm"))
-            return omit(material, "mip levels", "the one value that varies must be a thickness");
+            return omit(material, "mip levels", "the one value that varies must be a thickness",
+                        Kind::loss);
         request.options["sigma"] = std::vector{0.0, spread / 4, spread / 2, spread};
     }
 
@@ -278,7 +341,7 @@ private:
             const std::string fault = stack.elements.empty() ? "no layer" : film_fault(stack);
             if (!fault.empty())
                 throw InputError(
-                    material.source.file, "",
+                    "", material.pointer + "/shading",
                     "fourier needs one coherent film of a real index (got " + fault + ")");
             films.push_back(shader_film(stack));
         }
@@ -309,8 +372,9 @@ private:
                            std::sqrt(1 - square(cos_of_incidence(material.angles_deg.last))) >=
                        f.film;
             }))
-            omit(material, "light past the film's critical angle",
-                 "the series has none: the shader gives white, the shading color what tunnels too");
+            omit(material, kPastCriticalAngle,
+                 "the series has none: the shader gives white, the shading color what tunnels too",
+                 Kind::loss);
         omit(material, "orders from " + std::to_string(orders + 1), "are below the tolerance");
         LutRequest request = request_of(material);
         request.vary.clear();
@@ -360,7 +424,7 @@ private:
                                   int orders) {
         const double spread = material.thickness_spread_nm;
         if (spread == 0) {
-            omit(material, "mip levels", "no spread is given");
+            omit(material, "mip levels", "no spread is given", Kind::given);
             return {0};
         }
         double largest = 0;
@@ -387,25 +451,13 @@ private:
 
     void plan_bragg(const SceneMaterial& material, MaterialPlan& plan) {
         const Stack& stack = material.document.stack;
-        const auto* group =
-            stack.elements.size() == 1 ? std::get_if<Group>(&stack.elements[0].value) : nullptr;
-        if (!group || group->elements.size() != 2 ||
-            !std::ranges::all_of(group->elements, [](const Element& e) {
-                return std::holds_alternative<Layer>(e.value);
-            }))
-            throw InputError(material.source.file, "",
-                             "bragg needs one repeated group of two layers and nothing else");
-        const auto& first = std::get<Layer>(group->elements[0].value);
-        const auto& second = std::get<Layer>(group->elements[1].value);
-        if (first.material != stack.incident || first.material != stack.substrate)
-            throw InputError(material.source.file, "",
-                             "bragg needs the first layer's material on both sides of the mirror");
+        const auto& group = std::get<Group>(stack.elements[0].value);
+        const auto& first = std::get<Layer>(group.elements[0].value);
+        const auto& second = std::get<Layer>(group.elements[1].value);
         const IndexTable table(stack, {kMiddle_nm});
-        if (table.index(second.material, 0).imag() != 0)
-            throw InputError(material.source.file, "", "bragg needs layers that do not absorb");
         plan.constants = {{"n1", table.n(first.material)[0]},  {"d1_nm", first.thickness_nm},
                           {"n2", table.n(second.material)[0]}, {"d2_nm", second.thickness_nm},
-                          {"periods", group->repeat},          {"at_nm", kMiddle_nm}};
+                          {"periods", group.repeat},           {"at_nm", kMiddle_nm}};
         plan.snippets = {"bragg", "cumulative"};
         omit(material, "color", "closed form in the shader: snippet bragg");
         omit_transmission(material, "what is not reflected is transmitted");
@@ -418,24 +470,7 @@ private:
 
     // --- rough surfaces -----------------------------------------------------------------------
 
-    void require_rough(const SceneMaterial& material) const {
-        if (!material.is_rough)
-            throw InputError(scene_.file, "/materials",
-                             material.name + ": " + std::string(name_of(material.shading)) +
-                                 " needs a roughness");
-    }
-
-    void require_fixed(const SceneMaterial& material) const {
-        for (const VariedRange& vary : material.vary)
-            if (!vary.range.is_one())
-                throw InputError(scene_.file, "/materials",
-                                 material.name + ": nothing may vary with the shading " +
-                                     std::string(name_of(material.shading)));
-    }
-
     void plan_rough_layers(const SceneMaterial& material, MaterialPlan& plan) {
-        require_rough(material);
-        require_fixed(material);
         plan.snippets = {"transmissivity"};
         omit_transmission(material, "rough-layers is of reflected light");
         const std::vector<double> angles = samples_of(
@@ -466,7 +501,6 @@ private:
             omit(material, "alpha", "the surface is smooth: its albedo is its colour");
             return plan_color(material, plan);
         }
-        require_fixed(material);
         LutRequest request = request_of(material);
         request.options["cos-theta"] = cosines_of(material.angles_deg);
         request.options["alpha"] = samples_of(material.alpha);
@@ -501,6 +535,35 @@ private:
 
 ScenePlan plan_scene(const Scene& scene, const Execution& execution) {
     return Planner(scene, execution).run();
+}
+
+std::vector<std::string> problems_of_scene(const json& document, const std::string& file,
+                                           const std::string& folder, const Execution& execution) {
+    if (auto lines = scene_problems(document, file); !lines.empty()) return lines;
+    const Scene scene = read_scene(document, file, folder);
+    ScenePlan plan = plan_scene(scene, execution);
+    std::vector<std::string> lines;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        MaterialPlan& material = plan.materials[m];
+        try {
+            for (const MaterialPlan::Use& use : material.tables) {
+                const SceneTable& table = plan.tables[use.table];
+                table.kind->plan(table.request);
+            }
+        } catch (const std::exception& error) {  // what the kind of table does not take
+            material.faults.push_back(fault_of(scene.materials[m], error));
+        }
+        for (const SceneFault& fault : material.faults)
+            lines.push_back(fault_text(scene, material.name, fault));
+    }
+    return lines;
+}
+
+LutRequest request_up_to(const SceneTable& table, double largest_angle_deg) {
+    LutRequest request = table.request;
+    auto& cosines = std::get<std::vector<double>>(request.options.at(angle_option(request)));
+    cosines = samples_of({cos_of_incidence(largest_angle_deg), cosines.back()});
+    return request;
 }
 
 LutRequest color_request_of(const Scene& scene, const SceneMaterial& material,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -111,20 +112,225 @@ TEST_CASE("a bake's bytes depend on the scene alone", "[cli][bake]") {
     CHECK(times_in(bakery.path("one")) == forced);
 }
 
-TEST_CASE("bake --prune removes tables that no material needs, and nothing else", "[cli][bake]") {
+TEST_CASE("bake --prune removes tables that this scene made and no material needs", "[cli][bake]") {
     const Bakery bakery;
     bakery.baked("a");
+    // not made by this scene, whatever it is called
     write_text(bakery.path("a/color-0123456789abcdef.ktx2"), "old");
     write_text(bakery.path("a/mine.ktx2"), "mine");
-    write_text(bakery.path("a/readme.txt"), "mine");
-    CHECK(bakery.baked("a").contains("color-0123456789abcdef.ktx2"));
+    json scene = json::parse(kScene);
+    scene["materials"].erase(3);
+    bakery.set(scene);
+    const std::string gone = fs::path(bakery.file("a", "cumulative-")).filename().string();
+    const auto plan = [&] {
+        return run_irido({"plan", bakery.path("scene.json"), "-o", bakery.path("a"), "--quiet"})
+            .out;
+    };
+    CHECK_THAT(plan(), Contains("stale, removed by bake --prune:\n  " + gone + "\n"));
+    const Files kept = bakery.baked("a");
+    CHECK(kept.contains(gone));
+    CHECK(json::parse(kept.at("manifest.json"))["stale"] == json::array({gone}));
+    bakery.baked("a");  // and is not forgotten
+    CHECK_THAT(plan(), Contains("  " + gone + "\n"));
     const Outcome pruned = bakery.bake("a", {"--prune"});
-    CHECK_THAT(pruned.err, Contains("removed color-0123456789abcdef.ktx2\n"));
+    CHECK_THAT(pruned.err, Contains("removed " + gone + "\n"));
+    CHECK_THAT(plan(), !Contains("stale"));
     Files left = files_in(bakery.path("a"));
-    CHECK(!left.contains("color-0123456789abcdef.ktx2"));
+    CHECK(left.erase("color-0123456789abcdef.ktx2") == 1);
     CHECK(left.erase("mine.ktx2") == 1);
-    CHECK(left.erase("readme.txt") == 1);
     CHECK(left == bakery.baked("b"));
+}
+
+TEST_CASE("a second scene needs a manifest of its own, and its tables are safe", "[cli][bake]") {
+    const Bakery bakery;
+    const Files first = bakery.baked("a");
+    json other = json::parse(kScene);
+    other["name"] = "other";
+    other["materials"] = {other["materials"][0], other["materials"][3]};
+    write_text(bakery.path("other.json"), other.dump());
+    const auto bake = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"bake", bakery.path("other.json"), "-o", bakery.path("a")};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_irido(all);
+    };
+    check_refused(bake({}),
+                  "a/manifest.json: is of another scene, scene.json \"test\": bake into "
+                  "another folder, or with --manifest NAME");
+    CHECK(files_in(bakery.path("a")) == first);
+    check_refused(bake({"--manifest", "../up"}), "--manifest: must be the name of a file");
+    const Outcome second = bake({"--manifest", "other"});
+    CHECK_THAT(second.err, Contains("0 made, 2 kept, other.json written"));
+    CHECK(run_irido({"validate", bakery.path("a/other.json")}).status == 0);
+    // what the first scene drops, the second keeps
+    json scene = json::parse(kScene);
+    scene["materials"].erase(3);
+    bakery.set(scene);
+    CHECK_THAT(bakery.bake("a", {"--prune"}).err, !Contains("removed"));
+    CHECK_THAT(bake({"--manifest", "other.json"}).err, Contains("0 made, 2 kept\n"));
+}
+
+TEST_CASE("the bake folder is irido's own: links and pipes are replaced", "[cli][bake]") {
+    const Bakery bakery;
+    const Files whole = bakery.baked("a");
+    const std::string file = bakery.file("a", "color-"), target = bakery.path("precious");
+    for (const std::string& place : {file, bakery.path("a/manifest.json")}) {
+        write_text(target, "precious");
+        fs::remove(place);
+        fs::create_symlink(target, place);
+        CHECK(bakery.baked("a") == whole);
+        CHECK(!fs::is_symlink(place));
+        CHECK(read_file(target) == "precious");
+        fs::remove(place);
+        fs::create_symlink(bakery.path("missing"), place);
+        CHECK(bakery.baked("a") == whole);
+        CHECK(!fs::exists(bakery.path("missing")));
+    }
+    // a link to the right bytes, too: who knows what happens to them
+    fs::rename(file, target);
+    fs::create_symlink(target, file);
+    CHECK(bakery.baked("a") == whole);
+    CHECK(!fs::is_symlink(file));
+    fs::remove(file);
+    REQUIRE(run_shell("mkfifo " + file, "/").status == 0);
+    CHECK(bakery.baked("a") == whole);
+}
+
+TEST_CASE("a table that is not the one asked for is made again", "[cli][bake]") {
+    const Bakery bakery(R"({"materials": [
+        {"name": "a", "stack": "1 | 1.33@100 | 1.5", "angles_deg": [0, 60], "shading": "color"},
+        {"name": "b", "stack": "1 | 1.33@150 | 1.5", "angles_deg": [0, 60], "shading": "color"},
+        {"name": "c", "stack": "1.5 | (1.5@95 | 1.75@82)^20 | 1.5", "shading": "bragg"}]})");
+    const Files whole = bakery.baked("a");
+    std::vector<std::string> colors;
+    for (const auto& [name, bytes] : whole)
+        if (name.starts_with("color-")) colors.push_back(bakery.path("a/" + name));
+    REQUIRE(colors.size() == 2);
+    const auto swap = [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // times of files go in ticks
+        fs::rename(colors[0], bakery.path("a/t"));
+        fs::rename(colors[1], colors[0]);
+        fs::rename(bakery.path("a/t"), colors[1]);
+    };
+    const auto copy = [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        fs::copy_file(bakery.file("a", "cumulative-"), colors[0],
+                      fs::copy_options::overwrite_existing);
+    };
+    for (const std::vector<std::string>& options : {std::vector<std::string>{}, {"--verify"}}) {
+        swap();
+        const Outcome validated = run_irido({"validate", bakery.path("a/manifest.json")});
+        CHECK(validated.status == 1);
+        CHECK_THAT(validated.out, Contains(": its file has another table (color "));
+        CHECK_THAT(run_irido({"plan", bakery.path("scene.json"), "-o", bakery.path("a")}).out,
+                   Contains("its file has another table"));
+        CHECK_THAT(bakery.bake("a", options).err, Contains("2 made, 1 kept"));
+        CHECK(files_in(bakery.path("a")) == whole);
+        copy();
+        CHECK(run_irido({"validate", bakery.path("a/manifest.json")}).status == 1);
+        CHECK_THAT(bakery.bake("a", options).err, Contains("1 made, 2 kept"));
+        CHECK(files_in(bakery.path("a")) == whole);
+    }
+    // nor is a manifest made of them where there is none
+    swap();
+    fs::remove(bakery.path("a/manifest.json"));
+    CHECK(bakery.baked("a") == whole);
+    CHECK(run_irido({"validate", bakery.path("a/manifest.json")}).status == 0);
+}
+
+TEST_CASE("an edited manifest is noticed", "[cli][bake]") {
+    const Bakery bakery;
+    const Files whole = bakery.baked("a");
+    const std::string path = bakery.path("a/manifest.json");
+    for (const auto& [pointer, value] : std::map<std::string, json>{
+             {"/materials/series/constants/n2", 9}, {"/settings/space", "rec2020"}}) {
+        json edited = json::parse(whole.at("manifest.json"));
+        edited[json::json_pointer(pointer)] = value;
+        write_text(path, edited.dump(2));
+        const Outcome validated = run_irido({"validate", path});
+        CHECK(validated.status == 1);
+        CHECK_THAT(validated.out, Contains("/checksum: is not that of the manifest"));
+        const Outcome outcome = bakery.bake("a");
+        CHECK_THAT(outcome.err, Contains("manifest.json: is not as irido wrote it") &&
+                                    Contains("manifest.json written"));
+        CHECK(files_in(bakery.path("a")) == whole);
+    }
+}
+
+TEST_CASE("one material's failure is its own, whatever the error", "[cli][bake]") {
+    const Bakery bakery(R"({"materials": [
+        {"name": "good", "stack": "1 | 1.33@100 | 1.5", "angles_deg": [0, 60], "shading": "color"},
+        {"name": "steep", "stack": "1 | 1.33@100 | 1", "vary": {"layers.0.thickness_nm": [0, 100]},
+         "angles_deg": [0, 90], "shading": "color"},
+        {"name": "twice", "stack": {"incident": 1, "layers": [{"material": 1.33, "thickness_nm": 9}],
+         "substrate": 1}, "vary": {"layers.0": [1, 2], "layers.0.thickness_nm": [1, 2]},
+         "shading": "color"},
+        {"name": "ends", "stack": {"incident": 1, "layers": [{"material": {"table": [[500, 1.5],
+         [600, 1.5]]}, "thickness_nm": 9}], "substrate": 1}, "shading": "fourier"},
+        {"name": "lost", "stack": "lost.json", "shading": "color"}],
+        "tolerance": {"delta_e": 2}})");
+    const Outcome plan = run_irido({"plan", bakery.path("scene.json"), "--quiet"});
+    CHECK(plan.status == 1);
+    CHECK_THAT(plan.out, Contains("good") && Contains("total"));
+    const Outcome outcome = bakery.bake("a", {"--quiet"});
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err == plan.err);
+    const std::string scene = "irido: error: " + bakery.path("scene.json") + ": ";
+    for (const std::string start : {"/materials/1: material steep: no table",
+                                    "/materials/4/stack: material lost: lost.json: cannot be read",
+                                    "4 of 5 materials failed\n"})
+        CHECK_THAT(outcome.err, Contains(scene + start));
+    CHECK_THAT(outcome.err, Contains("\"angles_deg\": [0, 85] would do"));
+    const json manifest = json::parse(read_file(bakery.path("a/manifest.json")));
+    CHECK(manifest["materials"].size() == 1);
+    CHECK(manifest["materials"].contains("good"));
+    CHECK(manifest["failed"].size() == 4);
+    CHECK(manifest["failed"]["lost"][0]["pointer"] == "/materials/4/stack");
+    CHECK(run_irido({"validate", bakery.path("a/manifest.json")}).status == 0);
+}
+
+TEST_CASE("where a scene gives no angles, they are those that a table can serve", "[cli][bake]") {
+    const Bakery bakery(R"({"materials": [
+        {"name": "wall", "stack": "1 | 1.33@100 | 1", "vary": {"layers.0.thickness_nm": [0, 100]},
+         "shading": "color"},
+        {"name": "film", "stack": "1 | 1.33@100 | 1.5", "shading": "color"}],
+        "tolerance": {"delta_e": 2}})");
+    const json manifest = json::parse(bakery.baked("a").at("manifest.json"));
+    const json& wall = manifest["materials"]["wall"];
+    CHECK(wall["angles_deg"] == json::array({0, 85}));
+    CHECK_THAT(wall["losses"].dump(), Contains("those beyond 85 degrees"));
+    const json& table = manifest["tables"][wall["tables"]["reflection"].get<std::string>()];
+    CHECK(table["axes"][0]["first"].get<double>() == Approx(std::cos(85 * M_PI / 180)));
+    CHECK(manifest["materials"]["film"]["angles_deg"] == json::array({0, 90}));
+    CHECK_THAT(bakery.bake("a").err, Contains("0 made, 2 kept\n"));
+}
+
+TEST_CASE("plan says why a table is new, and bytes do not depend on that", "[cli][bake]") {
+    const Bakery bakery;
+    const auto plan = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"plan", bakery.path("scene.json"), "-f", "json", "--quiet"};
+        all.insert(all.end(), more.begin(), more.end());
+        return json::parse(run_irido(all).out);
+    };
+    const std::vector<std::string> folder{"-o", bakery.path("a")};
+    const json fresh = plan({});
+    for (const json& table : plan(folder)["tables"])
+        CHECK(table["why"] == "nothing was baked before");
+    bakery.baked("a");
+    const json kept = plan(folder);
+    for (std::size_t t = 0; t < fresh["tables"].size(); ++t) {
+        CHECK(fresh["tables"][t]["bytes"] == kept["tables"][t]["bytes"]);
+        CHECK(kept["tables"][t]["why"] == "");
+    }
+    json scene = json::parse(kScene);
+    scene["materials"][0]["vary"]["layers.0.thickness_nm"] = {240, 350};
+    bakery.set(scene);
+    CHECK(plan(folder)["tables"][0]["why"] == "changed: vary");
+    scene["tolerance"]["delta_e"] = 1;
+    bakery.set(scene);
+    CHECK(plan(folder)["tables"][0]["why"] == "changed: tolerance");
+    // a time is on standard error
+    CHECK_THAT(run_irido({"plan", bakery.path("scene.json")}).err,
+               Contains("to make what is new will take about "));
 }
 
 TEST_CASE("a changed scene makes only what changed", "[cli][bake]") {
@@ -195,7 +401,7 @@ TEST_CASE("two bakes of one folder at once: one says so, nothing is harmed", "[c
     CHECK(bakery.baked("b") == whole);
 }
 
-TEST_CASE("a material that fails leaves the others and the old manifest", "[cli][bake]") {
+TEST_CASE("a material that fails leaves the others", "[cli][bake]") {
     const Bakery bakery;
     const Files before = bakery.baked("a");
     json scene = json::parse(kScene);
@@ -204,13 +410,15 @@ TEST_CASE("a material that fails leaves the others and the old manifest", "[cli]
     scene["materials"].push_back(
         {{"name", "new"}, {"stack", "1 | 1.33@310 | 1.5+3i"}, {"shading", "color"}});
     bakery.set(scene);
-    const Outcome outcome = bakery.bake("a");
+    const Outcome outcome = bakery.bake("a", {"--prune"});
     CHECK(outcome.status == 1);
-    CHECK_THAT(outcome.err, Contains("error: material bad: ") &&
+    CHECK_THAT(outcome.err, Contains("scene.json: /materials/6/shading: material bad: ") &&
                                 Contains("1 of 8 materials failed\n") && Contains("1 made"));
     Files after = files_in(bakery.path("a"));
     CHECK(after.size() == before.size() + 1);
-    CHECK(after["manifest.json"] == before.at("manifest.json"));
+    const json manifest = json::parse(after.at("manifest.json"));
+    CHECK(manifest["materials"].size() == 7);
+    CHECK(manifest["failed"]["bad"][0]["pointer"] == "/materials/6/shading");
     // the plan says it, too
     CHECK(run_irido({"plan", bakery.path("scene.json")}).status == 1);
     // repaired, what was made is kept
@@ -234,6 +442,7 @@ TEST_CASE("a manifest that is broken, foreign or of other numbers starts over", 
     old["numbers"] = 0;
     json odd = json::parse(whole.at("manifest.json"));
     odd["tables"].begin().value()["file"] = "../outside.ktx2";
+    old.erase("checksum");
     for (const std::string& text :
          {std::string("{"), std::string(), std::string("[]"), std::string("\xff\xfe\x00", 3),
           old.dump(), odd.dump(), whole.at("manifest.json").substr(0, 500)}) {
@@ -260,10 +469,12 @@ TEST_CASE("a table that was altered is made again", "[cli][bake]") {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));  // times of files go in ticks
     write_text(file, bytes);  // newer than the manifest: it is read
     CHECK(restored({}));
-    write_text(file, bytes);  // of its size, and older: believed, but with --verify
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    write_text(file, bytes);  // of its size, and with an older time: it was touched nevertheless
     fs::last_write_time(
         file, fs::last_write_time(bakery.path("a/manifest.json")) - std::chrono::hours(1));
-    CHECK_THAT(bakery.bake("a").err, Contains("0 made"));
+    CHECK(restored({}));
+    write_text(file, bytes);
     CHECK(restored({"--verify"}));
     // touched and whole: read, and kept
     fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::hours(1));

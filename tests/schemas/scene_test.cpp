@@ -43,12 +43,15 @@ json complete_scene() {
     })");
 }
 
-/// What read_scene() says of a scene file.
+/// What read_scene() says of a scene file, or the first fault of a material.
 std::string error_of(const json& document) {
     const TemporaryFolder folder;
     write_text(folder / "scene.json", document.dump());
     try {
-        read_scene(folder / "scene.json");
+        const Scene scene = read_scene(folder / "scene.json");
+        for (const SceneMaterial& material : scene.materials)
+            for (const SceneFault& fault : material.faults)
+                return fault.pointer + ": " + fault.reason;
     } catch (const InputError& error) {
         const std::string text = error.what();
         REQUIRE(text.starts_with(folder / "scene.json: "));
@@ -293,9 +296,15 @@ TEST_CASE("validate takes scenes and manifests, by what is in them", "[cli][vali
     CHECK(two.status == 1);
     CHECK(std::count(two.out.begin(), two.out.end(), '\n') == 2);
 
-    write_text(folder / "manifest.json", R"({"irido": "0.1.0", "numbers": 1, "scene": "",
-        "settings": {}, "tables": {}, "materials": {}})");
-    CHECK(run_irido({"validate", folder / "manifest.json"}).out == folder / "manifest.json: ok\n");
+    // the checksum is that of {"irido":...} on one line with sorted keys
+    const Outcome edited = [&] {
+        write_text(folder / "manifest.json", R"({"irido": "0.1.0", "numbers": 1, "scene": "",
+            "settings": {}, "tables": {}, "materials": {}, "checksum": ")" +
+                                                 ("sha256:" + std::string(64, '0')) + "\"}");
+        return run_irido({"validate", folder / "manifest.json"});
+    }();
+    CHECK(edited.status == 1);
+    CHECK(edited.out.starts_with(folder / "manifest.json: /checksum: is not that of the manifest"));
     write_text(folder / "manifest.json", R"({"tables": {}, "materials": {}})");
     const Outcome manifest = run_irido({"validate", folder / "manifest.json"});
     CHECK(manifest.status == 1);
@@ -303,12 +312,77 @@ TEST_CASE("validate takes scenes and manifests, by what is in them", "[cli][vali
     CHECK(run_irido({"validate", "tests/data/complete-stack.json"}).status == 0);
 }
 
+TEST_CASE("validate says what plan would refuse, each thing once and with its place",
+          "[cli][validate][scene]") {
+    struct Fault {
+        std::string material, line;
+    };
+    const std::string film = R"("stack": "1 | 1.33@400 | 1.5")";
+    const std::string mirror = R"("stack": "1.5 | (1.5@95 | 1.75@82)^20 | 1.5")";
+    const std::vector<Fault> faults{
+        {film + R"(, "shading": "rough-layers")", ": material a: rough-layers needs \"roughness\""},
+        {film + R"(, "shading": "rough-layers", "roughness": 0.1,
+                   "vary": {"layers.0.thickness_nm": [1, 2]})",
+         "/vary/layers.0.thickness_nm: material a: nothing may vary with the shading rough-layers "
+         "of a rough surface (got 1 to 2)"},
+        {film + R"(, "shading": "albedo", "roughness": 0.1,
+                   "vary": {"layers.0.thickness_nm": [1, 2]})",
+         "/vary/layers.0.thickness_nm: material a: nothing may vary with the shading albedo of a "
+         "rough surface (got 1 to 2)"},
+        {R"("stack": "1 | 1.33@400 | 1.4@100 | 1.5", "shading": "fourier")",
+         "/shading: material a: fourier needs one coherent film of a real index (got more than one "
+         "layer)"},
+        {film + R"(, "shading": "bragg")",
+         "/shading: material a: bragg needs one repeated group of two layers and nothing else"},
+        {R"("stack": "1 | (1.5@95 | 1.75@82)^20 | 1.5", "shading": "bragg")",
+         "/shading: material a: bragg needs the first layer's material on both sides of the "
+         "mirror"},
+        {R"("stack": {"incident": 1, "layers": [{"material": 1.33, "thickness_nm": -1}], "substrate": 1.5},
+            "shading": "color")",
+         "/stack/layers/0/thickness_nm: material a: must be in [0, 1e9] (got -1)"},
+        {R"("stack": "no.json", "shading": "color")",
+         "/stack: material a: no.json: cannot be read: No such file or directory"},
+        {film + R"(, "shading": "color", "angles_deg": [80, 0])",
+         "/angles_deg: material a: must ascend (got [80, 0])"},
+    };
+    for (const Fault& fault : faults) {
+        const TemporaryFolder folder;
+        write_text(folder / "scene.json",
+                   R"({"materials": [{"name": "a", )" + fault.material + "}]}");
+        const std::string line = folder / "scene.json: /materials/0" + fault.line + "\n";
+        const Outcome validated = run_irido({"validate", folder / "scene.json"});
+        CHECK(validated.status == 1);
+        CHECK(validated.out == line);
+        // and plan and bake say the same
+        const Outcome planned = run_irido({"plan", folder / "scene.json", "--quiet"});
+        CHECK(planned.status == 1);
+        CHECK(planned.err == "irido: error: " + line + "irido: error: " + folder / "scene.json" +
+                                 ": 1 of 1 materials failed\n");
+    }
+}
+
+TEST_CASE("validate says all that is wrong with all materials", "[cli][validate][scene]") {
+    const TemporaryFolder folder;
+    write_text(folder / "scene.json", R"({"materials": [
+        {"name": "a", "stack": {"incident": 1, "layers": [{"material": -2, "thickness_nm": -1}],
+         "substrate": 1}, "shading": "color", "angles_deg": [9, 1]},
+        {"name": "b", "stack": "1 | 1.33@9 | 1", "shading": "color"},
+        {"name": "c", "stack": "1 | 1.33@9 | 1", "shading": "rough-layers",
+         "vary": {"layers.0.thickness_nm": [1, 2]}}]})");
+    const Outcome outcome = run_irido({"validate", folder / "scene.json"});
+    INFO(outcome.out);
+    CHECK(outcome.status == 1);
+    for (const std::string place : {"0/stack/layers/0/material", "0/stack/layers/0/thickness_nm",
+                                    "0/angles_deg", "2", "2/vary/layers.0.thickness_nm"})
+        CHECK(outcome.out.find(folder / "scene.json: /materials/" + place + ": material ") !=
+              std::string::npos);
+}
+
 TEST_CASE("validate prints each schema", "[cli][validate][scene]") {
     for (const std::string name : {"stack", "scene", "manifest", "lut"}) {
         const Outcome outcome = run_irido({"validate", "--schema", name});
         CHECK(outcome.status == 0);
-        CHECK(outcome.out ==
-              read_file(IRIDO_SOURCE_DIR "/schemas/" + name + ".schema.json"));
+        CHECK(outcome.out == read_file(IRIDO_SOURCE_DIR "/schemas/" + name + ".schema.json"));
     }
     check_refused(run_irido({"validate", "--schema", "scenes"}),
                   "--schema: must be one of stack, scene, manifest, lut (got 'scenes') (did you "

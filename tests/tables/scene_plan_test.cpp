@@ -56,8 +56,8 @@ Planned planned(const std::string& materials, const json& settings = json::objec
     result.scene = read_scene(folder / "scene.json");
     result.plan = plan_scene(result.scene, {});
     for (const MaterialPlan& material : result.plan.materials) {
-        INFO(material.fault);
-        REQUIRE(material.fault.empty());
+        INFO((material.faults.empty() ? "" : material.faults.front().reason));
+        REQUIRE(material.faults.empty());
     }
     return result;
 }
@@ -65,7 +65,10 @@ Planned planned(const std::string& materials, const json& settings = json::objec
 std::string fault_of(const std::string& material) {
     const TemporaryFolder folder;
     write_text(folder / "scene.json", "{\"materials\": [" + material + "]}");
-    return plan_scene(read_scene(folder / "scene.json"), {}).materials.at(0).fault;
+    const ScenePlan plan = plan_scene(read_scene(folder / "scene.json"), {});
+    const std::vector<SceneFault>& faults = plan.materials.at(0).faults;
+    REQUIRE(faults.size() == 1);
+    return faults[0].pointer + ": " + faults[0].reason;
 }
 
 bool has_note(const json& entry, const std::string& part) {
@@ -301,7 +304,7 @@ TEST_CASE("plan: a material that its shading cannot have is a fault of its own",
               .find("bragg needs one repeated group of two layers") != std::string::npos);
     CHECK(fault("1 | (1.5@95 | 1.75@82)^20 | 1.5", R"("shading": "bragg")")
               .find("bragg needs the first layer's material on both sides") != std::string::npos);
-    CHECK(fault("1 | 1.33@400 | 1.5", R"("shading": "rough-layers")").find("needs a roughness") !=
+    CHECK(fault("1 | 1.33@400 | 1.5", R"("shading": "rough-layers")").find("needs \"roughness\"") !=
           std::string::npos);
     CHECK(fault("1 | 1.33@400 | 1.5", R"("shading": "albedo", "roughness": 0.1,
                                          "vary": {"layers.0.thickness_nm": [1, 2]})")
@@ -334,4 +337,43 @@ TEST_CASE("a series with a spread in the shader is near the exact colour", "[sce
                                                   rim.plan.materials[0], &lut, {}, {2000, 1, 0});
     INFO(worst);
     CHECK(worst < 2);
+}
+
+TEST_CASE("plan: what a shader's constant indices lose is measured", "[scene][plan]") {
+    const Planned glass = planned(R"({"stack": "air | SiO2@300 | Si", "angles_deg": [0, 60],
+                                      "shading": "fourier"})");
+    const auto loss = std::ranges::find(glass.plan.omissions, "dispersion", &Omission::what);
+    REQUIRE(loss != glass.plan.omissions.end());
+    CHECK(loss->kind == Omission::Kind::loss);
+    const double with = dispersion_difference(glass.scene, glass.scene.materials[0], {});
+    CHECK(with > 0.5);
+    CHECK(with < 50);
+    // none where nothing depends on the wavelength
+    const Planned constant = planned(R"({"stack": "1 | 1.46@300 | 4.1+0.04i", "angles_deg": [0, 60],
+        "vary": {"layers.0.thickness_nm": [200, 300]}, "shading": "fourier"})");
+    CHECK(dispersion_difference(constant.scene, constant.scene.materials[0], {}) == 0);
+}
+
+TEST_CASE("plan: errors of mip levels are estimated near those of the table", "[scene][plan]") {
+    const Planned film = planned(R"({"stack": "1 | 1.33@400 | 1.5+3i", "angles_deg": [0, 60],
+        "vary": {"layers.0.thickness_nm": [250, 450]}, "thickness_spread_nm": 10})",
+                                 {{"tolerance", {{"delta_e", 2}}}});
+    const SceneTable& table = film.table("reflection");
+    const LutPlan plan = table.kind->plan(table.request);
+    const Lut lut = make_lut(*table.kind, plan, table.making);
+    const auto exact = lut.facts["error"]["levels"].get<std::vector<double>>();
+    const auto estimated = estimated_level_errors(plan, lut, 0);
+    REQUIRE(estimated.size() == exact.size());
+    for (std::size_t level = 0; level < exact.size(); ++level) {
+        CHECK(estimated[level] <= exact[level] * (1 + 1e-9));
+        CHECK(estimated[level] >= exact[level] / 2);
+    }
+    CHECK(estimated_seconds(plan, lut, 1) > 0);
+    // levels beyond the tolerance are a loss
+    const TableEntries entries{{table.id, film.entry("reflection")}};
+    const auto all = omissions_of(film.plan, film.plan.materials[0], entries);
+    const auto loss = std::ranges::find(all, "reflection mip levels", &Omission::what);
+    REQUIRE(loss != all.end());
+    CHECK(loss->kind == Omission::Kind::loss);
+    CHECK(loss->delta_e.value() > 2);
 }
