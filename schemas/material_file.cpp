@@ -18,7 +18,7 @@ const MaterialFile& MaterialFiles::read(const std::string& path) {
     const std::scoped_lock guard(lock_);
     const auto known = known_.find(path);
     if (known != known_.end()) return known->second;
-    const std::string text = read_text(path);
+    const std::string text = read_text(path, TextSource::regular_file);
     return known_
         .emplace(path, path.ends_with(".csv") ? read_material_csv(text, path)
                                               : read_refractiveindex_info(text, path))

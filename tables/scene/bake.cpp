@@ -170,7 +170,7 @@ json material_entry(const ScenePlan& plan, const MaterialPlan& material,
 /// The manifest, if it is one.
 json read_manifest(const std::string& folder) {
     try {
-        json manifest = json::parse(read_text(folder + "/" + kManifest));
+        json manifest = json::parse(read_own_file(folder + "/" + kManifest));
         if (manifest_problems(manifest, kManifest).empty()) return manifest;
     } catch (const InputError&) {
     } catch (const json::exception&) {
@@ -324,7 +324,7 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
     const std::string path = request.folder + "/" + kManifest;
     std::error_code ignored;
     // after new files, too: what is not newer than the manifest need not be read next time
-    if (!result.made.empty() || !fs::exists(path, ignored) || read_text(path) != text) {
+    if (!result.made.empty() || !fs::exists(path, ignored) || read_own_file(path) != text) {
         write_file(path, text);
         result.manifest_written = true;
     }
