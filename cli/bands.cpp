@@ -67,11 +67,11 @@ int run_bands(const BandsCommand& command) {
     const BandsQuestion question(
         static_cast<const BandsOptions&>(*command.typed),
         {.note = [&](const std::string& text) { note(text, command.quiet); }});
-    check_plot(command.plot, command.output);
     const auto [least, most] = std::ranges::minmax(question.angles_deg());
     if (command.plot && least == most)
         throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+    check_plot(command.plot, command.output);
     const Records records = records_of(question, *prepared);
     const std::string drawn =
         command.plot ? picture(question, prepared->document, command.stack.stack) : "";

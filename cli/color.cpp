@@ -43,6 +43,7 @@ int run_color(const ColorCommand& command) {
         {.execution = execution_of(command.threads),
          .note = [&](const std::string& text) { note(text, command.quiet); }});
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+    check_writable(command.output);
     const StackDocument& document = prepared->document;
     const StackColors colors = question.colors(*prepared, document.stack, question.angles_deg());
     if (is_picture) {

@@ -40,7 +40,8 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
         .add_option("-o,--output", output.file,
                     "write to FILE (whole or not at all); the format follows the\n"
                     "extension [standard output]")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check([](const std::string& file) { return file.empty() ? "must name a file" : ""; });
     command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
 }
 
@@ -111,14 +112,15 @@ void check_writable(const OutputOptions& output) {
     const std::string name = folder.empty() ? "." : folder.string();
     if (access(name.c_str(), W_OK | X_OK) != 0)
         throw UsageError(output.file + ": cannot be written: " + std::strerror(errno));
+    check_outputs({output.file});
 }
 
 void check_plot(const std::optional<std::string>& plot, const OutputOptions& output) {
     if (!plot) return;
     if (!plot->ends_with(".svg"))
         throw UsageError("--plot: must end in .svg (got '" + *plot + "')");
-    if (*plot == output.file) throw UsageError("--plot: must be another file than --output");
     check_writable({*plot, "svg"});
+    if (!output.file.empty()) check_outputs({output.file, *plot});
 }
 
 void write_records(const Records& records, const OutputOptions& output) {

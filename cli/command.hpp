@@ -67,10 +67,11 @@ std::string resolved_format(const OutputOptions& output);
 const RecordFormat& resolved_record_format(const OutputOptions& output,
                                            std::string_view others = "");
 
-/// Throws UsageError if a file could not be written there: before a long computation.
+/// Throws UsageError or OutputError if a file could not be written there: before a long
+/// computation, and after the inputs are read, of which it must not be one.
 void check_writable(const OutputOptions& output);
 
-/// Throws UsageError if a picture cannot be drawn into `plot` beside that output.
+/// Throws UsageError or OutputError if a picture cannot be drawn into `plot` beside that output.
 void check_plot(const std::optional<std::string>& plot, const OutputOptions& output);
 
 /// Writes records to the file or to standard output.

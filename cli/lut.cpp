@@ -195,8 +195,8 @@ LutMaking making_of(const LutCommand& command, const LutFormat& format, std::siz
 
 int run_lut(const LutKind& kind, const LutCommand& command) {
     const LutFormat& format = resolved_lut_format(command.output);
-    check_writable(command.output);
     const LutRequest request = parse(kind, command);
+    check_writable(command.output);
     LutPlan plan = plan_of(kind, request);
     LutMaking making = making_of(command, format, plan.axes.size());
     Progress progress(command.quiet);

@@ -3,6 +3,7 @@
 
 #include "cli/command.hpp"
 #include "cli/questions/spectrum_question.hpp"
+#include "tables/stream/record_stream.hpp"
 
 namespace irido {
 
@@ -18,13 +19,20 @@ struct SpectrumCommand {
 };
 
 int run_spectrum(const SpectrumCommand& command) {
-    resolved_record_format(command.output);
-    const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
-                                    {.execution = execution_of(command.threads)});
-    const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
-    write_records(records_of(question, *prepared), command.output);
+    const StreamFormat& format = *find_counted_format(resolved_record_format(command.output).name);
+    const SpectrumQuestion question(
+        static_cast<const SpectrumOptions&>(*command.typed),
+        {.execution = execution_of(command.threads),
+         .note = [&](const std::string& text) { note(text, command.quiet); }});
+    const StackDocument document = read_noted_stack(command.stack, command.quiet);
+    const RecordLayout layout = question.layout(document);
+    const auto stream = counted_output(command.output.file, format, layout, question.rows());
+    question.each_block(document, [&](const Records& rows) {
+        stream->append(format.rows(layout, rows), 0, rows.rows());
+    });
+    stream->finish();
     if (command.stats)
-        for (const std::string& line : question.stats(*prepared))
+        for (const std::string& line : question.stats(*question.prepare(document)))
             std::cerr << "irido: stats: " << line << '\n';
     return 0;
 }

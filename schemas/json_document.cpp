@@ -16,6 +16,7 @@
 #include "schemas/number.hpp"
 #include "schemas/stack_expression.hpp"
 #include "schemas/text_file.hpp"
+#include "schemas/utf8.hpp"
 
 namespace irido {
 namespace {
@@ -265,6 +266,7 @@ void set_value(json& document, std::string_view path_equals_value) {
                          "must be PATH=VALUE, as in layers.0.thickness_nm=400");
     }
     const std::string_view path = path_equals_value.substr(0, equals);
+    if (!is_well_formed(path_equals_value)) throw InputError(well_formed(path), "", kNoText);
     set_value(document, path, value_from_text(path, path_equals_value.substr(equals + 1)));
 }
 

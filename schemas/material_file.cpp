@@ -42,7 +42,8 @@ const MaterialFile& MaterialFiles::read(const std::string& path) {
     const std::scoped_lock guard(lock_);
     const auto known = known_.find(path);
     if (known != known_.end()) return known->second;
-    return known_.emplace(path, read_material_file(read_text(path), path)).first->second;
+    const std::string text = read_text(path, TextSource::regular_file);
+    return known_.emplace(path, read_material_file(text, path)).first->second;
 }
 
 }  // namespace irido

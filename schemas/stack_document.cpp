@@ -23,6 +23,7 @@
 #include "schemas/schema_check.hpp"
 #include "schemas/stack_expression.hpp"
 #include "schemas/text_file.hpp"
+#include "schemas/utf8.hpp"
 
 namespace irido {
 namespace {
@@ -386,6 +387,7 @@ StackSource load_stack(const StackRequest& request) {
     StackSource source;
     if (request.stack.find('|') != std::string::npos) {
         source.file = "\"" + request.stack + "\"";
+        if (!is_well_formed(request.stack)) throw InputError(well_formed(source.file), "", kNoText);
         source.document = parse_stack_expression(request.stack);
     } else {
         std::error_code ignored;

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "schemas/text_file.hpp"
+
 namespace irido {
 
 namespace {
@@ -32,6 +34,20 @@ mode_t default_mode() {
     const mode_t mask = umask(0);
     umask(mask);
     return 0666 & ~mask;
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+/// Whether both paths lead to one regular file, which need not be there yet.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code ignored;
+    if (std::filesystem::exists(a, ignored) || std::filesystem::exists(b, ignored))
+        return std::filesystem::equivalent(a, b, ignored) &&
+               std::filesystem::is_regular_file(a, ignored);
+    return a.filename() == b.filename() &&
+           std::filesystem::equivalent(folder_of(a), folder_of(b), ignored);
 }
 
 }  // namespace
@@ -57,15 +73,33 @@ std::string resolved_path(const std::string& path) {
     return ignored ? path : real.string();
 }
 
+void require_no_input(const std::string& path) {
+    if (is_input(path)) throw OutputError(path + ": is one of the inputs: name another file");
+}
+
+void check_outputs(const std::vector<std::string>& paths) {
+    for (auto path = paths.begin(); path != paths.end(); ++path) {
+        output_target(*path);
+        for (auto other = paths.begin(); other != path; ++other)
+            if (is_same_file(*path, *other))
+                throw OutputError(*path + ": is the same file as " + *other +
+                                  ", which is written, too: name another file");
+    }
+}
+
 OutputTarget output_target(const std::string& path) {
+    require_no_input(path);
     OutputTarget target{resolved_path(path)};
+    std::error_code ignored;
+    const bool is_link = std::filesystem::is_symlink(path, ignored);
     struct stat existing {};
     if (stat(target.path.c_str(), &existing) != 0) {
+        if (is_link) throw OutputError(path + ": cannot be written: is a symbolic link to nothing");
         target.mode = default_mode();
         return target;
     }
     if (S_ISDIR(existing.st_mode)) fail_to_write(path, EISDIR);
-    target.is_file = S_ISREG(existing.st_mode);
+    target.is_file = S_ISREG(existing.st_mode) && !(is_link && target.path == path);
     target.mode = existing.st_mode & 07777;
     if (target.is_file && access(target.path.c_str(), W_OK) != 0) fail_to_write(path, errno);
     return target;
@@ -103,6 +137,7 @@ void write_file(const std::string& path, std::string_view bytes) {
 }
 
 void write_stdout(std::string_view bytes) {
+    require_no_input("/dev/stdout");
     if (const int error = write_all(STDOUT_FILENO, bytes)) fail_to_write("standard output", error);
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace irido {
 
@@ -18,16 +19,25 @@ struct BrokenPipe {};
 
 /// What stands at a path that is to be written.
 struct OutputTarget {
-    std::string path;     ///< of the file itself, where the path is a symbolic link
-    bool is_file = true;  ///< a regular file, perhaps one to come; else a device or a pipe
+    std::string path;     ///< of the file itself, where the path is a symbolic link to one
+    bool is_file = true;  ///< a regular file with a name, perhaps one to come; else a device, a
+                          ///< pipe, or a file without a name such as /dev/stdout may be
     mode_t mode = 0;      ///< permissions of the file, kept or by default
 };
 
-/// Throws OutputError if it is a folder or must not be written.
+/// Throws OutputError if it is a folder, an input (see schemas/text_file.hpp) or a symbolic link to
+/// nothing, or must not be written.
 OutputTarget output_target(const std::string& path);
 
 /// The path itself, or where a symbolic link leads.
 std::string resolved_path(const std::string& path);
+
+/// Throws OutputError if a path is an input, whatever it is called.
+void require_no_input(const std::string& path);
+
+/// To be called before the first of several files is written: throws OutputError if any of them
+/// must not be, or if two of them are the same file.
+void check_outputs(const std::vector<std::string>& paths);
 
 /// Throws "PATH: cannot be written: REASON", or BrokenPipe.
 [[noreturn]] void fail_to_write(const std::string& path, int error);

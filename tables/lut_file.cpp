@@ -40,8 +40,8 @@ const LutFormat& lut_format_of(const std::string& file) {
 
 Lut read_lut(const std::string& file) {
     const LutFormat& format = lut_format_of(file);
-    const std::string bytes = read_text(file);
-    const std::string companion = exists(file + kCompanion) ? read_text(file + kCompanion) : "";
+    const std::string bytes = read_own_file(file);
+    const std::string companion = exists(file + kCompanion) ? read_own_file(file + kCompanion) : "";
     try {
         return format.read(bytes, companion);
     } catch (const LutError& error) {
@@ -55,7 +55,9 @@ void write_lut(const Lut& lut, const std::string& file, const LutFormat& format,
     std::ranges::stable_partition(files, [](const LutFile& f) { return !f.suffix.empty(); });
     if (file.starts_with("/dev/"))  // nothing lies beside a device
         std::erase_if(files, [](const LutFile& f) { return !f.suffix.empty(); });
-    std::vector<std::string> added;
+    std::vector<std::string> paths, added;
+    for (const LutFile& part : files) paths.push_back(file + part.suffix);
+    check_outputs(paths);
     try {
         for (const LutFile& part : files) {
             const std::string path = file + part.suffix;

@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/interference/coherent.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/utf8.hpp"
 
 namespace irido {
 
@@ -129,7 +130,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
                                      kKeptNumbers / std::max<std::size_t>(1, answering.structures));
     request_.simd = answering.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
-    const std::string& first = typed.color.illuminant;
+    const std::string first = well_formed(typed.color.illuminant);  // perhaps a file's
     lightings_.push_back(
         std::make_unique<Illumination>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
     if (!typed.compare) return;

@@ -1,7 +1,10 @@
 #include "cli/questions/spectrum_question.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "cli/command.hpp"
 #include "core/error.hpp"
@@ -112,6 +115,80 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
         lines.push_back(std::to_string(work.passes) +
                         " passes through coherent blocks between incoherent layers");
     return lines;
+}
+
+/// Numbers, more or less, that are computed and written at a time.
+constexpr std::size_t kBlockNumbers = 1U << 20U;
+
+template <class Value>
+std::vector<Value> part_of(const std::vector<Value>& all, std::size_t begin, std::size_t count) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
+    return {first, first + static_cast<std::ptrdiff_t>(std::min(count, all.size() - begin))};
+}
+
+/// Wavelengths that make an IndexTable of themselves and any others of the request choose the same
+/// arithmetic as one of all: where a material first absorbs, amplifies or changes its index, those
+/// of the largest index, and the shortest.
+class Witnesses {
+public:
+    void see(const IndexTable& table) {
+        const std::vector<double>& wavelengths = table.wavelength_nm();
+        if (of_.empty()) {
+            for (std::size_t m = 0; m < table.materials(); ++m)
+                of_.push_back({.first = table.index(m, 0)});
+        }
+        for (std::size_t m = 0; m < table.materials(); ++m) {
+            Material& seen = of_[m];
+            for (std::size_t w = 0; w < wavelengths.size(); ++w) {
+                const Complex index = table.index(m, w);
+                const double size = std::abs(index.real()) + std::abs(index.imag());
+                if (index != seen.first) keep(seen.changes, wavelengths[w]);
+                if (index.imag() != 0) keep(seen.absorbs, wavelengths[w]);
+                if (index.imag() < 0) keep(seen.amplifies, wavelengths[w]);
+                if (size <= seen.size) continue;
+                seen.size = size;
+                seen.largest = wavelengths[w];
+            }
+        }
+        const double shortest = std::ranges::min(wavelengths);
+        if (!shortest_ || shortest < *shortest_) shortest_ = shortest;
+    }
+
+    std::vector<double> wavelengths_nm(double first) const {
+        std::vector<double> all{first, *shortest_};
+        for (const Material& seen : of_)
+            for (const auto& one : {seen.changes, seen.absorbs, seen.amplifies, seen.largest})
+                if (one) all.push_back(*one);
+        return all;
+    }
+
+private:
+    struct Material {
+        Complex first;
+        std::optional<double> changes = {}, absorbs = {}, amplifies = {};
+        double size = 0;
+        std::optional<double> largest = {};
+    };
+
+    static void keep(std::optional<double>& place, double wavelength_nm) {
+        if (!place) place = wavelength_nm;
+    }
+
+    std::vector<Material> of_;
+    std::optional<double> shortest_;
+};
+
+/// Leaves the first rows of each column.
+void cut(Records& records, std::size_t rows) {
+    for (Column& column : records.columns)
+        std::visit(
+            [&](auto& values) {
+                if constexpr (requires { values.codes; })
+                    values.codes.resize(rows);
+                else
+                    values.resize(rows);
+            },
+            column.values);
 }
 
 std::vector<std::string> letters_of(const std::string& polarizations) {
@@ -258,6 +335,83 @@ double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& sta
     const double point = is_plain ? kPlainPoint : kOperation * work.operations_per_point;
     return kStack + kRow * static_cast<double>(rows_per_angle()) +
            point * static_cast<double>(work.points);
+}
+
+std::uint64_t SpectrumQuestion::rows() const {
+    return std::uint64_t{rows_per_angle()} * angles_deg_.size();
+}
+
+Records SpectrumQuestion::block(const StackDocument& document, std::vector<double> wavelengths_nm,
+                                std::vector<double> angles_deg,
+                                const std::string& polarizations) const {
+    SpectrumQuestion part(*this);
+    part.wavelengths_nm_ = std::move(wavelengths_nm);
+    part.angles_deg_ = std::move(angles_deg);
+    part.polarizations_ = polarizations;
+    return records_of(part, *part.prepare(document));
+}
+
+void SpectrumQuestion::each_block(const StackDocument& document,
+                                  const std::function<void(const Records&)>& take) const {
+    const std::size_t most = std::max<std::size_t>(1, kBlockNumbers / layout(document).size());
+    if (rows_per_angle() <= most) {
+        const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
+        const std::size_t count = (angles + blocks - 1) / blocks;
+        const auto prepared = prepare(document);
+        const auto answers = this->answers();
+        note_long_work(document);
+        for (std::size_t a = 0; a < angles; a += count) {
+            const std::vector<double> some = part_of(angles_deg_, a, count);
+            answers->add(*prepared, document.stack, {some});
+            take(answers->records());
+        }
+        return;
+    }
+    Witnesses witnesses;
+    for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most)
+        witnesses.see(index_table(document, part_of(wavelengths_nm_, w, most)));
+    const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
+    note_long_work(document);
+    for (const double angle_deg : angles_deg_)
+        for (const char polarization : polarizations_)
+            for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most) {
+                std::vector<double> some = part_of(wavelengths_nm_, w, most);
+                const std::size_t count = some.size();
+                some.insert(some.end(), others.begin(), others.end());
+                Records rows = block(document, std::move(some), {angle_deg}, {polarization});
+                cut(rows, count);
+                take(rows);
+            }
+}
+
+/// Doubles the number of points that are tried until their time can be told, so that work that
+/// passes a minute takes a tenth of a second or a point longer, and other work next to nothing.
+void SpectrumQuestion::note_long_work(const StackDocument& document) const {
+    constexpr double kLong_s = 60, kTold_s = 0.1;
+    const double points =
+        static_cast<double>(angles_deg_.size()) * static_cast<double>(wavelengths_nm_.size());
+    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    const unsigned threads = execution_.threads > 0 ? execution_.threads : cores;
+    SpectrumQuestion serial(*this);
+    serial.execution_.threads = 1;
+    double seconds = 0, whole_s = kLong_s;
+    for (std::size_t tried = 1; seconds < kTold_s && whole_s >= kLong_s; tried *= 2) {
+        if (static_cast<double>(tried) > points / 2) return;
+        std::vector<double> some;  // spread over all
+        for (std::size_t i = 0; i < tried; ++i)
+            some.push_back(wavelengths_nm_[(2 * i + 1) * wavelengths_nm_.size() / (2 * tried)]);
+        try {
+            const std::clock_t start = std::clock();  // whatever else the machine is doing
+            serial.block(document, some, {angles_deg_[angles_deg_.size() / 2]}, polarizations_);
+            seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        } catch (const std::runtime_error&) {  // said when it is met in its turn
+            return;
+        }
+        whole_s = seconds * points / static_cast<double>(tried) / threads;
+    }
+    if (whole_s < kLong_s) return;
+    note_("these " + to_text(points) + " points of wavelength and angle take about " +
+          to_text(std::round(whole_s / 60)) + " minutes");
 }
 
 std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) const {

@@ -11,6 +11,7 @@
 #include "schemas/number.hpp"
 #include "schemas/points_csv.hpp"
 #include "schemas/text_file.hpp"
+#include "schemas/utf8.hpp"
 
 namespace irido {
 
@@ -28,15 +29,6 @@ std::pair<double, double> range_of(std::string_view path) {
 /// Whether an item of a list is a number or start:stop:step or start:stop/count.
 bool is_numeric(std::string_view item) {
     return parse_number(trimmed(item.substr(0, item.find(':')))).has_value();
-}
-
-/// A text that JSON could not say has no place in a stack, nor in a table.
-void require_utf8(const std::string& text) {
-    try {
-        (void)nlohmann::json(text).dump();
-    } catch (const nlohmann::json::exception&) {
-        throw UsageError("--vary: a path or a value is not UTF-8");
-    }
 }
 
 std::vector<double> numbers_of(const std::string& path, std::string_view list) {
@@ -166,8 +158,12 @@ void SweepSpace::check() const {
             if (is_part_of(other, path)) throw UsageError(by + path + " is varied twice");
             throw UsageError(by + path + " is inside of " + other + ", which varies, too");
         }
-        require_utf8(columns_[c].path);
-        for (const std::string& text : columns_[c].texts) require_utf8(text);
+        if (!is_well_formed(columns_[c].path))
+            throw UsageError("--vary: " + well_formed(columns_[c].path) + ": " + kNoText);
+        for (std::size_t i = 0; i < columns_[c].texts.size(); ++i)
+            if (!is_well_formed(columns_[c].texts[i]))
+                throw InputError(
+                    "", "", origin_of(c, i) + well_formed(columns_[c].texts[i]) + ": " + kNoText);
     }
 }
 

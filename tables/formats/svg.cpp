@@ -1,5 +1,6 @@
 #include "tables/formats/svg.hpp"
 
+#include "schemas/utf8.hpp"
 #include "tables/records.hpp"
 
 namespace irido {
@@ -12,11 +13,13 @@ std::string svg_number(double value) {
 
 std::string svg_escaped(const std::string& text) {
     std::string out;
-    for (const char c : text) {
+    for (const char c : well_formed(text)) {
         if (c == '&') {
             out += "&amp;";
         } else if (c == '<') {
             out += "&lt;";
+        } else if (c == '>') {  // "]]>" is no text of XML
+            out += "&gt;";
         } else if (c == '"') {
             out += "&quot;";
         } else {

@@ -7,7 +7,7 @@ namespace irido {
 /// Shortest text of a number.
 std::string svg_number(double value);
 
-/// Text as it stands between tags or in quotes.
+/// Text as it stands between tags or in quotes, well_formed().
 std::string svg_escaped(const std::string& text);
 
 /// A line of text; anchor start, middle or end.

@@ -72,11 +72,6 @@ bool is_regular(const std::string& path) {
     return fs::is_regular_file(fs::symlink_status(path, ignored));
 }
 
-/// The bytes of a file that irido has written.
-std::string own_text(const std::string& path) {
-    return read_text(path);
-}
-
 /// Writes a file of the folder. What stands in its place is replaced, not written through.
 void write_own(const std::string& path, const std::string& bytes) {
     std::error_code error;
@@ -223,7 +218,7 @@ json read_manifest(const std::string& path) {
     if (!is_regular(path)) return nullptr;
     static const Schema schema(json::parse(manifest_schema_text()));
     try {
-        json manifest = json::parse(own_text(path));
+        json manifest = json::parse(read_own_file(path));
         const std::vector<Problem> problems = check(schema, manifest);
         const bool is_old = manifest.is_object() && !manifest.contains("checksum");
         if (problems.size() <= (is_old ? 1 : 0)) return manifest;
@@ -624,7 +619,7 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
     const std::string text = manifest.dump(2) + "\n";
     const std::string path = place.folder + "/" + place.manifest;
     // after new files, too: what is not newer than the manifest need not be read next time
-    if (!result.made.empty() || !is_regular(path) || own_text(path) != text) {
+    if (!result.made.empty() || !is_regular(path) || read_own_file(path) != text) {
         write_own(path, text);
         result.manifest_written = true;
     }

@@ -99,9 +99,13 @@ void require_contiguous(const std::vector<Shard>& shards) {
 
 void require_other(const std::vector<Shard>& shards, const std::string& path) {
     std::error_code ignored;
-    for (const Shard& shard : shards)
+    for (const Shard& shard : shards) {
+        const std::string journal = journal_name(resolved_path(shard.path));
         if (std::filesystem::equivalent(shard.path, path, ignored))
             throw OutputError(path + ": is one of the shards: name another file");
+        if (std::filesystem::equivalent(journal, path, ignored))
+            throw OutputError(path + ": is the journal of " + shard.path + ": name another file");
+    }
 }
 
 void write_to(int descriptor, std::string_view bytes, const std::string& path) {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "schemas/utf8.hpp"
+
 namespace irido {
 
 namespace {
@@ -15,26 +17,11 @@ using Type = RecordField::Type;
 
 constexpr std::size_t kCharacterBytes = sizeof(char32_t);
 
-[[noreturn]] void fail_to_decode(const std::string& text) {
-    throw std::invalid_argument("a text must be UTF-8 (got '" + text + "')");
-}
-
 /// The code point that begins at text[at], which is put after it.
-char32_t next_code_point(const std::string& text, std::size_t& at) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned first = byte(at++);
-    if (first < 0x80) return first;
-    const std::size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
-    if (first < 0xC2 || first > 0xF4 || text.size() - at < more) fail_to_decode(text);
-    char32_t point = first & (0x3FU >> more);
-    for (std::size_t i = 0; i < more; ++i, ++at) {
-        if ((byte(at) & 0xC0U) != 0x80) fail_to_decode(text);
-        point = point << 6U | (byte(at) & 0x3FU);
-    }
-    constexpr char32_t least[] = {0, 0x80, 0x800, 0x10000};
-    if (point < least[more] || point > 0x10FFFF || (point >= 0xD800 && point < 0xE000))
-        fail_to_decode(text);
-    return point;
+char32_t code_point(const std::string& text, std::size_t& at) {
+    const auto point = next_code_point(text, at);
+    if (!point) throw std::invalid_argument("a text must be UTF-8 (got '" + text + "')");
+    return *point;
 }
 
 void store(char* to, double value, TextCode) {
@@ -49,7 +36,7 @@ void store(char* to, const std::string& text, TextCode code) {
         return;
     }
     for (std::size_t at = 0; at < text.size(); to += kCharacterBytes) {
-        const char32_t point = next_code_point(text, at);
+        const char32_t point = code_point(text, at);
         std::memcpy(to, &point, kCharacterBytes);
     }
 }
@@ -73,7 +60,7 @@ struct IsOf {
 
 std::u32string code_points(const std::string& text) {
     std::u32string points;
-    for (std::size_t at = 0; at < text.size();) points += next_code_point(text, at);
+    for (std::size_t at = 0; at < text.size();) points += code_point(text, at);
     return points;
 }
 

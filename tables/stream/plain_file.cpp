@@ -14,7 +14,8 @@ namespace irido {
 namespace {
 
 int flags_of(PlainFile::Use use) {
-    if (use == PlainFile::Use::read) return O_RDONLY | O_CLOEXEC;
+    // a pipe in a file's place is empty rather than waited for
+    if (use == PlainFile::Use::read) return O_RDONLY | O_CLOEXEC | O_NONBLOCK;
     // no link that somebody else has laid
     return O_RDWR | O_CLOEXEC | O_NOFOLLOW | (use == PlainFile::Use::create ? O_CREAT : 0);
 }

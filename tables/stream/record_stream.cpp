@@ -29,6 +29,8 @@ constexpr auto kCheckpointInterval = std::chrono::milliseconds(1);
 constexpr int kCheckpointShare = 1000;
 /// Between two checkpoints that a power cut does not harm.
 constexpr auto kSafeInterval = std::chrono::seconds(5);
+/// What a part's name ends in once a format's finish() has worked on it.
+constexpr const char* kMade = ".tmp";
 
 std::optional<FileMark> mark_of(const std::string& path) {
     struct stat status {};
@@ -49,7 +51,7 @@ public:
         : path_(path),
           target_(std::move(target)),
           part_name_(part_name(target_.path)),
-          made_name_(part_name_ + ".tmp"),
+          made_name_(part_name_ + kMade),
           format_(format),
           head_{std::string(format.name), layout, identity},
           journal_(target_.path, path) {}
@@ -270,17 +272,22 @@ void FileStream::discard() noexcept {
     journal_.remove();
 }
 
-/// To standard output, a device or a pipe: what is written is written.
+/// To standard output, a device, a pipe or a NewFile: what is written is written.
 class DirectStream : public RecordStream {
 public:
     DirectStream(int descriptor, const std::string& name, const StreamFormat& format,
-                 const RecordLayout& layout, std::uint64_t rows)
-        : descriptor_(descriptor), name_(name), format_(format), layout_(layout) {
+                 const RecordLayout& layout, std::uint64_t rows,
+                 std::unique_ptr<NewFile> file = nullptr)
+        : descriptor_(descriptor),
+          name_(name),
+          format_(format),
+          layout_(layout),
+          file_(std::move(file)) {
         if (descriptor_ < 0) fail_to_write(name, errno);
         head_ = format.head(layout, rows);
     }
     ~DirectStream() override {
-        if (descriptor_ > STDERR_FILENO) close(descriptor_);
+        if (!file_ && descriptor_ > STDERR_FILENO) close(descriptor_);
     }
 
     std::uint64_t units_done() const override { return units_; }
@@ -300,6 +307,7 @@ public:
         write(format_.tail);
         if (format_.head(layout_, rows_) != head_)
             throw OutputError(name_ + ": is not whole: its head says another number of rows");
+        if (file_) file_->commit();
     }
     void suspend() override {}
     void discard() noexcept override {}
@@ -317,6 +325,7 @@ private:
     std::string name_;
     const StreamFormat& format_;
     RecordLayout layout_;
+    std::unique_ptr<NewFile> file_;  ///< of the descriptor, if it is one
     std::string head_;
     bool has_begun_ = false;
     std::uint64_t units_ = 0, rows_ = 0;
@@ -336,6 +345,9 @@ std::unique_ptr<RecordStream> record_file(const std::string& path, const StreamF
         return std::make_unique<DirectStream>(open(path.c_str(), O_WRONLY | O_CLOEXEC), path,
                                               format, layout, rows);
     }
+    const std::string part = part_name(target.path);
+    for (const std::string& beside : {part, part + kMade, journal_name(target.path)})
+        require_no_input(beside);
     auto stream = std::make_unique<FileStream>(path, target, format, layout, identity);
     if (!resume || !stream->resume()) stream->begin();
     return stream;
@@ -346,7 +358,20 @@ std::unique_ptr<RecordStream> record_output(const StreamFormat& format, const Re
     if (format.finish)
         throw OutputError("--format: " + std::string(format.name) + " needs --output FILE");
     if (format.is_binary) check_binary_stdout();
+    require_no_input("/dev/stdout");
     return std::make_unique<DirectStream>(STDOUT_FILENO, "standard output", format, layout, rows);
+}
+
+std::unique_ptr<RecordStream> counted_output(const std::string& path, const StreamFormat& format,
+                                             const RecordLayout& layout, std::uint64_t rows) {
+    if (path.empty()) return record_output(format, layout, rows);
+    const OutputTarget target = output_target(path);
+    if (!target.is_file)
+        return std::make_unique<DirectStream>(open(path.c_str(), O_WRONLY | O_CLOEXEC), path,
+                                              format, layout, rows);
+    auto file = std::make_unique<NewFile>(path, target);
+    const int descriptor = file->descriptor();
+    return std::make_unique<DirectStream>(descriptor, path, format, layout, rows, std::move(file));
 }
 
 }  // namespace irido

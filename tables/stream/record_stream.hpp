@@ -75,6 +75,12 @@ std::unique_ptr<RecordStream> record_file(const std::string& path, const StreamF
 std::unique_ptr<RecordStream> record_output(const StreamFormat& format, const RecordLayout& layout,
                                             std::uint64_t rows);
 
+/// `rows` rows into a file, whole or not at all and with nothing beside it but a temporary file, or
+/// to standard output if `path` is empty. A device or a pipe is written to directly. Throws
+/// OutputError.
+std::unique_ptr<RecordStream> counted_output(const std::string& path, const StreamFormat& format,
+                                             const RecordLayout& layout, std::uint64_t rows);
+
 /// Puts the shards of one stream, in any order, together: the same bytes as of one run, in constant
 /// memory. Throws OutputError if a file is not what its journal says, shards are missing or given
 /// twice, or they are of different requests, builds of irido or SIMD levels.

@@ -36,6 +36,10 @@ std::string head_of_npy(const RecordLayout& layout, std::uint64_t rows) {
     return npy_head(layout, rows, true);
 }
 
+std::string head_of_counted_npy(const RecordLayout& layout, std::uint64_t rows) {
+    return npy_head(layout, rows, false);
+}
+
 std::string rows_of_npy(const RecordLayout& layout, const Records& records) {
     return packed_rows(layout, records, TextCode::utf32);
 }
@@ -65,6 +69,21 @@ const StreamFormat* find_stream_format(std::string_view name) {
     for (const StreamFormat& format : formats)
         if (format.name == name) return &format;
     return nullptr;
+}
+
+const StreamFormat* find_counted_format(std::string_view name) {
+    static constexpr StreamFormat npy{"npy",
+                                      "NumPy structured array with the CSV's names",
+                                      true,
+                                      "",
+                                      head_of_counted_npy,
+                                      rows_of_npy,
+                                      "",
+                                      nullptr,
+                                      nullptr};
+    if (name == npy.name) return &npy;
+    const StreamFormat* const format = find_stream_format(name);
+    return format && !format->finish ? format : nullptr;
 }
 
 }  // namespace irido

@@ -40,4 +40,8 @@ struct StreamFormat {
 /// csv, json, npy and h5; nullptr for any other name.
 const StreamFormat* find_stream_format(std::string_view name);
 
+/// csv, json and npy for streams whose number of rows is known at their head: the bytes are those
+/// that the RecordFormat of the name (tables/records.hpp) writes. nullptr for any other name.
+const StreamFormat* find_counted_format(std::string_view name);
+
 }  // namespace irido

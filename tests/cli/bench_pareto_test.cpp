@@ -133,7 +133,7 @@ TEST_CASE("bench pareto refuses what it does not know in one line", "[cli][bench
         {{"--time", "0"}, "--time: must be in [1e-04, 60] (got 0)"},
         {{"--plot", "front.png"}, "--plot: must end in .svg (got 'front.png')"},
         {{"--plot", ""}, "--plot: must end in .svg (got '')"},
-        {{"-o", "x.svg", "-f", "csv", "--plot", "x.svg"}, "--plot: must be another file"},
+        {{"-o", "x.svg", "-f", "csv", "--plot", "x.svg"}, "x.svg: is the same file as"},
         {{"-o", "/no/such/folder/x.csv"}, "/no/such/folder/x.csv: cannot be written"},
         {{"-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
         {{"--plot", "/no/such/folder/x.svg"}, "/no/such/folder/x.svg: cannot be written"},
