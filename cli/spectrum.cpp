@@ -19,8 +19,10 @@ struct SpectrumCommand {
 
 int run_spectrum(const SpectrumCommand& command) {
     resolved_record_format(command.output);
-    const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
-                                    {.execution = execution_of(command.threads)});
+    const SpectrumQuestion question(
+        static_cast<const SpectrumOptions&>(*command.typed),
+        {.execution = execution_of(command.threads),
+         .note = [&](const std::string& text) { note(text, command.quiet); }});
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
     write_records(records_of(question, *prepared), command.output);
     if (command.stats)
