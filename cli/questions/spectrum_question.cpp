@@ -348,6 +348,7 @@ Records SpectrumQuestion::block(const StackDocument& document, std::vector<doubl
     part.wavelengths_nm_ = std::move(wavelengths_nm);
     part.angles_deg_ = std::move(angles_deg);
     part.polarizations_ = polarizations;
+    part.note_ = [](const std::string&) {};  // said once, of all
     return records_of(part, *part.prepare(document));
 }
 
@@ -368,8 +369,11 @@ void SpectrumQuestion::each_block(const StackDocument& document,
         return;
     }
     Witnesses witnesses;
-    for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most)
-        witnesses.see(index_table(document, part_of(wavelengths_nm_, w, most)));
+    for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most) {
+        const IndexTable table = index_table(document, part_of(wavelengths_nm_, w, most));
+        if (w == 0) note_incident(document, table, note_);
+        witnesses.see(table);
+    }
     const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
     note_long_work(document);
     for (const double angle_deg : angles_deg_)
@@ -384,12 +388,18 @@ void SpectrumQuestion::each_block(const StackDocument& document,
             }
 }
 
-/// Doubles the number of points that are tried until their time can be told, so that work that
-/// passes a minute takes a tenth of a second or a point longer, and other work next to nothing.
+/// Of stacks with spread layers, whose points take long. Doubles the number of points that are tried
+/// until their time can be told, so that work that passes a minute takes a tenth of a second or a
+/// point longer.
 void SpectrumQuestion::note_long_work(const StackDocument& document) const {
     constexpr double kLong_s = 60, kTold_s = 0.1;
     const double points =
         static_cast<double>(angles_deg_.size()) * static_cast<double>(wavelengths_nm_.size());
+    const std::size_t spread = stack_power(document, document.stack).spread_layers();
+    if (spread == 0) return;
+    if (spread == StackPower::kLargestSpreadLayers)
+        return note_("each of " + to_text(points) + " points may take seconds: " +
+                     to_text(static_cast<double>(spread)) + " layers have a thickness_sigma_nm");
     const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
     const unsigned threads = execution_.threads > 0 ? execution_.threads : cores;
     SpectrumQuestion serial(*this);

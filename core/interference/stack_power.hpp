@@ -30,6 +30,8 @@ public:
     /// Becomes the power of another stack; memory is used again. Throws as above.
     void assign(const Stack& stack);
 
+    /// Layers with a thickness_sigma_nm; repetitions of a group count once.
+    std::size_t spread_layers() const { return spreads_.size(); }
     static constexpr std::size_t kLargestSpreadLayers = 3;
     static constexpr std::size_t kLargestIncoherentStack = 10000;
 

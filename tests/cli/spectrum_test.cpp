@@ -330,3 +330,13 @@ TEST_CASE("an interrupted program exits 130 and leaves nothing behind", "[cli][o
     CHECK(stopped.status == 130);
     CHECK(run_shell("ls -A | wc -l", folder.path()).out == "0\n");
 }
+
+TEST_CASE("the incident medium is judged at the wavelengths asked for", "[spectrum]") {
+    const Outcome taken = run_irido({"spectrum", "Si | air@100 | Si", "-w", "1090"});
+    CHECK(taken.status == 0);
+    CHECK(taken.err ==
+          "irido: note: \"Si | air@100 | Si\": /incident: the incident medium is taken as "
+          "transparent, its k of up to 4.0768e-05 left out\n");
+    check_refused(run_irido({"spectrum", "Si | air@100 | Si", "-w", "550"}),
+                  "k = 0.027968 at 550 nm");
+}
