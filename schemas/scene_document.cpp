@@ -99,6 +99,7 @@ private:
         try {
             StackSource loaded = load_stack(
                 {is_expression ? text : (std::filesystem::path(folder_) / text).string(), {}});
+            if (is_expression) loaded.folder = folder_;  // of the material files that it names
             loaded.file = file_ + ": " + pointer + ": " + loaded.file;
             return loaded;
         } catch (const InputError& error) {
