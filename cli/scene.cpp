@@ -218,7 +218,7 @@ std::string explained(const Scene& scene, const PlannedScene& planned, const std
 int report_faults(const std::map<std::string, std::string>& faults, std::size_t materials) {
     if (faults.empty()) return 0;
     for (const auto& [name, fault] : faults)
-        std::cerr << "irido: error: material " << name << ": " << fault << '\n';
+        print_error("material " + name + ": " + fault);
     std::cerr << "irido: error: " << faults.size() << " of " << materials << " materials failed\n";
     return kMaterialFailed;
 }

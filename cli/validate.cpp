@@ -38,7 +38,17 @@ bool is_stack(const json& document) {
            document.contains("substrate");
 }
 
+std::vector<std::string> expression_problems(const std::string& expression) {
+    try {
+        const StackSource source = load_stack({expression, {}});
+        return stack_problems(source.document, source.file, source.folder);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+}
+
 std::vector<std::string> problems_of(const std::string& path) {
+    if (path.find('|') != std::string::npos) return expression_problems(path);
     const std::string text = read_text(path), file = shown_path(path);
     const std::string folder = std::filesystem::path(path).parent_path().string();
     json document;
@@ -58,11 +68,11 @@ int run_validate(const std::vector<std::string>& files) {
     for (const std::string& file : files) {
         try {
             const std::vector<std::string> problems = problems_of(file);
-            for (const std::string& line : problems) out += line + '\n';
-            if (problems.empty()) out += file + ": ok\n";
+            for (const std::string& line : problems) out += message_line(line) + '\n';
+            if (problems.empty()) out += escaped(file) + ": ok\n";
             if (!problems.empty()) status = std::max(status, kInvalid);
         } catch (const InputError& error) {
-            std::cerr << "irido: error: " << error.what() << '\n';
+            print_error(error.what());
             status = kUnreadable;
         }
     }
@@ -98,7 +108,8 @@ void add_validate_command(CLI::App& program, Run& run) {
             ->expected(0, 1);
     command
         ->add_option("FILE", *files,
-                     "stack or scene files or manifests (.json), - for standard input")
+                     "stack or scene files or manifests (.json), - for standard input,\n"
+                     "or expressions")
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});
