@@ -122,7 +122,7 @@ std::optional<MethodReport> ColorComparison::measure(const ColorMethod& method,
     auto family = families_.begin();
     for (; worst >= colors_of(*family); ++family) worst -= colors_of(*family);
     const std::size_t angles = family->angles_deg.size();
-    report.worst_stack = stack_expression(family->variants[worst / angles]);
+    report.worst_stack = stack_expression(family->variants[worst / angles]).text;
     report.worst_angle_deg = family->angles_deg[worst % angles];
     std::ranges::sort(differences);
     report.p95_de = differences[(differences.size() * 95 + 99) / 100 - 1];

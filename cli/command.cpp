@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <iostream>
 
 #include "core/error.hpp"
+#include "schemas/number.hpp"
 #include "tables/atomic_file.hpp"
 
 namespace irido {
@@ -18,14 +18,23 @@ void add_stack_options(CLI::App& command, StackRequest& request) {
         .add_option("STACK", request.stack,
                     "stack file (.json; irido validate --schema explains it),\n"
                     "- for standard input, or an expression: media from the\n"
-                    "incident side with their thickness in nm after @,\n"
-                    "\"air | (TiO2@58.5 | 1.46@94.2)^10 | 1.9+1.5i\"")
+                    "incident side (materials, material files, indices) with\n"
+                    "their thickness after @, in nm unless um or mm follows, and\n"
+                    "! after layers that are not coherent,\n"
+                    "\"air | (TiO2@58.5 | 1.46@94.2)^10 | BK7@1mm! | 1.9+1.5i\"")
         ->required();
     command
         .add_option("--set", request.set,
                     "override a value of the stack by dotted path, once for each:\n"
                     "--set layers.0.thickness_nm=400 --set substrate=Si")
         ->type_name("PATH=VALUE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--material", request.media,
+                    "a name for a medium of the stack, once for each: an index, a\n"
+                    "built-in material, a material file or a JSON material:\n"
+                    "--material H=2.35 --material L=SiO2")
+        ->type_name("NAME=MATERIAL")
         ->allow_extra_args(false);
 }
 
@@ -37,9 +46,11 @@ StackDocument read_noted_stack(const StackRequest& request, bool quiet) {
 
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats) {
     command
-        .add_option("-o,--output", output.file,
-                    "write to FILE (whole or not at all); the format follows the\n"
-                    "extension [standard output]")
+        .add_option_function<std::string>(
+            "-o,--output",
+            [&output](const std::string& file) { output.file = file == "-" ? "" : file; },
+            "write to FILE (whole or not at all); the format follows the\n"
+            "extension; - is standard output [-]")
         ->type_name("FILE")
         ->check([](const std::string& file) { return file.empty() ? "must name a file" : ""; });
     command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
@@ -52,29 +63,47 @@ void add_angles_option(CLI::App& command, std::string& angles) {
         ->type_name("LIST");
 }
 
+unsigned parse_threads(const std::string& text) {
+    const double typed = parse_number(text).value_or(0);
+    if (typed > kMostThreads) return kMostThreads;
+    return static_cast<unsigned>(parse_whole_number("--threads", text, 1, kMostThreads));
+}
+
 void add_threads_option(CLI::App& command, unsigned& threads) {
     command
         .add_option_function<std::string>(
-            "-j,--threads",
-            [&threads](const std::string& text) {
-                threads = static_cast<unsigned>(parse_whole_number("--threads", text, 1, 4096));
-            },
+            "-j,--threads", [&threads](const std::string& text) { threads = parse_threads(text); },
             "threads [all cores]; the answer does not depend on it")
         ->type_name("N");
 }
 
-Execution execution_of(unsigned threads) {
+void add_threads_option(CLI::App& command) {
+    command
+        .add_option_function<std::string>(
+            "-j,--threads", [](const std::string& text) { parse_threads(text); },
+            "threads, as other commands take them; this one needs only one")
+        ->type_name("N");
+}
+
+std::optional<SimdLevel> asked_simd_level() {
     const char* const name = std::getenv("IRIDO_SIMD");
-    if (!name || !*name) return {threads};
+    if (!name || !*name) return std::nullopt;
     std::vector<std::string_view> names;
     for (const SimdLevel level : kSimdLevels) {
         names.push_back(name_of(level));
-        if (names.back() != name) continue;
-        if (!is_available(level))
-            throw UsageError("IRIDO_SIMD: this machine has no " + std::string(name));
-        return {threads, level};
+        if (names.back() == name) return level;
     }
     throw UsageError("IRIDO_SIMD: " + not_one_of(names, name));
+}
+
+SimdLevel available_or_less(SimdLevel level) {
+    while (!is_available(level)) level = static_cast<SimdLevel>(static_cast<int>(level) - 1);
+    return level;
+}
+
+Execution execution_of(unsigned threads) {
+    const std::optional<SimdLevel> asked = asked_simd_level();
+    return asked ? Execution(threads, available_or_less(*asked)) : Execution(threads);
 }
 
 void set_examples(CLI::App& command, const std::vector<std::string>& examples,
@@ -85,7 +114,7 @@ void set_examples(CLI::App& command, const std::vector<std::string>& examples,
 }
 
 std::string resolved_format(const OutputOptions& output) {
-    if (!output.format.empty()) return output.format;
+    if (!output.format.empty()) return output.format == "hdf5" ? "h5" : output.format;
     const std::size_t slash = output.file.find_last_of('/');
     const std::size_t dot = output.file.find_last_of('.');
     if (output.file.empty() || output.file.starts_with("/dev/")) return "csv";
@@ -94,7 +123,8 @@ std::string resolved_format(const OutputOptions& output) {
             "--output: must have an extension that names the format, or use --format "
             "(got '" +
             output.file + "')");
-    return output.file.substr(dot + 1);
+    const std::string extension = output.file.substr(dot + 1);
+    return extension == "hdf5" ? "h5" : extension;
 }
 
 const RecordFormat& resolved_record_format(const OutputOptions& output, std::string_view others) {
@@ -132,10 +162,6 @@ void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_
     if (!output.file.empty()) return write_file(output.file, bytes);
     if (is_binary) check_binary_stdout();
     write_stdout(bytes);
-}
-
-void note(const std::string& text, bool quiet) {
-    if (!quiet) std::cerr << "irido: note: " << text << '\n';
 }
 
 }  // namespace irido

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/list.hpp"
+#include "cli/message.hpp"
 #include "core/math/simd_level.hpp"
 #include "schemas/stack_document.hpp"
 #include "tables/records.hpp"
@@ -29,15 +30,16 @@ void add_plan_command(CLI::App& program, Run& run);
 void add_bake_command(CLI::App& program, Run& run);
 void add_materials_command(CLI::App& program, Run& run);
 void add_validate_command(CLI::App& program, Run& run);
+void add_convert_command(CLI::App& program, Run& run);
 void add_bench_command(CLI::App& program, Run& run);
 
 /// Where a command's answer goes, as typed.
 struct OutputOptions {
-    std::string file;    ///< "" for standard output
+    std::string file;    ///< "" for standard output, typed as - or not at all
     std::string format;  ///< "" to follow the file's extension
 };
 
-/// STACK and --set.
+/// STACK, --set and --material.
 void add_stack_options(CLI::App& command, StackRequest& request);
 
 /// Reads the stack and says what is to be noted. Throws InputError.
@@ -49,11 +51,25 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
 /// -a
 void add_angles_option(CLI::App& command, std::string& angles);
 
-/// -j
-void add_threads_option(CLI::App& command, unsigned& threads);
+inline constexpr unsigned kMostThreads = 4096;
 
-/// How to run, with the instruction set that the environment variable IRIDO_SIMD names (plain,
-/// baseline, avx2, avx512) or the best one of the machine. Throws UsageError.
+/// The number of threads of -j: a whole number from 1 on, of which kMostThreads are used. Throws
+/// UsageError.
+unsigned parse_threads(const std::string& text);
+
+/// -j, and -j of a command that has no use for it.
+void add_threads_option(CLI::App& command, unsigned& threads);
+void add_threads_option(CLI::App& command);
+
+/// The instruction set that the environment variable IRIDO_SIMD names: plain, baseline, avx2 or
+/// avx512. Throws UsageError for any other name.
+std::optional<SimdLevel> asked_simd_level();
+
+/// The level itself, or the widest below it that this machine runs.
+SimdLevel available_or_less(SimdLevel level);
+
+/// How to run: with that instruction set, or the next lesser one that the machine has, or its best
+/// one if none is named. Throws UsageError.
 Execution execution_of(unsigned threads = 0);
 
 /// The last lines of a help page, after `notes` if there are any.
@@ -79,8 +95,5 @@ void write_records(const Records& records, const OutputOptions& output);
 
 /// Writes bytes of a text or binary format to the file or to standard output.
 void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary);
-
-/// One line on standard error, unless quiet.
-void note(const std::string& text, bool quiet);
 
 }  // namespace irido

@@ -36,6 +36,14 @@ private:
         throw UsageError(std::string(option_) + ": " + text);
     }
 
+    /// A wavelength out of range is often one in um.
+    std::string unit_hint(double value) const {
+        if (option_ != "--wavelengths" && option_ != "--at") return "";
+        const std::string hint = "; wavelengths are in nm";
+        if (!(value > 0 && value < lowest_)) return hint;
+        return hint + ", " + to_text(value) + " um is " + to_text(std::round(value * 1e9) / 1e6);
+    }
+
     double number(std::string_view text) const {
         const auto value = parse_number(trimmed(text));
         if (!value) fail("must be a number (got '" + std::string(text) + "')");
@@ -49,7 +57,7 @@ private:
             require_in_range(option_, value, lowest_, highest_);
         } catch (const DomainError&) {
             fail("must be in [" + to_text(lowest_) + ", " + to_text(highest_) + "] (got " +
-                 to_text(value) + ")");
+                 to_text(value) + ")" + unit_hint(value));
         }
         values.push_back(value);
     }

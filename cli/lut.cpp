@@ -206,7 +206,7 @@ int run_lut(const LutKind& kind, const LutCommand& command) {
         lut = make_lut(kind, std::move(plan), making);
     } catch (const LutToleranceError& error) {
         progress.clear();
-        std::cerr << "irido: error: " << error.what() << '\n';
+        print_error(error.what());
         return kCheckFailed;
     }
     progress.clear();
@@ -265,7 +265,9 @@ void add_lut_kind(CLI::App& lut, const LutKind& kind, Run& run) {
             ->allow_extra_args(false);
     add_kind_options(*command, kind, *typed);
     if (kind.color)
-        add_side_options(*command, typed->color, "R (reflected) or T (transmitted) [R]");
+        add_side_options(*command, typed->color,
+                         kind.name == "albedo" ? "R (reflected), the only side of this table [R]"
+                                               : "R (reflected) or T (transmitted) [R]");
     if (kind.light) add_light_options(*command, typed->color);
     if (kind.color) add_space_options(*command, typed->color);
     command->add_option("--dtype", typed->type, "numbers: f16, f32 or f64 [f32]")
@@ -348,11 +350,12 @@ int check_files(const std::vector<std::string>& files) {
     for (const std::string& file : files) {
         try {
             const std::vector<std::string> problems = problems_of(file);
-            if (problems.empty()) text += file + ": ok\n";
-            for (const std::string& problem : problems) text += file + ": " + problem + "\n";
+            if (problems.empty()) text += escaped(file) + ": ok\n";
+            for (const std::string& problem : problems)
+                text += message_line(file + ": " + problem) + "\n";
             if (!problems.empty()) status = std::max(status, kCheckFailed);
         } catch (const InputError& error) {
-            std::cerr << "irido: error: " << error.what() << '\n';
+            print_error(error.what());
             status = unreadable;
         }
     }

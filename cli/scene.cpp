@@ -316,9 +316,9 @@ int report_faults(const Scene& scene, const MaterialFaults& faults) {
     for (const SceneMaterial& material : scene.materials)
         if (const auto found = faults.find(material.name); found != faults.end())
             for (const SceneFault& fault : found->second)
-                std::cerr << "irido: error: " << fault_text(scene, material.name, fault) << '\n';
-    std::cerr << "irido: error: " << scene.file << ": " << faults.size() << " of "
-              << scene.materials.size() << " materials failed\n";
+                print_error(fault_text(scene, material.name, fault));
+    print_error(scene.file + ": " + std::to_string(faults.size()) + " of " +
+                std::to_string(scene.materials.size()) + " materials failed");
     return kMaterialFailed;
 }
 

@@ -48,7 +48,17 @@ std::vector<std::string> material_problems(const std::string& text, const std::s
     return {};
 }
 
+std::vector<std::string> expression_problems(const std::string& expression) {
+    try {
+        const StackSource source = load_stack({expression, {}});
+        return stack_problems(source.document, source.file, source.folder);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+}
+
 std::vector<std::string> problems_of(const std::string& path) {
+    if (path.find('|') != std::string::npos) return expression_problems(path);
     const std::string text = read_text(path), file = shown_path(path);
     if (is_material_file(path)) return material_problems(text, file);
     const std::string folder = std::filesystem::path(path).parent_path().string();
@@ -70,11 +80,11 @@ int run_validate(const std::vector<std::string>& files) {
     for (const std::string& file : files) {
         try {
             const std::vector<std::string> problems = problems_of(file);
-            for (const std::string& line : problems) out += line + '\n';
-            if (problems.empty()) out += file + ": ok\n";
+            for (const std::string& line : problems) out += message_line(line) + '\n';
+            if (problems.empty()) out += escaped(file) + ": ok\n";
             if (!problems.empty()) status = std::max(status, kInvalid);
         } catch (const InputError& error) {
-            std::cerr << "irido: error: " << error.what() << '\n';
+            print_error(error.what());
             status = kUnreadable;
         }
     }
@@ -113,7 +123,8 @@ void add_validate_command(CLI::App& program, Run& run) {
     command
         ->add_option("FILE", *files,
                      "stack or scene files or manifests (.json), material files (.csv,\n"
-                     ".txt, .tsv, .dat, .nk, .mat, .yml), - for JSON on standard input")
+                     ".txt, .tsv, .dat, .nk, .mat, .yml), - for JSON on standard input,\n"
+                     "or expressions")
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});

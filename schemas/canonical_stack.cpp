@@ -98,9 +98,11 @@ json lorentz_drude_json(const LorentzDrude& model) {
 
 json material_json(const Material& material) {
     if (const auto built_in = find_material(material.name);
-        built_in && built_in->material.model == material.model &&
-        built_in->material.outside == material.outside && !is_constant(material))
-        return material.name;
+        built_in && built_in->material.model == material.model && !is_constant(material)) {
+        if (built_in->material.outside == material.outside) return material.name;
+        if (material.outside == Outside::clamp)
+            return {{"name", material.name}, {"extrapolate", "clamp"}};
+    }
     const auto* const index = std::get_if<RefractiveIndex>(&material.model);
     json result =
         index ? index_json(*index) : lorentz_drude_json(std::get<LorentzDrude>(material.model));

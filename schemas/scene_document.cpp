@@ -114,6 +114,7 @@ private:
         try {
             StackSource loaded = load_stack({path, {}});
             if (!is_expression) loaded.file = text;
+            if (is_expression) loaded.folder = folder_;  // of the material files that it names
             return loaded;
         } catch (const InputError& error) {
             const std::string file = error.file == path ? text : error.file;

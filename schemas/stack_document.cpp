@@ -1,12 +1,14 @@
 #include "schemas/stack_document.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -31,7 +33,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostLayers = 1'000'000;
-constexpr double kSmallestIndex = 1e-6;
 
 // --- materials as numbers -------------------------------------------------------------------
 
@@ -163,6 +164,7 @@ public:
     StackDocument read() {
         if (!document_.is_object()) return {};
         Stack& stack = result_.stack;
+        read_named();
         if (document_.contains("incident")) {
             stack.incident = material(document_["incident"], "/incident");
             require_real(stack.incident);
@@ -189,6 +191,19 @@ private:
         if (broken_.contains(pointer)) return true;
         const auto inside = broken_.lower_bound(pointer + "/");
         return inside != broken_.end() && inside->starts_with(pointer + "/");
+    }
+
+    /// The document's own materials, whether they are used or not.
+    void read_named() {
+        const auto found = document_.find("materials");
+        if (found == document_.end() || !found->is_object()) return;
+        std::map<std::string, Material> named;
+        for (const auto& [name, value] : found->items()) {
+            const std::string pointer = "/materials" + pointer_step(name);
+            named.emplace(name, is_broken(pointer) ? Material{name, RefractiveIndex{}}
+                                                   : build(value, pointer));
+        }
+        named_ = std::move(named);  // only now, as they do not name each other
     }
 
     std::vector<Element> elements(const json& array, const std::string& pointer) {
@@ -253,14 +268,30 @@ private:
 
     Material build(const json& value, const std::string& pointer) {
         if (value.is_number()) return constant(value.get<double>(), 0, pointer);
-        if (value.is_string()) return built_in(value.get<std::string>(), pointer);
+        if (value.is_string()) return named(value.get<std::string>(), pointer);
         Material result = from_object(value, pointer);
-        if (value.contains("name")) result.name = value["name"].get<std::string>();
         if (value.contains("extrapolate")) result.outside = Outside::clamp;
         return result;
     }
 
+    /// A material of the document, of a file or of the library.
+    Material named(const std::string& name, const std::string& pointer) {
+        if (const auto own = named_.find(name); own != named_.end()) return own->second;
+        return is_material_file(name) ? from_file(name, pointer) : built_in(name, pointer);
+    }
+
     Material from_object(const json& object, const std::string& pointer) {
+        constexpr std::array kModels{"n", "file", "table", "cauchy", "sellmeier", "lorentz_drude"};
+        const bool has_model = std::any_of(kModels.begin(), kModels.end(), [&](const char* model) {
+            return object.contains(model);
+        });
+        if (!has_model) return named(object["name"].get<std::string>(), pointer + "/name");
+        Material result = from_model(object, pointer);
+        if (object.contains("name")) result.name = object["name"].get<std::string>();
+        return result;
+    }
+
+    Material from_model(const json& object, const std::string& pointer) {
         if (object.contains("n")) {
             return constant(object["n"].get<double>(), number_or(object, "k", 0), pointer);
         }
@@ -285,9 +316,6 @@ private:
     }
 
     Material constant(double n, double k, const std::string& pointer) {
-        if (std::hypot(n, k) < kSmallestIndex) {
-            report(pointer, "must be at least 1e-6 in size (got " + index_text(n, k) + ")");
-        }
         if (k < 0) result_.notes.push_back(file_ + ": " + pointer + ": k < 0 amplifies");
         Material result{index_text(n, k), {}};
         auto& index = std::get<RefractiveIndex>(result.model);
@@ -298,8 +326,9 @@ private:
 
     Material built_in(const std::string& name, const std::string& pointer) {
         if (auto found = find_material(name)) return std::move(found->material);
-        report(pointer, "there is no material " + short_text(name) +
-                            did_you_mean(name, library_names_and_aliases()));
+        std::vector<std::string> known = library_names_and_aliases();
+        for (const auto& [own, material] : named_) known.push_back(own);
+        report(pointer, "there is no material " + short_text(name) + did_you_mean(name, known));
         return {name, RefractiveIndex{}};
     }
 
@@ -362,12 +391,30 @@ private:
     std::set<std::string> broken_;
     StackDocument result_;
     std::size_t layers_ = 0;
+    std::map<std::string, Material> named_;
     std::unordered_map<const json*, std::size_t, JsonHash, JsonEqual> by_text_;
     std::unordered_multimap<std::uint64_t, std::size_t> by_hash_;
 };
 
 std::string folder_of(const std::string& path) {
     return std::filesystem::path(path).parent_path().string();
+}
+
+/// Adds NAME=MATERIAL to the document's materials.
+void add_medium(StackSource& source, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw InputError("--material", "",
+                         "must be NAME=MATERIAL, as in H=2.35 (got " + short_text(text) + ")");
+    if (!source.document.is_object()) return;  // said where it is read
+    json& media = source.document["materials"];
+    if (media.is_null()) media = json::object();
+    if (!media.is_object()) return;
+    try {
+        media[text.substr(0, equals)] = value_from_text("material", text.substr(equals + 1));
+    } catch (const InputError& error) {
+        throw InputError("--material " + text, error.where, error.message);
+    }
 }
 
 }  // namespace
@@ -400,8 +447,51 @@ StackSource load_stack(const StackRequest& request) {
         source.folder = folder_of(request.stack);
         source.document = parse_json(read_text(request.stack), source.file);
     }
-    for (const std::string& assignment : request.set) set_value(source.document, assignment);
+    for (const std::string& text : request.media) add_medium(source, text);
+    for (const std::string& text : request.set) {
+        try {
+            set_value(source.document, text);
+        } catch (const InputError& error) {
+            throw InputError("--set " + error.file, error.where, error.message);
+        }
+    }
     return source;
+}
+
+namespace {
+
+/// Calls visit(material) for every material of a list of layers and groups.
+void for_each_material(json& layers, const std::function<void(json&)>& visit) {
+    if (!layers.is_array()) return;
+    for (json& element : layers) {
+        if (!element.is_object()) continue;
+        if (element.contains("material")) visit(element["material"]);
+        if (element.contains("layers")) for_each_material(element["layers"], visit);
+    }
+}
+
+}  // namespace
+
+void move_files(json& document, const std::string& from, const std::string& to) {
+    const json own = document.value("materials", json::object());
+    const auto move = [&](json& name) {
+        const std::string path = name.is_string() ? name.get<std::string>() : "";
+        if (!is_material_file(path) || std::filesystem::path(path).is_absolute()) return;
+        const auto place = std::filesystem::absolute(std::filesystem::path(from) / path);
+        name = place.lexically_normal()
+                   .lexically_relative(
+                       std::filesystem::absolute(to.empty() ? "." : to).lexically_normal())
+                   .string();
+    };
+    const auto visit = [&](json& material) {
+        if (material.is_string() && !own.contains(material.get<std::string>())) move(material);
+        if (material.is_object() && material.contains("file")) move(material["file"]);
+    };
+    for (const char* key : {"incident", "substrate"})
+        if (document.contains(key)) visit(document[key]);
+    if (document.contains("layers")) for_each_material(document["layers"], visit);
+    if (own.is_object() && !own.empty())
+        for (json& material : document["materials"]) visit(material);
 }
 
 StackDocument read_stack(const json& document, const std::string& file, const std::string& folder) {

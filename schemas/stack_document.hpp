@@ -13,6 +13,7 @@ namespace irido {
 struct StackRequest {
     std::string stack;             ///< a file, "-" for standard input, or an expression (has a '|')
     std::vector<std::string> set;  ///< PATH=VALUE, applied in this order
+    std::vector<std::string> media = {};  ///< NAME=MATERIAL, added to the document's materials
 };
 
 /// A stack document as it was read, not yet checked.
@@ -45,6 +46,9 @@ StackDocument read_stack(const nlohmann::json& document, const std::string& file
 
 /// The reading of a request and of its document.
 StackDocument read_stack(const StackRequest& request);
+
+/// Material files of a document that lies in one folder, as seen from another one.
+void move_files(nlohmann::json& document, const std::string& from, const std::string& to);
 
 /// Everything that is wrong with a stack document, one line each, "FILE: POINTER: message"; nothing
 /// if it can be used.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,8 +31,12 @@ void parallel_for(std::size_t count, unsigned threads,
     };
     {
         std::vector<std::jthread> helpers;
-        for (std::size_t i = 1; i < std::min<std::size_t>(threads, count); ++i)
-            helpers.emplace_back(run);
+        try {
+            for (std::size_t i = 1; i < std::min<std::size_t>(threads, count); ++i)
+                helpers.emplace_back(run);
+        } catch (const std::system_error&) {
+            // the system has no more threads: those that there are do the work
+        }
         run();
     }
     if (failure) std::rethrow_exception(failure);

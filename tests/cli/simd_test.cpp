@@ -56,6 +56,17 @@ TEST_CASE("an unknown instruction set is refused in one line", "[cli][simd][refu
           "irido: error: IRIDO_SIMD: must be one of plain, baseline, avx2, avx512 (got sse9)\n");
 }
 
+TEST_CASE("instructions that the machine lacks are replaced with a note", "[cli][simd]") {
+    for (const SimdLevel level : kSimdLevels) {
+        CAPTURE(name_of(level));
+        const Outcome outcome = with_level(name_of(level), "spectrum \"1 | 1.5@9 | 1\" -w 550");
+        CHECK(outcome.status == 0);
+        const std::string note =
+            "irido: note: IRIDO_SIMD: this machine has no " + std::string(name_of(level));
+        CHECK(outcome.err.starts_with(note) != is_available(level));
+    }
+}
+
 TEST_CASE("stats say what was skipped and do not touch the answer", "[cli][simd]") {
     const auto stats = [](const std::string& arguments) {
         const std::string request = "\"$IRIDO\" spectrum " + arguments;

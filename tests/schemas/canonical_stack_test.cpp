@@ -56,6 +56,9 @@ TEST_CASE("built-in materials keep their names, those of files become numbers", 
                                      {"layers", json::array()},
                                      {"substrate", {{"cauchy", {1.5, 0.004}}, {"name", "BK7"}}}});
     CHECK(named["substrate"] == json::parse(R"({"cauchy": [1.5, 0.004]})"));
+    const json held{{"name", "ITO"}, {"extrapolate", "clamp"}};
+    CHECK(canonical_of({{"incident", 1}, {"layers", json::array()}, {"substrate", held}})
+              ["substrate"] == held);
 }
 
 TEST_CASE("canonical stacks of the examples read back as the same stacks", "[canonical]") {

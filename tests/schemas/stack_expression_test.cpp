@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "core/error.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/stack_document.hpp"
 
@@ -74,8 +76,12 @@ TEST_CASE("An index is real or complex") {
     CHECK(parse_index("0.05-60i") == complex(0.05, -60));
     CHECK(parse_index("2i") == complex(0, 2));
     CHECK(parse_index("1e-3+2e2i") == complex(1e-3, 200));
-    for (const char* text : {"", "i", "1+i", "1.5+2", "1.5+-2i", "1.5++2i", "1.5i+2", "1,5", "inf",
-                             "nan", "0x10", "1e999", "1.5 2i", "SiO2", "1.5x"}) {
+    CHECK(parse_index("1.38+0.01j") == complex(1.38, 0.01));
+    CHECK(parse_index("0.05-60j") == complex(0.05, -60));
+    CHECK(parse_index("2j") == complex(0, 2));
+    for (const char* text :
+         {"", "i", "1+i", "1.5+2", "1.5+-2i", "1.5++2i", "1.5i+2", "1,5", "inf", "nan", "0x10",
+          "1e999", "1.5 2i", "SiO2", "1.5x", "j", "1+j", "1+2ij"}) {
         CAPTURE(text);
         CHECK(parse_index(text).is_null());
     }
@@ -109,7 +115,77 @@ TEST_CASE("A stack's expression reads back to the same stack") {
     for (const char* text : {"1 | 1.33", "air | 1.33@380 | BK7", "1.2 | 1.9+1.5i@0 | 0.05-2i",
                              "air | (TiO2@58.5 | (1.46@1e-07 | 2@3)^2)^1000000000 | SiO@7 | Cu"}) {
         const irido::Stack stack = irido::read_stack({text, {}}).stack;
-        CHECK(irido::stack_expression(stack) == text);
-        CHECK(irido::read_stack({irido::stack_expression(stack), {}}).stack == stack);
+        const irido::StackExpression expression = irido::stack_expression(stack);
+        CHECK(expression.text == text);
+        CHECK(expression.losses.empty());
+        CHECK(irido::read_stack({expression.text, {}}).stack == stack);
     }
+}
+
+TEST_CASE("What an expression cannot say is listed, once each") {
+    const json document = json::parse(R"({"incident": 1, "substrate": "Ag", "layers": [
+        {"material": {"name": "sol", "cauchy": [1.5, 0.01]}, "thickness_nm": 5,
+         "thickness_sigma_nm": 1},
+        {"material": {"name": "ITO", "extrapolate": "clamp"}, "thickness_nm": 6,
+         "thickness_sigma_nm": 2}]})");
+    const irido::StackExpression expression =
+        irido::stack_expression(irido::read_stack(document, "f", "").stack);
+    CHECK(expression.text ==
+          "1 | " + irido::to_text(1.5 + 0.01 / (0.55 * 0.55)) + "@5 | ITO@6 | Ag");
+    CHECK(expression.losses == std::vector<std::string>{"sol: written as its index at 550 nm",
+                                                        "thickness_sigma_nm", "ITO: extrapolate"});
+}
+
+TEST_CASE("Thicknesses have units, each rounded once") {
+    const auto thickness = [](const std::string& text) {
+        return parse_stack_expression("1 | 1.5@" + text + " | 1")["layers"][0]["thickness_nm"]
+            .get<double>();
+    };
+    CHECK(thickness("100nm") == 100);
+    CHECK(thickness("100 nm") == 100);
+    CHECK(thickness("0.1um") == 100);
+    CHECK(thickness("0.1\xC2\xB5m") == 100);  // the micro sign
+    CHECK(thickness("0.1\xCE\xBCm") == 100);  // a Greek mu
+    CHECK(thickness("1mm") == 1e6);
+    CHECK(thickness("1e-4 mm") == 100);
+    CHECK(thickness("1.0005e+1um") == 10005);
+    // the double nearest to the decimal number, which a product of two doubles often is not
+    for (int i = 1; i < 1000; ++i) {
+        const std::string digits = std::to_string(i);
+        const std::string um = "0." + std::string(4 - digits.size(), '0') + digits + "7";
+        CAPTURE(um);
+        REQUIRE(thickness(um + "um") == std::stod(um + "e3"));
+        REQUIRE(thickness(um + "mm") == std::stod(um + "e6"));
+    }
+    CHECK(error_of("1 | 1.5@1px | 1") ==
+          "column 9: expected a thickness such as 100, 100nm, 0.1um or 1mm, found \"1px\"");
+    CHECK(error_of("1 | 1.5@1m | 1").starts_with("column 9: expected a thickness such as"));
+    CHECK(error_of("1 | 1.5@um | 1") == "column 9: expected a thickness in nm, found \"um\"");
+    CHECK(error_of("1 | 1.5@1e308mm | 1").starts_with("column 9: expected a thickness"));
+}
+
+TEST_CASE("! after a thickness marks a layer that is not coherent") {
+    json plate = layer("BK7", 1e6);
+    plate["coherent"] = false;
+    CHECK(parse_stack_expression("air | BK7@1mm! | air") == stack("air", {plate}, "air"));
+    CHECK(parse_stack_expression("air|(BK7@1e6 !|2@3)^2|air") ==
+          stack("air", {group(2, {plate, layer(2, 3)})}, "air"));
+    CHECK(irido::stack_expression(irido::read_stack({"1 | BK7@1mm! | 1", {}}).stack).text ==
+          "1 | BK7@1000000! | 1");
+    CHECK(error_of("air! | 1@2 | air") == "column 4: expected \"|\", found \"!\"");
+    CHECK(error_of("air | 1@2!! | air") == "column 11: expected \"|\", found \"!\"");
+    CHECK(error_of("air | (1@2)^3! | air") == "column 14: expected \"|\", found \"!\"");
+    CHECK(error_of("air | 1!@2 | air") ==
+          "column 8: expected \"@\" and the thickness of the layer, found \"!\"");
+}
+
+TEST_CASE("Names of files and names in quotes are media") {
+    CHECK(parse_stack_expression("gaas.csv | (alas.csv@78 | ../2024/gaas.yml@66)^20 | 1.5.csv") ==
+          stack("gaas.csv", {group(20, {layer("alas.csv", 78), layer("../2024/gaas.yml", 66)})},
+                "1.5.csv"));
+    CHECK(parse_stack_expression("1 | \"a (1)|b.csv\"@2 | 1") ==
+          stack(1, {layer("a (1)|b.csv", 2)}, 1));
+    CHECK(error_of("1 | \"a@2 | 1") ==
+          "column 5: expected a second \" at the end of the name, found \"\"a\"");
+    CHECK(error_of("1 | \"\"@2 | 1") == "column 5: a name is empty");
 }

@@ -220,8 +220,92 @@ TEST_CASE("The incident medium is lossless, indices do not vanish, layers are bo
     nearly["incident"] = "Ag";  // judged at the wavelengths asked for
     CHECK(error_of(nearly) == "accepted");
     CHECK(error_of(film({{"n", 1e-7}, {"k", 0}})) ==
-          "f: /layers/0/material: must be at least 1e-6 in size (got 1e-07)");
+          "f: /layers/0/material: must be at least 1e-6 in size (got {\"k\":0,\"n\":1e-07})");
+    for (const json& nothing :
+         {json(0), json(0.9e-6), json{{"n", 0}}, json{{"n", 0}, {"k", -1e-7}}})
+        CHECK_THAT(error_of(film(nothing)),
+                   Catch::StartsWith("f: /layers/0/material: must be at least 1e-6 in size"));
+    CHECK_THAT(error_of(film({{"table", json::array({{400, 1}, {500, 0, 0}})}})),
+               Catch::StartsWith(
+                   "f: /layers/0/material/table/1: must have an index of at least 1e-6 in size"));
+    CHECK(error_of(film({{"table", json::array({{400, 0, 1}, {500, 1e-6}})}})) == "accepted");
+    CHECK(error_of(film(1e-6)) == "accepted");
     CHECK(error_of(film({{"n", 0}, {"k", 1e-6}})) == "accepted");
+}
+
+TEST_CASE("A stack names its own media") {
+    json named = film("H");
+    named["materials"] = {{"H", 2.35}, {"L", "SiO2"}, {"water", {{"file", "glass.csv"}}}};
+    named["layers"].push_back({{"material", "L"}, {"thickness_nm", 5}});
+    named["layers"].push_back({{"material", "water"}, {"thickness_nm", 6}});
+    named["substrate"] = {{"name", "L"}, {"extrapolate", "clamp"}};
+    json plain = film(2.35);
+    plain["layers"].push_back({{"material", "SiO2"}, {"thickness_nm", 5}});
+    plain["layers"].push_back({{"material", {{"file", "glass.csv"}}}, {"thickness_nm", 6}});
+    plain["substrate"] = {{"name", "SiO2"}, {"extrapolate", "clamp"}};
+    const auto read = [](const json& document) {
+        return read_stack(document, "f", kRoot + "/tests/data").stack;
+    };
+    CHECK(read(named) == read(plain));
+    // names do not lead on, so that none leads to itself
+    named["materials"]["L"] = "H";
+    CHECK(error_of(named) == "f: /materials/L: there is no material \"H\"");
+    named["materials"]["L"] = -1;
+    CHECK_THAT(error_of(named), Catch::StartsWith("f: /materials/L: must be a real index"));
+    named["materials"] = {{"High", 2}};
+    CHECK_THAT(error_of(named), Catch::Contains("/layers/0/material: there is no material \"H\""));
+    named["materials"] = 5;
+    CHECK_THAT(error_of(named), Catch::Contains("f: /materials: must be an object"));
+}
+
+TEST_CASE("--material names media of an expression") {
+    CHECK(read_stack({"1 | (H@50 | L@60)^3 | 1", {}, {"H=2.35", "L=1.46+0.1j"}}).stack ==
+          read_stack({"1 | (2.35@50 | 1.46+0.1i@60)^3 | 1", {}}).stack);
+    CHECK(read_stack({"1 | H@50 | 1", {"materials.H=BK7"}, {"H=2.35"}}).stack ==
+          read_stack({"1 | BK7@50 | 1", {}}).stack);
+    CHECK_THROWS_WITH(read_stack({"1 | H@50 | 1", {}, {"H"}}),
+                      "--material: must be NAME=MATERIAL, as in H=2.35 (got \"H\")");
+    CHECK_THROWS_WITH(read_stack({"1 | H@50 | 1", {}, {"H={"}}),
+                      Catch::StartsWith("--material H={"));
+}
+
+TEST_CASE("The name of a built-in material can be held outside of its range") {
+    const Material held = material_of({{"name", "ITO"}, {"extrapolate", "clamp"}});
+    CHECK(held.outside == Outside::clamp);
+    CHECK(held.model == find_material("ITO")->material.model);
+    CHECK(index_at(held, 1e7) == index_at(held, range_of(held).last_nm));
+    CHECK_THAT(error_of(film({{"name", "my glass"}, {"extrapolate", "clamp"}})),
+               Catch::StartsWith("f: /layers/0/material/name: there is no material"));
+    for (const json& nothing : {json{{"name", "ITO"}}, json{{"extrapolate", "clamp"}}})
+        CHECK_THAT(error_of(film(nothing)), Catch::Contains("must have exactly one of"));
+}
+
+TEST_CASE("A name that ends as a material file is one") {
+    CHECK(material_of("glass.csv") == material_of({{"file", "glass.csv"}}));
+    CHECK(material_of({{"name", "glass.csv"}, {"extrapolate", "clamp"}}).model ==
+          material_of("glass.csv").model);
+    CHECK_THAT(error_of(film("none.csv")), Catch::StartsWith("f: /layers/0/material: ") &&
+                                               Catch::Contains("none.csv: cannot be read"));
+    const std::string folder = kRoot + "/tests/data/";
+    const std::string text = "1 | " + folder + "glass.csv@5 | 1";
+    CHECK(read_stack({text, {}}).stack.materials.size() == 2);
+    CHECK(read_stack({"1 | 2@5 | 1", {"layers.0.material=" + folder + "glass.csv"}}).stack ==
+          read_stack({text, {}}).stack);
+}
+
+TEST_CASE("Files of a document are named as seen from another folder") {
+    json document = film({{"file", "glass.csv"}});
+    document["incident"] = "own.csv";
+    document["substrate"] = "../x.yml";
+    document["materials"] = {{"own.csv", 1}, {"H", "/abs/h.csv"}, {"L", "l.csv"}};
+    document["layers"].push_back(
+        {{"repeat", 2}, {"layers", {{{"material", "g.csv"}, {"thickness_nm", 1}}}}});
+    irido::move_files(document, "a/b", "a/c");
+    CHECK(document["layers"][0]["material"]["file"] == "../b/glass.csv");
+    CHECK(document["layers"][1]["layers"][0]["material"] == "../b/g.csv");
+    CHECK(document["substrate"] == "../x.yml");
+    CHECK(document["incident"] == "own.csv");
+    CHECK(document["materials"] == json{{"own.csv", 1}, {"H", "/abs/h.csv"}, {"L", "../b/l.csv"}});
 }
 
 TEST_CASE("A request is a file or an expression, then the values that it sets") {

@@ -1,0 +1,233 @@
+#include "cli/command_line.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "cli/command.hpp"
+#include "schemas/nearest.hpp"
+
+namespace irido {
+
+namespace {
+
+using CLI::detail::expected_max_vector_size;
+
+bool is_option_word(std::string_view word) {
+    const bool is_number = word.size() > 1 && word[1] >= '0' && word[1] <= '9';
+    return word.size() > 1 && word[0] == '-' && !is_number;
+}
+
+bool takes_nothing(const CLI::Option& option) {
+    return option.get_items_expected_max() == 0;
+}
+
+/// Takes all words up to the next option.
+bool takes_many(const CLI::Option& option) {
+    return option.get_items_expected_max() >= expected_max_vector_size &&
+           option.get_allow_extra_args();
+}
+
+bool may_repeat(const CLI::Option& option) {
+    return takes_nothing(option) || option.get_items_expected_max() >= expected_max_vector_size;
+}
+
+/// "--wavelengths", or "STACK".
+std::string name_of(const CLI::Option& option) {
+    return option.get_name();
+}
+
+/// One command's words.
+class CommandWords {
+public:
+    CommandWords(const CLI::App& command, std::string help)
+        : command_(command), help_(std::move(help)) {}
+
+    void read(std::span<char* const> words) {
+        words_ = words;
+        while (at_ < words_.size()) {
+            const std::string_view word = words_[at_++];
+            if (is_end_of_options_ || !is_option_word(word)) {
+                positional(word);
+            } else if (word == "--") {
+                is_end_of_options_ = true;
+            } else {
+                option(word);
+            }
+        }
+        require_compatible();
+        require_complete();
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& text) const {
+        throw UsageError(text + " (see " + help_ + ")");
+    }
+
+    const CLI::Option* find(std::string_view word) const {
+        const bool is_long = word.starts_with("--");
+        return command_.get_option_no_throw(
+            std::string(word.substr(0, is_long ? word.find('=') : 2)));
+    }
+
+    /// The next word, unless it is an option's name.
+    bool has_value() const { return at_ < words_.size() && !find_option(words_[at_]); }
+    const CLI::Option* find_option(std::string_view word) const {
+        return is_option_word(word) ? find(word) : nullptr;
+    }
+
+    void positional(std::string_view word) {
+        ++positionals_;
+        for (const CLI::Option* option : command_.get_options()) {
+            if (!option->get_positional()) continue;
+            const bool is_full =
+                !takes_many(*option) && counts_[option] >= option->get_items_expected_max();
+            if (is_full) continue;
+            count(*option);
+            return;
+        }
+        fail("there is one word too many: '" + std::string(word) + "'" +
+             (positionals_ > 1 ? ", an expression is one word in quotes" : ""));
+    }
+
+    void option(std::string_view word) {
+        const CLI::Option* const found = find(word);
+        if (!found) unknown(word);
+        const std::size_t equals = word.find('=');
+        const bool is_attached = word.starts_with("--") ? equals != word.npos : word.size() > 2;
+        const std::string_view attached =
+            !is_attached ? "" : word.substr(word.starts_with("--") ? equals + 1 : 2);
+        count(*found);
+        if (takes_nothing(*found)) {
+            if (is_attached && attached != "true" && attached != "false")
+                fail(name_of(*found) + ": takes no value (got '" + std::string(attached) + "')");
+            return;
+        }
+        if (counts_[found] > 1 && !may_repeat(*found)) fail(name_of(*found) + ": is there twice");
+        if (attached.empty()) value_of(*found);
+        while (takes_many(*found) && at_ < words_.size() && !is_option_word(words_[at_])) ++at_;
+    }
+
+    void value_of(const CLI::Option& option) {
+        if (has_value()) {
+            ++at_;
+        } else if (option.get_items_expected_min() > 0) {
+            fail(name_of(option) + ": needs a value, " + option.get_type_name());
+        }
+    }
+
+    [[noreturn]] void unknown(std::string_view word) const {
+        const std::string typed(word.substr(0, word.find('=')));
+        std::vector<std::string> names;
+        for (const CLI::Option* option : command_.get_options())
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        const std::string guess = typed.starts_with("--") ? did_you_mean(typed, names) : "";
+        // options that follow from another one
+        const CLI::Option* const compute = command_.get_option_no_throw("--compute");
+        const bool is_computing = std::ranges::any_of(words_, [](std::string_view other) {
+            return other == "--compute" || other.starts_with("--compute=");
+        });
+        if (compute && guess.empty() && !is_computing)
+            fail("--compute: is required before " + typed +
+                 " is known: spectrum, color, bands or cm");
+        fail(command_.get_name() + " has no option " + typed + guess);
+    }
+
+    void count(const CLI::Option& option) {
+        if (counts_[&option]++ == 0) typed_.push_back(&option);
+    }
+
+    void require_compatible() const {
+        for (const CLI::Option* option : typed_)
+            for (const CLI::Option* other : option->get_excludes())
+                if (std::ranges::find(typed_, other) != typed_.end())
+                    fail(name_of(*option) + " and " + name_of(*other) + " cannot be used together");
+    }
+
+    void require_complete() const {
+        for (const CLI::Option* option : command_.get_options())
+            if (option->get_required() && std::ranges::find(typed_, option) == typed_.end())
+                fail(name_of(*option) + " is required");
+    }
+
+    const CLI::App& command_;
+    std::string help_;
+    std::span<char* const> words_;
+    std::size_t at_ = 0;
+    bool is_end_of_options_ = false;
+    int positionals_ = 0;
+    std::map<const CLI::Option*, int> counts_;
+    std::vector<const CLI::Option*> typed_;  ///< each once, in the order of the words
+};
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// The words from `place` on: a command of `parent` and what follows.
+void check(const CLI::App& parent, const std::string& path, std::span<char* const> words) {
+    const std::string help = path + " --help";
+    const std::vector<const CLI::App*> commands = commands_of(parent);
+    if (commands.empty()) return CommandWords(parent, help).read(words);
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    if (words.empty() || std::string_view(words[0]).empty())
+        throw UsageError("a command must follow " + path + " (see " + help + ")");
+    const std::string typed = words[0];
+    const auto found = std::ranges::find(names, typed);
+    if (found != names.end())
+        return check(*commands[static_cast<std::size_t>(found - names.begin())], path + " " + typed,
+                     words.subspan(1));
+    if (parent.get_option_no_throw(typed)) return;  // --help, --version
+    if (typed.starts_with('-'))
+        throw UsageError("a command must follow " + path + ", before " + typed + " (see " + help +
+                         ")");
+    throw UsageError("there is no command '" + typed + "'" + did_you_mean(typed, names) + " (see " +
+                     help + ")");
+}
+
+/// The command that was typed, below all groups of commands.
+const CLI::App& typed_command(const CLI::App& program) {
+    const std::vector<CLI::App*> parsed = program.get_subcommands();
+    return parsed.empty() ? program : typed_command(*parsed.front());
+}
+
+}  // namespace
+
+void add_missing_options(CLI::App& program) {
+    for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+        if (!commands_of(*command).empty()) {
+            add_missing_options(*command);
+            continue;
+        }
+        if (!command->get_option_no_throw("--threads")) add_threads_option(*command);
+        if (!command->get_option_no_throw("--quiet"))
+            command->add_flag_function(
+                "--quiet", [](std::int64_t) {}, "no notes on standard error");
+    }
+}
+
+void check_command_line(const CLI::App& program, std::span<char* const> words) {
+    const auto asks_for_help = [](std::string_view word) {
+        return word == "--help" || word == "-h";
+    };
+    if (std::ranges::any_of(words.subspan(1), asks_for_help)) return;
+    check(program, program.get_name(), words.subspan(1));
+}
+
+void note_fallbacks(const CLI::App& program) {
+    const CLI::App& command = typed_command(program);
+    const bool is_quiet = command.count("--quiet") > 0;
+    const CLI::Option& threads = *command.get_option("--threads");
+    if (threads.count() > 0 && parse_threads(threads.results().back()) == kMostThreads &&
+        threads.results().back() != std::to_string(kMostThreads))
+        note("--threads: at most " + std::to_string(kMostThreads) + " are started (got " +
+                 threads.results().back() + ")",
+             is_quiet);
+    const std::optional<SimdLevel> asked = asked_simd_level();
+    if (asked && !is_available(*asked))
+        note("IRIDO_SIMD: this machine has no " + std::string(name_of(*asked)) + ", using " +
+                 std::string(name_of(available_or_less(*asked))),
+             is_quiet);
+}
+
+}  // namespace irido

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace irido {
+
+/// `text` on one line that a terminal shows as it is: control characters, those that reverse the
+/// direction of a text and bytes that are not UTF-8 become \n, \x1B, \u202E.
+std::string escaped(std::string_view text);
+
+/// The same for a message: of a long text only the beginning and the end, 400 bytes in all.
+std::string message_line(std::string_view text);
+
+/// "irido: error: TEXT" on standard error.
+void print_error(std::string_view text);
+
+/// "irido: note: TEXT" on standard error, unless quiet.
+void note(const std::string& text, bool quiet);
+
+}  // namespace irido

@@ -1,0 +1,189 @@
+#include <catch2/catch.hpp>
+
+#include "tests/program.hpp"
+
+using namespace irido::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+const std::string kFilm = "air | 1.5@100 | 1.5";
+
+}  // namespace
+
+TEST_CASE("the first wrong word of a command line is named", "[cli][refused]") {
+    const std::string help = " (see irido spectrum --help)\n";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+        {{"spectrum", kFilm, "--wavelenghts", "550", "--bar"},
+         "spectrum has no option --wavelenghts (did you mean \"--wavelengths\"?)" + help},
+        {{"spectrum", kFilm, "--wavelenghts=550"},
+         "spectrum has no option --wavelenghts (did you mean \"--wavelengths\"?)" + help},
+        {{"spectrum", kFilm, "--foo", "--bar", "-x"}, "spectrum has no option --foo" + help},
+        {{"spectrum", kFilm, "-x"}, "spectrum has no option -x" + help},
+        {{"spectrum", kFilm, "-w"}, "--wavelengths: needs a value, LIST" + help},
+        {{"spectrum", kFilm, "--set", "--quiet"}, "--set: needs a value, PATH=VALUE" + help},
+        {{"spectrum", kFilm, "-w", "550", "-w", "600"}, "--wavelengths: is there twice" + help},
+        {{"spectrum", kFilm, "--quiet=5"}, "--quiet: takes no value (got '5')" + help},
+        {{"spectrum", "-w", "550"}, "STACK is required" + help},
+        {{"spectrum", "a", "b", "c"}, "there is one word too many: 'b'"},
+        {{"spectrum", kFilm, "--", "--foo"}, "there is one word too many: '--foo'"},
+        {{"bake", "x.json"}, "--output is required (see irido bake --help)"},
+        {{"validate", "--schema", "stack", "a.json"}, "--schema and FILE cannot be used together"},
+        {{"lut", "color"}, "STACK is required (see irido lut color --help)"},
+        {{"lut"}, "a command must follow irido lut (see irido lut --help)"},
+        {{}, "a command must follow irido (see irido --help)"},
+        {{"--quiet", "spectrum"}, "a command must follow irido, before --quiet"},
+        {{"materials", "lst"},
+         "there is no command 'lst' (did you mean \"list\"?) (see irido "
+         "materials --help)"},
+        {{"sweep", kFilm, "-w", "633"},
+         "--compute: is required before -w is known: spectrum, "
+         "color, bands or cm (see irido sweep --help)"},
+        {{"sweep", kFilm, "--vray", "a=1"}, "(did you mean \"--vary\"?)"},
+        {{"sweep", kFilm, "-w", "633", "--compute", "color"}, "sweep has no option -w"},
+    };
+    for (const auto& [words, error] : cases) check_refused(run_irido(words), error);
+}
+
+TEST_CASE("help is shown whatever else is typed", "[cli]") {
+    CHECK_THAT(run_irido({"spectrum", "--foo", "--help"}).out, Contains("--wavelengths"));
+    CHECK(run_irido({"--help"}).status == 0);
+    CHECK(run_irido({"lut", "--help"}).status == 0);
+}
+
+TEST_CASE("every command takes -j and --quiet", "[cli]") {
+    const std::vector<std::vector<std::string>> commands{{"bands", "1 | (1@200 | 1.5@180)^10 | 1"},
+                                                         {"cm", "1 | 1.42@400 | 1.87"},
+                                                         {"materials", "list"},
+                                                         {"materials", "show", "Au"},
+                                                         {"validate", kFilm},
+                                                         {"convert", kFilm},
+                                                         {"lut", "list"},
+                                                         {"lut", "shader", "color"},
+                                                         {"spectrum", kFilm, "-w", "550"},
+                                                         {"color", kFilm}};
+    for (std::vector<std::string> command : commands) {
+        CAPTURE(command[0]);
+        const Outcome before = run_irido(command);
+        command.insert(command.end(), {"-j", "2", "--quiet"});
+        const Outcome with = run_irido(command);
+        CHECK(with.status == 0);
+        CHECK(with.err.empty());
+        CHECK(with.out == before.out);
+    }
+    check_refused(run_irido({"materials", "list", "-j", "0"}),
+                  "--threads: must be in [1, 4096] (got 0)");
+}
+
+TEST_CASE("more threads than there can be are fewer, with a note", "[cli]") {
+    const Outcome many = run_irido({"spectrum", kFilm, "-w", "550", "-j", "1e5"});
+    CHECK(many.status == 0);
+    CHECK(many.err == "irido: note: --threads: at most 4096 are started (got 1e5)\n");
+    CHECK(run_irido({"spectrum", kFilm, "-w", "550", "-j", "4096"}).err.empty());
+    CHECK(run_irido({"spectrum", kFilm, "-w", "550", "-j", "99999", "--quiet"}).err.empty());
+}
+
+TEST_CASE("-o - is standard output", "[cli][output]") {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<std::string>> commands{
+        {"spectrum", kFilm, "-w", "550"},
+        {"color", kFilm, "-f", "json"},
+        {"sweep", kFilm, "--vary", "layers.0.thickness_nm=1,2", "--compute", "spectrum", "-w",
+         "550"},
+        {"materials", "list"},
+        {"lut", "falpha", "--alpha", "0.1", "--size", "4"},
+        {"convert", kFilm}};
+    for (std::vector<std::string> command : commands) {
+        CAPTURE(command[0]);
+        const Outcome plain = run_irido(command, "", folder.path());
+        command.insert(command.end(), {"-o", "-"});
+        const Outcome dash = run_irido(command, "", folder.path());
+        CHECK(dash.status == 0);
+        CHECK(dash.out == plain.out);
+        CHECK_FALSE(dash.out.empty());
+    }
+    CHECK(run_shell("ls -A | wc -l", folder.path()).out == "0\n");
+}
+
+TEST_CASE("wavelengths that look like um are told apart", "[cli][refused]") {
+    check_refused(run_irido({"spectrum", kFilm, "-w", "0.55"}),
+                  "--wavelengths: must be in [1, 1e+07] (got 0.55); wavelengths are in nm, 0.55 um "
+                  "is 550");
+    check_refused(run_irido({"cm", kFilm, "--at", "0.6328"}), "0.6328 um is 632.8");
+}
+
+TEST_CASE("messages show names as they are, on one short line", "[cli][refused]") {
+    const Outcome controls = run_irido({"spectrum", "a\x1B[31m\n\x7F.json"});
+    CHECK(controls.err ==
+          "irido: error: a\\x1B[31m\\n\\x7F.json: cannot be read: No such file or directory\n");
+    check_refused(run_irido({"spectrum", "\xE2\x80\xAEx\xFF\xC3\xA9.json"}),
+                  "\\u202Ex\\xFF\xC3\xA9.json: cannot be read");
+    std::string layers;
+    for (int i = 0; i < 1000; ++i) layers += "1.5@100 | ";
+    const Outcome expression = run_irido({"spectrum", "air | " + layers + "1.5@x | air"});
+    CHECK(expression.err.size() < 450);
+    CHECK_THAT(expression.err, StartsWith("irido: error: \"air | 1.5@100") &&
+                                   Contains("expected a thickness in nm, found \"x\"\n"));
+    const Outcome option = run_irido({"spectrum", kFilm, "--" + std::string(5000, 'x')});
+    CHECK(option.err.size() < 450);
+    CHECK_THAT(option.err, Contains("(see irido spectrum --help)"));
+}
+
+TEST_CASE("convert writes stacks as JSON and as expressions", "[cli][convert]") {
+    const TemporaryFolder folder;
+    const std::string mirror = "air | (TiO2@58.5 | 1.46+0.1j@94.2)^10 | BK7@1mm! | air";
+    const Outcome json = run_irido({"convert", mirror, "-o", "mirror.json"}, "", folder.path());
+    CHECK(json.status == 0);
+    const std::string written = read_file(folder / "mirror.json");
+    CHECK_THAT(written, Contains("\"thickness_nm\": 1000000\n") &&
+                            Contains("\"coherent\": false") && Contains("\"repeat\": 10\n"));
+    CHECK(run_irido({"validate", "mirror.json"}, "", folder.path()).out == "mirror.json: ok\n");
+    CHECK(run_irido({"convert", mirror}).out == written);
+    CHECK(run_irido({"convert", "mirror.json", "-o", "-"}, "", folder.path()).out == written);
+    const Outcome words = run_irido({"convert", "-", "-f", "expression"}, written);
+    CHECK(words.out == "air | (TiO2@58.5 | 1.46+0.1i@94.2)^10 | BK7@1000000! | air\n");
+    CHECK(words.err.empty());
+    const std::vector<std::string> light{"-w", "400:700:50", "-a", "0,40"};
+    std::vector<std::string> ask{"spectrum", mirror}, again{"spectrum", folder / "mirror.json"};
+    ask.insert(ask.end(), light.begin(), light.end());
+    again.insert(again.end(), light.begin(), light.end());
+    CHECK(run_irido(ask).out == run_irido(again).out);
+
+    const Outcome lossy = run_irido({"convert", "-", "-f", "expression"},
+                                    R"({"incident": 1, "substrate": 1.5, "layers": [{"material": 2,
+                      "thickness_nm": 5, "thickness_sigma_nm": 1}]})");
+    CHECK(lossy.out == "1 | 2@5 | 1.5\n");
+    CHECK(lossy.err == "irido: note: an expression cannot say: thickness_sigma_nm\n");
+    check_refused(run_irido({"convert", mirror, "-f", "yaml"}), "--format: must be one of json");
+    check_refused(run_irido({"convert", "air | 1.5@-1 | air"}), "must be in [0, 1e9]");
+}
+
+TEST_CASE("own files and named media are taken everywhere", "[cli]") {
+    const TemporaryFolder folder;
+    write_text(folder / "glass.csv", "nm,n\n300,1.5\n900,1.5\n");
+    const auto run = [&](const std::vector<std::string>& words) {
+        const Outcome outcome = run_irido(words, "", folder.path());
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == 0);
+        return outcome.out;
+    };
+    const std::string expected = run({"spectrum", "1 | 2@78 | 1.5", "-w", "550"});
+    CHECK(run({"spectrum", "1 | 2@78 | glass.csv", "-w", "550"}) == expected);
+    CHECK(run({"spectrum", "1 | 2@78 | 1", "--set", "substrate=glass.csv", "-w", "550"}) ==
+          expected);
+    CHECK(run({"spectrum", "1 | H@0.078um | G", "--material", "H=2", "--material", "G=glass.csv",
+               "-w", "550"}) == expected);
+    const std::string swept = run({"sweep", "1 | 2@78 | 1", "--vary", "substrate=glass.csv,1.5",
+                                   "--compute", "spectrum", "-w", "550"});
+    const auto rows = parse_csv(swept);
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[1][4] == rows[2][4]);
+    // names of files stay right when a stack moves
+    run_shell("mkdir in out", folder.path());
+    write_text(folder / "in/stack.json",
+               R"({"incident": 1, "layers": [], "substrate": {"file": "../glass.csv"}})");
+    run({"convert", "in/stack.json", "-o", "moved.json"});
+    CHECK_THAT(read_file(folder / "moved.json"), Contains("\"file\": \"glass.csv\""));
+    CHECK(run({"validate", "moved.json"}) == "moved.json: ok\n");
+}
