@@ -19,12 +19,12 @@ struct ConvertCommand {
     bool quiet = false;
 };
 
-enum class StackFormat { json, expression };
+enum class StackFormat { document, expression };
 
 StackFormat resolved_stack_format(const OutputOptions& output) {
     const bool is_default = output.format.empty() && output.file.empty();
     const std::string name = is_default ? "json" : resolved_format(output);
-    if (name == "json") return StackFormat::json;
+    if (name == "json") return StackFormat::document;
     if (name == "expression" || (output.format.empty() && name == "txt"))
         return StackFormat::expression;
     if (output.format.empty())
@@ -63,7 +63,7 @@ int run_convert(const ConvertCommand& command) {
     StackSource source = load_stack(command.stack);
     const StackDocument document = read_stack(source.document, source.file, source.folder);
     for (const std::string& text : document.notes) note(text, command.quiet);
-    const std::string text = format == StackFormat::json
+    const std::string text = format == StackFormat::document
                                  ? as_json(std::move(source), command.output.file)
                                  : as_expression(document, command.quiet);
     write_bytes(text, command.output, false);

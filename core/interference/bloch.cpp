@@ -51,7 +51,8 @@ Periods periods(const BlochPoint& at, std::uint64_t repeat) {
 }  // namespace
 
 BlochMirror bloch_mirror(const RealLayer& first, const RealLayer& second, std::uint64_t repeat,
-                         double n0, double n_out, IncidentAngle incidence, Polarization polarization) {
+                         double n0, double n_out, IncidentAngle incidence,
+                         Polarization polarization) {
     BlochMirror mirror;
     mirror.period = bragg_period(first, second, n0, incidence, polarization);
     const auto of = [&](double n) { return admittance(n, n0, incidence, polarization); };

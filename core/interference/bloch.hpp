@@ -20,7 +20,8 @@ struct BlochMirror {
 /// Throws DomainError where a layer or the half-space below reflects totally, and as
 /// bragg_period() does.
 BlochMirror bloch_mirror(const RealLayer& first, const RealLayer& second, std::uint64_t repeat,
-                         double n0, double n_out, IncidentAngle incidence, Polarization polarization);
+                         double n0, double n_out, IncidentAngle incidence,
+                         Polarization polarization);
 
 /// What a period does at one omega: with M its matrix of tangential fields, det M = 1,
 ///     cos KL = tr(M)/2,   u = (Y_in - Y_out) (M11 - M22)/2,   v = |Y_in Y_out M12 + M21|.

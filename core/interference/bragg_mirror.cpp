@@ -88,8 +88,8 @@ BraggPeriod BraggMirror::period(double angle_deg, Polarization polarization, dou
     try {
         const RealLayer first{index(pair_[0].material, omega), pair_[0].thickness_nm};
         const RealLayer second{index(pair_[1].material, omega), pair_[1].thickness_nm};
-        return bragg_period(first, second, index(stack_.incident, omega),
-                            incident_angle(angle_deg), polarization);
+        return bragg_period(first, second, index(stack_.incident, omega), incident_angle(angle_deg),
+                            polarization);
     } catch (const DomainError& error) {
         throw DomainError(std::string(error.what()) + ", at " + to_text(angle_deg) + " degrees");
     }

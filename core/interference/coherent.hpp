@@ -16,8 +16,8 @@ struct Power {
     double A = 0;
 };
 
-/// Direction of the incident light in the incident medium. The sine stands beside the cosine because
-/// each loses its digits where it is formed from the other.
+/// Direction of the incident light in the incident medium. The sine stands beside the cosine
+/// because each loses its digits where it is formed from the other.
 struct IncidentAngle {
     double cos = 1, sin = 0;
 

@@ -147,6 +147,23 @@ Matrix layer_matrix(const Medium& m, double k0_d, Polarization polarization) {
     return phase_matrix(m, layer_phase(m.q2, k0_d), k0_d, polarization);
 }
 
+Matrix wave_matrix(const Medium& m, double k0_d, Polarization polarization, Complex y0) {
+    const Complex kz = square_root(m.q2), delta = k0_d * kz;  // Re(kz) >= 0
+    const Complex y = polarization == Polarization::s ? kz : m.eps / kz;
+    const Complex i_h = kI * ((y - y0) * (y - y0) / (2.0 * y * y0));
+    const Complex i_w = kI * ((y - y0) * (y + y0) / (2.0 * y * y0));
+    const double b = std::abs(delta.imag());
+    if (b <= kLargestPlainExponent) {
+        const Complex half = std::sin(delta / 2.0), sine = std::sin(delta);
+        const Complex less = -2.0 * half * half;
+        return {less - (kI + i_h) * sine, -i_w * sine, i_w * sine, less + (kI + i_h) * sine, 0};
+    }
+    const double identity = std::exp(-b);
+    const Complex down = std::exp(-kI * delta - b), up = std::exp(kI * delta - b);
+    const Complex sine = (up - down) / (2.0 * kI);
+    return {down - identity - i_h * sine, -i_w * sine, i_w * sine, up - identity + i_h * sine, b};
+}
+
 Slab layer_slab(const Medium& m, double k0_d, Polarization polarization) {
     const Phase phase = layer_phase(m.q2, k0_d);
     Slab slab{phase_matrix(m, phase, k0_d, polarization), {}, m.eps.imag() != 0};

@@ -62,6 +62,14 @@ double absorbed_flux(const AbsorbedPower& q, Complex b, Complex c);
 /// Characteristic matrix of one layer, thickness k0 d (radians in vacuum, >= 0).
 Matrix layer_matrix(const Medium& medium, double k0_d, Polarization polarization);
 
+/// The same layer acting on amplitudes (f, g) instead of fields, B = b (f + g) and C = c (f - g):
+/// those of the waves down and up in a medium of admittance y0 = c/b. Where waves grow, as in media
+/// that amplify, the weak one of the two keeps its digits, which B and C add to the strong one's.
+///     f' = (e - i h s) f - i w s g     e = exp(-i delta), s = sin(delta), y of the layer
+///     g' = i w s f + (1/e + i h s) g   h = (y - y0)^2/(2 y y0), w = (y^2 - y0^2)/(2 y y0)
+/// Not finite at the layer's critical angle.
+Matrix wave_matrix(const Medium& medium, double k0_d, Polarization polarization, Complex y0);
+
 /// The layer with the power it absorbs, as an exact integral over its depth; gain is negative.
 Slab layer_slab(const Medium& medium, double k0_d, Polarization polarization);
 

@@ -78,11 +78,58 @@ BlochPhase bloch_phase_of_group(const Group& group, const Matrix& matrix,
     return bloch_phase_of_matrix(matrix);
 }
 
-Matrix group_matrix(const Group& group, std::span<const Medium> media, double k0,
-                    Polarization polarization) {
-    const Matrix m = matrix_of(group.elements, media, k0, polarization);
-    if (group.repeat == 1) return m;
-    return power(m, bloch_phase_of_group(group, m, media, k0, polarization), group.repeat);
+/// One layer repeated is a thicker layer.
+const Layer* only_layer(const Group& group) {
+    return group.elements.size() == 1 ? std::get_if<Layer>(&group.elements[0].value) : nullptr;
+}
+
+/// Matrices of layers, and Bloch phases of groups whose period has a matrix: of the fields (B, C),
+/// and of the waves in a medium of admittance y0.
+struct FieldMatrices {
+    std::span<const Medium> media;
+    double k0;
+    Polarization polarization;
+
+    Matrix of(const Layer& layer, double thickness_nm) const {
+        return layer_matrix(media[layer.material], k0 * thickness_nm, polarization);
+    }
+    BlochPhase of(const Group& group, const Matrix& m) const {
+        return bloch_phase_of_group(group, m, media, k0, polarization);
+    }
+};
+struct WaveMatrices {
+    std::span<const Medium> media;
+    double k0;
+    Polarization polarization;
+    Complex y0;
+
+    Matrix of(const Layer& layer, double thickness_nm) const {
+        return wave_matrix(media[layer.material], k0 * thickness_nm, polarization, y0);
+    }
+    BlochPhase of(const Group&, const Matrix& m) const { return bloch_phase_of_matrix(m); }
+};
+
+template <class Matrices>
+Matrix product_of(std::span<const Element> elements, const Matrices& matrices);
+
+template <class Matrices>
+Matrix power_of(const Group& group, const Matrices& matrices) {
+    if (const Layer* layer = only_layer(group))
+        return matrices.of(*layer, layer->thickness_nm * static_cast<double>(group.repeat));
+    const Matrix m = product_of(group.elements, matrices);
+    return group.repeat == 1 ? m : power(m, matrices.of(group, m), group.repeat);
+}
+
+template <class Matrices>
+Matrix product_of(std::span<const Element> elements, const Matrices& matrices) {
+    Matrix total;
+    for (std::size_t i = elements.size(); i-- > 0;) {
+        const Layer* layer = std::get_if<Layer>(&elements[i].value);
+        total = (layer ? matrices.of(*layer, layer->thickness_nm)
+                       : power_of(std::get<Group>(elements[i].value), matrices)) *
+                total;
+    }
+    return total;
 }
 
 /// The slab with its matrix replaced by an equal one of better digits.
@@ -102,7 +149,8 @@ double log_size(const Matrix& m) {
 Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
                 Polarization polarization) {
     const Slab period = slab_of(group.elements, media, k0, polarization);
-    if (!period.absorbs) return {group_matrix(group, media, k0, polarization), {}, false};
+    if (!period.absorbs)
+        return {power_of(group, FieldMatrices{media, k0, polarization}), {}, false};
     const BlochPhase bloch = bloch_phase_of_group(group, period.matrix, media, k0, polarization);
     const double growth = std::abs((2.0 * std::asin(std::sqrt(bloch.sin2))).imag());
     const bool closed = growth * static_cast<double>(group.repeat) < kLargestLogTrace;
@@ -130,11 +178,6 @@ bool absorbs(std::span<const Element> elements, std::span<const Medium> media) {
         }
     }
     return false;
-}
-
-/// One layer repeated is a thicker layer.
-const Layer* only_layer(const Group& group) {
-    return group.elements.size() == 1 ? std::get_if<Layer>(&group.elements[0].value) : nullptr;
 }
 
 }  // namespace
@@ -181,22 +224,12 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
 
 Matrix matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
                  Polarization polarization) {
-    Matrix total;
-    for (std::size_t i = elements.size(); i-- > 0;) {
-        if (const Layer* layer = std::get_if<Layer>(&elements[i].value)) {
-            total = layer_matrix(media[layer->material], k0 * layer->thickness_nm, polarization) *
-                    total;
-            continue;
-        }
-        const Group& group = std::get<Group>(elements[i].value);
-        if (const Layer* layer = only_layer(group)) {
-            const double thickness = layer->thickness_nm * static_cast<double>(group.repeat);
-            total = layer_matrix(media[layer->material], k0 * thickness, polarization) * total;
-        } else {
-            total = group_matrix(group, media, k0, polarization) * total;
-        }
-    }
-    return total;
+    return product_of(elements, FieldMatrices{media, k0, polarization});
+}
+
+Matrix wave_matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
+                      Polarization polarization, Complex y0) {
+    return product_of(elements, WaveMatrices{media, k0, polarization, y0});
 }
 
 Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, double k0,

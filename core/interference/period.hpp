@@ -11,7 +11,11 @@ namespace irido {
 Matrix matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
                  Polarization polarization);
 
-/// The same with the power they absorb.
+/// The same for wave_matrix().
+Matrix wave_matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
+                      Polarization polarization, Complex y0);
+
+/// The same as matrix_of() with the power they absorb.
 Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
              Polarization polarization);
 

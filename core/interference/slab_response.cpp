@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -106,10 +107,41 @@ Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
     return response;
 }
 
+namespace {
+
+/// Where light grows by more than this, sums of fields lose the wave that is weak in them.
+constexpr double kAmplified = 100;
+
+/// By the amplitudes of the waves in the medium of `in`; nothing where a layer has none.
+std::optional<Response> amplified_response(const Wave& in, std::span<const Element> elements,
+                                           const Wave& out, std::span<const Medium> media,
+                                           double k0, Polarization polarization) {
+    const Matrix m = wave_matrix_of(elements, media, k0, polarization, in.c / in.b);
+    const Complex b = out.b / in.b / 2.0, c = out.c / in.c / 2.0, f = b + c, g = b - c;
+    const Complex down = m.identity() * f + (m.a * f + m.b * g);
+    const Complex up = m.identity() * g + (m.c * f + m.d * g);
+    Response response;
+    response.r = up / down;
+    response.t = out.b / in.b / down * m.identity();
+    response.denominator = 2.0 * in.b * in.c * down;
+    response.log_scale = m.log_scale;
+    response.power.R = std::norm(response.r);
+    response.power.T = times_exp(out.flux / (std::norm(down) * in.flux), -2 * m.log_scale);
+    response.power.A = 1 - response.power.R - response.power.T;
+    if (!std::isfinite(response.power.A)) return std::nullopt;
+    return response;
+}
+
+}  // namespace
+
 Response coherent_response(const Wave& in, std::span<const Element> elements, const Wave& out,
                            std::span<const Medium> media, double k0, Polarization polarization) {
     const Slab slab = coherent_slab(elements, media, k0, polarization);
     Response response = slab_response(in, slab, out);
+    if (slab.absorbs && std::max(response.power.R, response.power.T) > kAmplified) {
+        const auto better = amplified_response(in, elements, out, media, k0, polarization);
+        if (better) response = *better;
+    }
     if (slab.absorbs) response.denominator *= std::polar(1.0, dying_phase(elements, media, k0));
     return response;
 }

@@ -157,8 +157,9 @@ Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) 
 
 /// The points of a job.
 ///   cosines, sines  memory for those of a job along angles
-void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const IncidentAngle> incidence,
-                PointRun& run, std::vector<double>& cosines, std::vector<double>& sines) {
+void set_points(const SpectrumJob& job, const IndexTable& table,
+                std::span<const IncidentAngle> incidence, PointRun& run,
+                std::vector<double>& cosines, std::vector<double>& sines) {
     const bool across = job.along_angles;
     const std::size_t wavelength = across ? job.fixed : job.begin;
     run.count = job.end - job.begin;
@@ -191,8 +192,8 @@ void set_points(const SpectrumJob& job, const IndexTable& table, std::span<const
 class VectorRun {
 public:
     VectorRun(const ChainProgram& program, PlainRun& plain, const IndexTable& table,
-              std::span<const IncidentAngle> incidence, const Needs& needs, SimdLevel simd, Spectra& out,
-              SpectrumMemory& memory)
+              std::span<const IncidentAngle> incidence, const Needs& needs, SimdLevel simd,
+              Spectra& out, SpectrumMemory& memory)
         : program_(program),
           plain_(plain),
           table_(table),
@@ -328,14 +329,16 @@ void SpectrumKernel::fix_layers(const IndexTable& table, IncidentAngle incidence
     out.numbers.clear();
     if (incidence.cos == 0) return;  // for the plain kernel
     out.numbers.resize(whole_vectors(out.points) * fixed_.rows);
-    set_points({false, 0, 0, out.points}, table, {&incidence, 1}, memory.run, memory.cosines, memory.sines);
+    set_points({false, 0, 0, out.points}, table, {&incidence, 1}, memory.run, memory.cosines,
+               memory.sines);
     const bool normal = incidence.cos == 1;
     for (const FixedRun& run : fixed_.runs)
         store_fixed(run, memory.run, needs_.s || normal, needs_.p && !normal, fixed_.rows,
                     out.numbers.data(), memory.kernel, simd_);
 }
 
-void SpectrumKernel::fix_all_layers(const IndexTable& table, std::span<const IncidentAngle> incidence,
+void SpectrumKernel::fix_all_layers(const IndexTable& table,
+                                    std::span<const IncidentAngle> incidence,
                                     SpectrumMemory& memory) const {
     memory.fixed_parts.clear();
     if (!shares_layers() || !by_vectors(table)) return;
@@ -417,7 +420,8 @@ void SpectrumKernel::operator()(const IndexTable& table, std::span<const Inciden
 
 Work SpectrumKernel::work(const IndexTable& table, std::span<const IncidentAngle> incidence) const {
     Work work{.points = incidence.size() * table.wavelength_nm().size()};
-    work.normal_angles = static_cast<std::size_t>(std::ranges::count(incidence, 1.0, &IncidentAngle::cos));
+    work.normal_angles =
+        static_cast<std::size_t>(std::ranges::count(incidence, 1.0, &IncidentAngle::cos));
     if (!by_vectors(table)) return work;
     work.kernel = simd_;
     work.passes = program_.down.size() + program_.up.size();
@@ -456,21 +460,24 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const IncidentAngle
     return work;
 }
 
-Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
-                const Needs& needs, const Execution& execution) {
+Spectra spectra(const StackPower& stack, const IndexTable& table,
+                std::span<const IncidentAngle> incidence, const Needs& needs,
+                const Execution& execution) {
     Spectra out;
     spectra(stack, table, incidence, needs, execution, out);
     return out;
 }
 
-void spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
-             const Needs& needs, const Execution& execution, Spectra& out) {
+void spectra(const StackPower& stack, const IndexTable& table,
+             std::span<const IncidentAngle> incidence, const Needs& needs,
+             const Execution& execution, Spectra& out) {
     SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)(
         table, incidence, execution.threads, out);
 }
 
-Work work_of(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
-             const Needs& needs, const Execution& execution) {
+Work work_of(const StackPower& stack, const IndexTable& table,
+             std::span<const IncidentAngle> incidence, const Needs& needs,
+             const Execution& execution) {
     return SpectrumKernel(stack, table.absorbs(), table.amplifies(), needs, execution.simd)
         .work(table, incidence);
 }

@@ -55,8 +55,9 @@ struct Work {
     bool absorbs = false;                ///< any layer
     double operations_per_point = 0;     ///< see vector/program.hpp
 };
-Work work_of(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
-             const Needs& needs, const Execution& execution = {1});
+Work work_of(const StackPower& stack, const IndexTable& table,
+             std::span<const IncidentAngle> incidence, const Needs& needs,
+             const Execution& execution = {1});
 
 /// Points that differ in their wavelength or in their angle only.
 struct SpectrumJob {
@@ -109,8 +110,8 @@ public:
                     SpectrumMemory& memory) const;
 
     /// As spectra(), into memory that is used again; threads as in Execution.
-    void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence, unsigned threads,
-                    Spectra& out) const;
+    void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
+                    unsigned threads, Spectra& out) const;
     /// The same on this thread.
     void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence, Spectra& out,
                     SpectrumMemory& memory) const;
@@ -150,19 +151,21 @@ private:
 /// Stacks of fixed thicknesses go through the vector kernel; spread ones, A_layers and what the
 /// vector kernel leaves go through StackPower one by one. Throws DomainError if amplitudes are
 /// needed of a stack that has none, and as StackPower does.
-Spectra spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
-                const Needs& needs, const Execution& execution = {1});
+Spectra spectra(const StackPower& stack, const IndexTable& table,
+                std::span<const IncidentAngle> incidence, const Needs& needs,
+                const Execution& execution = {1});
 
 /// The same for the cosines of the angles of incidence, [0, 1].
 inline Spectra spectra(const StackPower& stack, const IndexTable& table,
                        std::span<const double> cos_theta, const Needs& needs,
                        const Execution& execution = {1}) {
-    return spectra(stack, table, std::vector<IncidentAngle>(cos_theta.begin(), cos_theta.end()), needs,
-                   execution);
+    return spectra(stack, table, std::vector<IncidentAngle>(cos_theta.begin(), cos_theta.end()),
+                   needs, execution);
 }
 
 /// The same into memory that is used again.
-void spectra(const StackPower& stack, const IndexTable& table, std::span<const IncidentAngle> incidence,
-             const Needs& needs, const Execution& execution, Spectra& out);
+void spectra(const StackPower& stack, const IndexTable& table,
+             std::span<const IncidentAngle> incidence, const Needs& needs,
+             const Execution& execution, Spectra& out);
 
 }  // namespace irido

@@ -407,6 +407,75 @@ StackCase small_index(Random& random) {
     return {b.over(below), visible(random), angle};
 }
 
+/// Periods of gaps past their critical angle and of what light tunnels between.
+StackCase frustrated_mirror(Random& random) {
+    const double n0 = random.uniform(1.5, 4), gap = random.uniform(1, 1.4);
+    StackBuilder b(n0);
+    std::vector<Element> period{any_film(b, random, gap, 100, 2e4)};
+    period.push_back(film(b, random, random.one_in(2) ? n0 : random.uniform(1.4, 4), 50, 500));
+    if (random.one_in(2)) period.push_back(film(b, random, random.uniform(1, 4), 10, 500));
+    b.add(StackBuilder::group(many(random), std::move(period)));
+    const double critical_deg = critical_angle_deg(gap, n0);
+    const double angle = critical_deg + (90 - critical_deg) * random.uniform(0, 0.99);
+    return {b.over(random.one_in(2) ? n0 : random.uniform(1, 4)), visible(random), angle};
+}
+
+/// Groups of groups of groups, in gaps and past critical angles.
+StackCase nested_gaps(Random& random) {
+    const bool frustrated = random.one_in(2);
+    StackBuilder b(frustrated ? random.uniform(1.5, 3) : 1);
+    const auto layer = [&] {
+        return any_film(b, random, random.uniform(frustrated ? 1 : 1.2, 2.7), 5,
+                        frustrated ? 3000 : 500);
+    };
+    std::vector<Element> inner{layer(), layer()};
+    if (random.one_in(2)) inner.push_back(layer());
+    std::vector<Element> outer{layer(), StackBuilder::group(2 + random.below(12), inner), layer()};
+    if (random.one_in(3))
+        outer.push_back(StackBuilder::group(
+            2 + random.below(3),
+            {layer(), StackBuilder::group(2 + random.below(3), {layer(), layer()})}));
+    b.add(StackBuilder::group(2 + random.below(2000), std::move(outer)));
+    return {b.over(random.uniform(1, 2.5)), visible(random), random.uniform(0, 89)};
+}
+
+/// Layers and periods exactly at the critical angle of one: 1 under 2, at 30 degrees.
+StackCase critical_period(Random& random) {
+    StackBuilder b(2);
+    std::vector<Element> period{any_film(b, random, 1, 1, 1e4),
+                                film(b, random, random.uniform(1.2, 3), 10, 500)};
+    if (random.one_in(2))
+        period.push_back(film(b, random, random.one_in(2) ? 1 : random.uniform(1, 4), 10, 500));
+    b.add(StackBuilder::group(1 + random.below(1000), std::move(period)));
+    return {b.over(random.one_in(2) ? 2 : random.uniform(1.2, 4)), visible(random), 30};
+}
+
+/// (H L)^N 2H (L H)^N, at its resonance and beside it.
+StackCase twin_mirrors(Random& random) {
+    const double nm = random.uniform(400, 700);
+    const double high = random.uniform(1.9, 2.6), low = random.uniform(1.35, 1.55);
+    const std::uint64_t pairs = 2 + random.below(20);
+    StackBuilder b;
+    const Element h = b.layer(high, nm / (4 * high)), l = b.layer(low, nm / (4 * low));
+    b.add(StackBuilder::group(pairs, {h, l}));
+    b.add(b.layer(high, nm / (2 * high)));
+    b.add(StackBuilder::group(pairs, {l, h}));
+    const double angle = random.one_in(2) ? 0 : random.log_uniform(1e-3, 30);
+    return {b.over(random.one_in(2) ? 1 : 1.52),
+            random.one_in(2) ? nm : nm * (1 + random.log_uniform(1e-15, 1e-3)), angle};
+}
+
+/// Periods of a metal and a dielectric, T down to 1e-300.
+StackCase metal_periods(Random& random) {
+    StackBuilder b;
+    const Complex inside{random.uniform(0.05, 1), random.uniform(1, 7)};
+    std::vector<Element> period{film(b, random, inside, 5, 100)};
+    const double k = random.one_in(2) ? 0 : random.log_uniform(1e-4, 1);
+    period.push_back(film(b, random, {dielectric(random), k}, 5, 300));
+    b.add(StackBuilder::group(10 + random.below(90), std::move(period)));
+    return {b.over(random.uniform(1, 2)), visible(random), random.uniform(0, 85)};
+}
+
 constexpr std::array kRegimes{
     Regime{"ordinary", "1 to 8 films on glass or metal, 0 to 85 degrees", true, ordinary},
     Regime{"grazing", "1 to 1e-13 degrees below 90", true, grazing},
@@ -433,6 +502,14 @@ constexpr std::array kRegimes{
     Regime{"absorbing_gap", "weak absorbers under total reflection", true, absorbing_gap},
     Regime{"resonator", "spacers between 2 to 26 pairs, at resonance", true, resonator},
     Regime{"small_index", "indices down to 1e-6", true, small_index},
+    Regime{"frustrated_mirror", "periods with gaps past their critical angle, up to 1e9", true,
+           frustrated_mirror},
+    Regime{"nested_gaps", "three levels of groups, in gaps and past critical angles", true,
+           nested_gaps},
+    Regime{"critical_period", "layers and periods exactly at a critical angle", true,
+           critical_period},
+    Regime{"twin_mirrors", "(H L)^N 2H (L H)^N at resonance", true, twin_mirrors},
+    Regime{"metal_periods", "metal and dielectric, T down to 1e-300", true, metal_periods},
 };
 
 }  // namespace

@@ -48,6 +48,9 @@ constexpr double kDeepLogScale = 200;
 /// Layers whose sines are computed side by side: more would not fit the registers.
 constexpr std::uint32_t kSideBySide = 4;
 
+/// Where light grows by more than this, the plain kernel keeps more digits.
+constexpr double kAmplified = 100;
+
 /// A half period with a larger exponent is left to the plain kernel.
 constexpr double kLargestHalfExponent = 150;
 

@@ -984,7 +984,8 @@ private:
         store(e.log_scale, out.log_scale, point, lanes, out.stride);
         const V total = Add(Add(e.R, e.T), e.A);
         const Mask finite = hn::Le(Abs(total), constant(1e300));
-        const Mask redo = Or(bad, hn::Not(finite));
+        const Mask weak = hn::Le(Max(e.R, e.T), constant(kAmplified));
+        const Mask redo = Or(bad, hn::Not(And(finite, weak)));
         if (HWY_LIKELY(hn::AllFalse(Lanes(), redo))) return 0;
         HWY_ALIGN double flags[kMostLanes];
         Store(IfThenElse(redo, constant(1), constant(0)), Lanes(), flags);

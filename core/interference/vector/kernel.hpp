@@ -26,9 +26,9 @@ struct FixedPoints {
 /// Points that the vector kernel takes together.
 struct PointRun {
     std::size_t count = 0;
-    Stream k0;                 ///< 2 pi / wavelength, 1/nm
-    Stream incident;           ///< real index n0
-    Stream cos_theta;          ///< in (0, 1]
+    Stream k0;         ///< 2 pi / wavelength, 1/nm
+    Stream incident;   ///< real index n0
+    Stream cos_theta;  ///< in (0, 1]
     Stream sin_theta;
     std::vector<Stream> n, k;  ///< one per material
     /// Index into them of the medium above the layers; nothing for the incident medium. Its wave is

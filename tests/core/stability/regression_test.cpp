@@ -1,7 +1,10 @@
 // Questions that one of the kernels once answered wrongly, each named by what went wrong. They came
 // out of `irido bench stability`, whose bounds they are held to.
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "core/interference/spectrum.hpp"
+#include "core/stability/reference.hpp"
 #include "core/stability/stability.hpp"
 #include "core/stack/builder.hpp"
 
@@ -204,4 +207,69 @@ TEST_CASE("opaque periods with groups in them are no lasers", "[regression]") {
     const Element many = StackBuilder::group(522812, {once, d.layer(1.357, 296.98)});
     d.add(StackBuilder::group(585679, {many, d.layer(1.404, 89.87)}));
     check(d.over(1.5), 540, 20);
+}
+
+TEST_CASE("a mirror past its critical angle reflects all", "[regression]") {
+    // gaps were told from bands by sizes, which are equal past exp(37): R = 0, T = 1
+    StackBuilder b(2);
+    b.add(StackBuilder::group(100, {b.layer(1, 3718), b.layer(2.4, 379)}));
+    const Stack stack = b.over(2);
+    for (const double nm : {400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0}) check(stack, nm, 55);
+    // the general path, and groups in groups
+    StackBuilder other(2);
+    other.add(other.layer(1.5, 40));
+    other.add(StackBuilder::group(100, {other.layer(1, 3718), other.layer(2.4, 379)}));
+    check(other.over(2), 500, 55);
+    StackBuilder nested(2);
+    const Element inner = StackBuilder::group(
+        5, {nested.layer(1, 900), nested.layer(2.4, 379), nested.layer(1.2, 700)});
+    nested.add(StackBuilder::group(300, {nested.layer(1.1, 600), inner, nested.layer(2, 90)}));
+    check(nested.over(2), 500, 60);
+}
+
+TEST_CASE("twin mirrors keep their digits at resonance", "[regression]") {
+    // the smaller entry of a power is the difference of two that grow
+    StackBuilder b;
+    const double high = 2.35, low = 1.46, nm = 550;
+    const Element h = b.layer(high, nm / (4 * high)), l = b.layer(low, nm / (4 * low));
+    b.add(StackBuilder::group(12, {h, l}));
+    b.add(b.layer(high, nm / (2 * high)));
+    b.add(StackBuilder::group(12, {l, h}));
+    const Stack stack = b.over(1.52);
+    for (const double at_nm : {nm, nm * (1 + 1e-9), nm * (1 + 1e-6)}) check(stack, at_nm, 0);
+}
+
+TEST_CASE("T of periods of metal is there as long as a double can hold it", "[regression]") {
+    // exp(-2 log_scale) was 0 before the fields, as small as they were, made up for it
+    for (const std::uint64_t repeat : {40U, 70U, 99U}) {
+        StackBuilder b;
+        b.add(
+            StackBuilder::group(repeat, {b.layer({0.135, 6.276}, 38), b.layer({2.04, 4e-4}, 220)}));
+        check(b.over(1.17), 672, 48);
+    }
+}
+
+TEST_CASE("a small index near normal incidence keeps its digits", "[regression]") {
+    // 1 - cos(theta)^2 of a cosine that is nearly 1; the bounds take the rounding of the cosine for
+    // a part of the question, so this is held to less
+    for (const SimdLevel level : kSimdLevels) {
+        if (!is_available(level)) continue;
+        const Stack stack = film(1.5, 0.001, 500, 1.5);
+        for (const double angle_deg : {0.001, 0.01, 0.02, 0.03, 0.05, 1.0}) {
+            const IndexTable table(stack, std::vector<double>{550});
+            const IncidentAngle at = incident_angle(angle_deg);
+            const Spectra got =
+                spectra(StackPower(stack), table, std::span(&at, 1), {}, {1, level});
+            const auto exact = conditioned_power(stack, 550, angle_deg);
+            CAPTURE(name_of(level), angle_deg);
+            CHECK(std::abs(got.p.R[0] - exact[1].power.R) < 2e-15);
+            CHECK(std::abs(got.s.R[0] - exact[0].power.R) < 1e-15);
+        }
+    }
+}
+
+TEST_CASE("n = 1 under n = 2 is at its critical angle at 30 degrees", "[regression]") {
+    const IncidentAngle at = incident_angle(30);
+    CHECK(at.sin == 0.5);
+    CHECK(medium(1, 2, at).q2 == 0.0);
 }

@@ -57,11 +57,15 @@ std::vector<double> random_wavelengths(std::size_t count, Random& random) {
     return wavelengths;
 }
 
+std::vector<IncidentAngle> incident_angles(std::span<const double> cosines) {
+    return {cosines.begin(), cosines.end()};
+}
+
 Spectra compute(const SpectrumKernel& kernel, const IndexTable& table,
                 std::span<const double> cosines) {
     Spectra out;
     SpectrumMemory memory;
-    kernel(table, cosines, out, memory);
+    kernel(table, incident_angles(cosines), out, memory);
     return out;
 }
 
@@ -214,12 +218,12 @@ TEST_CASE("points of which stored layers come in parts are the same to the last 
                 fixed.push_back(&parts[part]);
             }
             Spectra in_parts;
-            kernel(table, cosines, fixed, in_parts, memory);
+            kernel(table, incident_angles(cosines), fixed, in_parts, memory);
             const Spectra whole = compute(kernel, table, cosines);
             check_same(in_parts.s, whole.s);
             check_same(in_parts.p, whole.p);
             Spectra by_threads;
-            kernel(table, cosines, 3, by_threads);
+            kernel(table, incident_angles(cosines), 3, by_threads);
             check_same(by_threads.s, whole.s);
         }
     }
