@@ -245,7 +245,9 @@ private:
         const auto built_in = find_material(material.name);
         const bool is_known = built_in && built_in->material.model == material.model;
         if (is_known || is_material_file(material.name)) {
-            if (material.outside == Outside::clamp) lose(material.name + ": extrapolate");
+            if (material.outside == Outside::clamp &&
+                !(is_known && built_in->material.outside == Outside::clamp))
+                lose(material.name + ": extrapolate");
             return quoted_where_needed(material.name);
         }
         if (!is_constant(material)) lose(material.name + ": written as its index at 550 nm");

@@ -1,6 +1,7 @@
 # cmake -DSOURCE=DIR -DVERSION=X.Y.Z -DGIT=PROGRAM -DHEADER=FILE -DROOMS="a;b" -P version.cmake
 # writes the header that says which version and commit of SOURCE the program is built from, if it does
 # not say so already. The commit is empty where SOURCE is not the top of a checkout.
+cmake_minimum_required(VERSION 3.22)
 set(ENV{GIT_OPTIONAL_LOCKS} 0)  # only looks
 
 function(git out)

@@ -93,7 +93,7 @@ TEST_CASE("bench refuses what it does not know in one line", "[cli][bench][refus
         {{"stability", "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
         {{"stability", "-o", "/no/such/folder/x.csv", "-n", "1", "-r", "thin"}, "/no/such/folder"},
         {{"stability", "extra"}, "extra"},
-        {{}, "a command must follow bench"},
+        {{}, "a command must follow irido bench"},
         {{"sped"}, "there is no command 'sped' (did you mean \"speed\"?)"},
     };
     for (const auto& [arguments, error] : cases) {

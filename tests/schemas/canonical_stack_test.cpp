@@ -16,8 +16,7 @@ json canonical(const std::string& stack) {
 }
 
 json canonical_of(const json& document) {
-    return canonical_stack(
-        read_stack(document, "test", IRIDO_SOURCE_DIR "/tests/data").stack);
+    return canonical_stack(read_stack(document, "test", IRIDO_SOURCE_DIR "/tests/data").stack);
 }
 
 }  // namespace
@@ -57,8 +56,9 @@ TEST_CASE("built-in materials keep their names, those of files become numbers", 
                                      {"substrate", {{"cauchy", {1.5, 0.004}}, {"name", "BK7"}}}});
     CHECK(named["substrate"] == json::parse(R"({"cauchy": [1.5, 0.004]})"));
     const json held{{"name", "ITO"}, {"extrapolate", "clamp"}};
-    CHECK(canonical_of({{"incident", 1}, {"layers", json::array()}, {"substrate", held}})
-              ["substrate"] == held);
+    CHECK(canonical_of(
+              {{"incident", 1}, {"layers", json::array()}, {"substrate", held}})["substrate"] ==
+          held);
 }
 
 TEST_CASE("canonical stacks of the examples read back as the same stacks", "[canonical]") {

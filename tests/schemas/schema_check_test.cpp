@@ -193,7 +193,9 @@ TEST_CASE("Every rule of the stack schema has words beside it") {
         const json& node = *nodes.back();
         nodes.pop_back();
         for (const auto& member : node.items()) {
-            if (member.value().is_structured()) nodes.push_back(&member.value());
+            // conditions are not said
+            const bool condition = member.key() == "if" || member.key() == "not";
+            if (member.value().is_structured() && !condition) nodes.push_back(&member.value());
             if (rules.contains(member.key())) CHECK(node.contains("errorMessage"));
         }
     }

@@ -167,11 +167,12 @@ TEST_CASE("Thicknesses have units, each rounded once") {
 TEST_CASE("! after a thickness marks a layer that is not coherent") {
     json plate = layer("BK7", 1e6);
     plate["coherent"] = false;
-    CHECK(parse_stack_expression("air | BK7@1mm! | air") == stack("air", {plate}, "air"));
+    CHECK(parse_stack_expression("air | BK7@1mm! | air") ==
+          stack("air", json::array({plate}), "air"));
     CHECK(parse_stack_expression("air|(BK7@1e6 !|2@3)^2|air") ==
-          stack("air", {group(2, {plate, layer(2, 3)})}, "air"));
+          stack("air", json::array({group(2, {plate, layer(2, 3)})}), "air"));
     CHECK(irido::stack_expression(irido::read_stack({"1 | BK7@1mm! | 1", {}}).stack).text ==
-          "1 | BK7@1000000! | 1");
+          "1 | BK7@1e+06! | 1");
     CHECK(error_of("air! | 1@2 | air") == "column 4: expected \"|\", found \"!\"");
     CHECK(error_of("air | 1@2!! | air") == "column 11: expected \"|\", found \"!\"");
     CHECK(error_of("air | (1@2)^3! | air") == "column 14: expected \"|\", found \"!\"");
@@ -181,10 +182,11 @@ TEST_CASE("! after a thickness marks a layer that is not coherent") {
 
 TEST_CASE("Names of files and names in quotes are media") {
     CHECK(parse_stack_expression("gaas.csv | (alas.csv@78 | ../2024/gaas.yml@66)^20 | 1.5.csv") ==
-          stack("gaas.csv", {group(20, {layer("alas.csv", 78), layer("../2024/gaas.yml", 66)})},
+          stack("gaas.csv",
+                json::array({group(20, {layer("alas.csv", 78), layer("../2024/gaas.yml", 66)})}),
                 "1.5.csv"));
     CHECK(parse_stack_expression("1 | \"a (1)|b.csv\"@2 | 1") ==
-          stack(1, {layer("a (1)|b.csv", 2)}, 1));
+          stack(1, json::array({layer("a (1)|b.csv", 2)}), 1));
     CHECK(error_of("1 | \"a@2 | 1") ==
           "column 5: expected a second \" at the end of the name, found \"\"a\"");
     CHECK(error_of("1 | \"\"@2 | 1") == "column 5: a name is empty");

@@ -249,7 +249,7 @@ TEST_CASE("A stack names its own media") {
     CHECK(read(named) == read(plain));
     // names do not lead on, so that none leads to itself
     named["materials"]["L"] = "H";
-    CHECK(error_of(named) == "f: /materials/L: there is no material \"H\"");
+    CHECK(error_of(named) == "f: /materials/L: there is no material \"H\" (did you mean \"Hg\"?)");
     named["materials"]["L"] = -1;
     CHECK_THAT(error_of(named), Catch::StartsWith("f: /materials/L: must be a real index"));
     named["materials"] = {{"High", 2}};
@@ -258,7 +258,7 @@ TEST_CASE("A stack names its own media") {
     CHECK_THAT(error_of(named), Catch::Contains("f: /materials: must be an object"));
 }
 
-TEST_CASE("--material names media of an expression") {
+TEST_CASE("The option --material names media of an expression") {
     CHECK(read_stack({"1 | (H@50 | L@60)^3 | 1", {}, {"H=2.35", "L=1.46+0.1j"}}).stack ==
           read_stack({"1 | (2.35@50 | 1.46+0.1i@60)^3 | 1", {}}).stack);
     CHECK(read_stack({"1 | H@50 | 1", {"materials.H=BK7"}, {"H=2.35"}}).stack ==

@@ -13,15 +13,20 @@ using Catch::StartsWith;
 namespace {
 
 /// What the build's script writes for a folder, by lines.
-std::string version_of(const std::string& folder, const std::string& git = "git") {
+std::string version_of(const std::string& folder, const std::string& git,
+                       const std::string& header) {
     const Outcome outcome = run_shell(
-        "cmake -DSOURCE=" + folder + " -DVERSION=1.2.3 -DGIT=" + git + " -DHEADER=" + folder +
-            "/made/version.inc '-DROOMS=room;list' -P tables/version.cmake && cat " + folder +
-            "/made/version.inc",
+        "cmake -DSOURCE=" + folder + " -DVERSION=1.2.3 -DGIT=" + git + " -DHEADER=" + header +
+            " '-DROOMS=room;list' -P tables/version.cmake && cat " + header,
         IRIDO_SOURCE_DIR);
     INFO(outcome.err);
     CHECK(outcome.status == 0);
     return outcome.out;
+}
+
+std::string version_of(const std::string& folder, const std::string& git = "git") {
+    const TemporaryFolder made;
+    return version_of(folder, git, made / "version.inc");
 }
 
 std::string header_with(const std::string& commit) {
@@ -75,9 +80,9 @@ TEST_CASE("the commit is that of a checkout, its changes counted in", "[version]
 
 TEST_CASE("a header that says it already is not written again", "[version]") {
     const TemporaryFolder folder;
-    version_of(folder.path());
-    const Outcome same = run_shell("touch -d 2001-01-01 made/version.inc", folder.path());
-    version_of(folder.path());
-    CHECK(run_shell("find made/version.inc -newermt 2002-01-01", folder.path()).out.empty());
+    version_of(folder.path(), "git", folder / "version.inc");
+    const Outcome same = run_shell("touch -d 2001-01-01 version.inc", folder.path());
+    version_of(folder.path(), "git", folder / "version.inc");
+    CHECK(run_shell("find version.inc -newermt 2002-01-01", folder.path()).out.empty());
     CHECK(same.status == 0);
 }

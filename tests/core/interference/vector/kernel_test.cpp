@@ -117,7 +117,7 @@ TEST_CASE("every instruction set agrees with the plain kernel") {
         for (int i = 0; i < 11; ++i) wavelengths.push_back(random.uniform(300, 900));
         const IndexTable table(stack, wavelengths);
         const StackPower power(stack);
-        const std::vector<double> cosines{random.uniform(0, 1), 1, random.uniform(0.01, 0.1)};
+        const std::vector<IncidentAngle> cosines{random.uniform(0, 1), 1, random.uniform(0.01, 0.1)};
         const Spectra plain = spectra(power, table, cosines, kEverything, {1, SimdLevel::plain});
         for (const SimdLevel level : vector_levels()) {
             CAPTURE(name_of(level));
@@ -243,7 +243,7 @@ TEST_CASE("zeros are not negative") {
 TEST_CASE("work says which path a stack takes") {
     const auto work = [](const Stack& stack, const Needs& needs = {}) {
         const IndexTable table(stack, {500, 600});
-        const std::vector<double> cosines{1, 0.5};
+        const std::vector<IncidentAngle> cosines{1, 0.5};
         return work_of(StackPower(stack), table, cosines, needs);
     };
     StackBuilder film;
@@ -323,7 +323,7 @@ TEST_CASE("thicknesses whose phases are too large for the vector sine go the pla
     StackBuilder thick;
     thick.add(thick.layer(1e4, 1e9));
     const Stack extreme = thick.over(1.7);
-    const std::vector<double> cosines{0.5};
+    const std::vector<IncidentAngle> cosines{0.5};
     const IndexTable visible(film, {550}), xray(extreme, {1});
     CHECK(work_of(StackPower(film), visible, cosines, {}).kernel == best_simd_level());
     CHECK(work_of(StackPower(extreme), xray, cosines, {}).kernel == SimdLevel::plain);

@@ -48,7 +48,7 @@ Spectra at(const Stack& stack, std::vector<double> wavelengths_nm, std::vector<d
 }
 
 bool takes_closed_form(const Stack& stack, const Needs& needs = {}) {
-    const double cosine = 0.7;
+    const IncidentAngle cosine(0.7);
     return work_of(StackPower(stack), IndexTable(stack, {500, 600}), std::span(&cosine, 1), needs)
         .mirror;
 }
@@ -350,7 +350,7 @@ TEST_CASE("what is no lossless mirror in its host goes the general way", "[mirro
     CHECK_FALSE(takes_closed_form(b.over(1.31)));
     CHECK_FALSE(takes_closed_form(b.over(1.3), {.amplitudes = true}));
     CHECK_FALSE(takes_closed_form(b.over(1.3), {.layers = true}));
-    const double cosine = 1;
+    const IncidentAngle cosine(1);
     const Stack stack = b.over(1.3);
     CHECK_FALSE(work_of(StackPower(stack), IndexTable(stack, {500}), std::span(&cosine, 1), {},
                         {1, SimdLevel::plain})
