@@ -84,7 +84,7 @@ TEST_CASE("more threads than there can be are fewer, with a note", "[cli]") {
     CHECK(run_irido({"spectrum", kFilm, "-w", "550", "-j", "99999", "--quiet"}).err.empty());
 }
 
-TEST_CASE("-o - is standard output", "[cli][output]") {
+TEST_CASE("The output - is standard output", "[cli][output]") {
     const TemporaryFolder folder;
     const std::vector<std::vector<std::string>> commands{
         {"spectrum", kFilm, "-w", "550"},
