@@ -106,7 +106,9 @@ struct WaveMatrices {
     Matrix of(const Layer& layer, double thickness_nm) const {
         return wave_matrix(media[layer.material], k0 * thickness_nm, polarization, y0);
     }
-    BlochPhase of(const Group&, const Matrix& m) const { return bloch_phase_of_matrix(m); }
+    BlochPhase of(const Group& group, const Matrix& m) const {
+        return bloch_phase_of_group(group, m, media, k0, polarization);  // the same in any basis
+    }
 };
 
 template <class Matrices>

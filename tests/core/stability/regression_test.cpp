@@ -273,3 +273,25 @@ TEST_CASE("n = 1 under n = 2 is at its critical angle at 30 degrees", "[regressi
     CHECK(at.sin == 0.5);
     CHECK(medium(1, 2, at).q2 == 0.0);
 }
+
+TEST_CASE("light that grows through media of one index keeps its digits", "[regression]") {
+    // the wave that is weak was the difference of fields that the strong one fills: 9e-8 of T
+    const double n = 1.7967246026521306;
+    const Complex gain{n, -4.9961967009292845e-08};
+    StackBuilder b(n);
+    const Element inner =
+        StackBuilder::group(4429, {b.layer(gain, 205.92348428515717), b.layer(gain, 273.066)});
+    b.add(StackBuilder::group(4802, {inner, b.layer(gain, 246.43152286234292)}));
+    const Stack stack = b.over(n);
+    const auto exact = conditioned_power(stack, 556.923, 55.969);
+    const IndexTable table(stack, std::vector<double>{556.923});
+    const IncidentAngle at = incident_angle(55.969);
+    for (const SimdLevel level : kSimdLevels) {
+        if (!is_available(level)) continue;
+        const Spectra got = spectra(StackPower(stack), table, std::span(&at, 1), {}, {1, level});
+        CAPTURE(name_of(level), exact[0].power.T);
+        CHECK(exact[0].power.T > 1e8);
+        CHECK(std::abs(got.s.T[0] / exact[0].power.T - 1) < 1e-10);
+        CHECK(std::abs(got.p.T[0] / exact[1].power.T - 1) < 1e-10);
+    }
+}
