@@ -237,8 +237,8 @@ private:
         double worst = 0;
         for (std::size_t i = 0; i < kSamples; ++i) {
             const Spectra at =
-                spectra(power_, table_, std::span(incidences_).subspan(samples_[i].angle, 1), needs_,
-                        execution);
+                spectra(power_, table_, std::span(incidences_).subspan(samples_[i].angle, 1),
+                        needs_, execution);
             const std::size_t w = samples_[i].wavelength;
             worst = std::max({worst, std::abs(at.s.R[w] - exact_[2 * i]),
                               std::abs(at.p.R[w] - exact_[2 * i + 1])});

@@ -139,7 +139,8 @@ private:
     }
 
     [[noreturn]] void fail_without_rows() const {
-        throw InputError(name_, "", "has no rows of numbers; known columns: " + names_.known + names_.others);
+        throw InputError(name_, "",
+                         "has no rows of numbers; known columns: " + names_.known + names_.others);
     }
 
     /// A line that begins with a number was meant as a row.

@@ -148,8 +148,8 @@ std::vector<bool> read_numbers(Rows rows, std::vector<PointsColumn>& columns) {
             if (number) continue;
             if (text.empty()) rows.fail(at, "a cell must not be empty");
             if (is_unusable_number(text))
-                rows.fail(at,
-                          "must be a finite number that a double holds (got " + in_quotes(text) + ")");
+                rows.fail(at, "must be a finite number that a double holds (got " +
+                                  in_quotes(text) + ")");
             has_texts[c] = true;
         }
     }

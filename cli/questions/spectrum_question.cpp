@@ -218,8 +218,8 @@ public:
             is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
                      : static_cast<const SpectrumStack&>(prepared).table;
         try {
-            spectra(power, table, incident_angles_of(incidence.angles_deg), needs, question_.execution_,
-                    spectra_);
+            spectra(power, table, incident_angles_of(incidence.angles_deg), needs,
+                    question_.execution_, spectra_);
         } catch (const DomainError& error) {
             throw InputError(prepared.document.file, "", error.what());
         }
@@ -388,9 +388,9 @@ void SpectrumQuestion::each_block(const StackDocument& document,
             }
 }
 
-/// Of stacks with spread layers, whose points take long. Doubles the number of points that are tried
-/// until their time can be told, so that work that passes a minute takes a tenth of a second or a
-/// point longer.
+/// Of stacks with spread layers, whose points take long. Doubles the number of points that are
+/// tried until their time can be told, so that work that passes a minute takes a tenth of a second
+/// or a point longer.
 void SpectrumQuestion::note_long_work(const StackDocument& document) const {
     constexpr double kLong_s = 60, kTold_s = 0.1;
     const double points =

@@ -80,8 +80,7 @@ private:
         orders = {};
         for (std::size_t k = 0; k < 2; ++k) {
             if (share[k] == 0) continue;
-            const auto series =
-                film_series(film, at, k == 0 ? Polarization::s : Polarization::p);
+            const auto series = film_series(film, at, k == 0 ? Polarization::s : Polarization::p);
             if (!series) throw no_series(angle_deg);
             orders.opd_nm = series->opd_nm;
             orders.weight[k] = share[k] * series->T;

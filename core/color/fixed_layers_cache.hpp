@@ -42,7 +42,7 @@ private:
     const std::size_t most_numbers_;
     std::mutex lock_;
     std::map<std::pair<double, double>, std::shared_ptr<Angle>> angles_;  ///< by cosine and sine
-    std::size_t numbers_ = 0;                          ///< of these
+    std::size_t numbers_ = 0;                                             ///< of these
     std::uint64_t uses_ = 0;
 };
 

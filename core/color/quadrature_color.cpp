@@ -315,7 +315,8 @@ private:
 
     /// Gathers what does not vary; false if there is no room for it.
     bool fix_layers(const SpectrumKernel& kernel, std::span<const SpectralPoints* const> parts,
-                    IncidentAngle incidence, FixedLayersCache::Angle& angle, Scratch& scratch) const {
+                    IncidentAngle incidence, FixedLayersCache::Angle& angle,
+                    Scratch& scratch) const {
         fixed_layers_.find(angle, parts, scratch.fixed_parts);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             if (scratch.fixed_parts[i]) continue;

@@ -117,7 +117,8 @@ TEST_CASE("every instruction set agrees with the plain kernel") {
         for (int i = 0; i < 11; ++i) wavelengths.push_back(random.uniform(300, 900));
         const IndexTable table(stack, wavelengths);
         const StackPower power(stack);
-        const std::vector<IncidentAngle> cosines{random.uniform(0, 1), 1, random.uniform(0.01, 0.1)};
+        const std::vector<IncidentAngle> cosines{random.uniform(0, 1), 1,
+                                                 random.uniform(0.01, 0.1)};
         const Spectra plain = spectra(power, table, cosines, kEverything, {1, SimdLevel::plain});
         for (const SimdLevel level : vector_levels()) {
             CAPTURE(name_of(level));
