@@ -314,8 +314,8 @@ TEST_CASE("plan says why a table is new, and bytes do not depend on that", "[cli
     };
     const std::vector<std::string> folder{"-o", bakery.path("a")};
     const json fresh = plan({});
-    for (const json& table : plan(folder)["tables"])
-        CHECK(table["why"] == "nothing was baked before");
+    const json planned = plan(folder);
+    for (const json& table : planned["tables"]) CHECK(table["why"] == "nothing was baked before");
     bakery.baked("a");
     const json kept = plan(folder);
     for (std::size_t t = 0; t < fresh["tables"].size(); ++t) {
