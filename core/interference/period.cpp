@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace irido {
 
@@ -9,9 +10,6 @@ namespace {
 
 /// Where exp(2 |Im K|) passes the digits of a double, only one Bloch wave is left.
 constexpr double kLargestLogTrace = 40;
-
-/// Entries beside I or -I below which these tell more of the Bloch phase than the trace.
-constexpr double kNearlyIdentity = 0.5;
 
 /// Past N Im K of this the smaller one of the diagonal entries of M^N is summed apart.
 constexpr double kDeepExponent = 1;
@@ -83,56 +81,39 @@ const Layer* only_layer(const Group& group) {
     return group.elements.size() == 1 ? std::get_if<Layer>(&group.elements[0].value) : nullptr;
 }
 
-/// Matrices of layers, and Bloch phases of groups whose period has a matrix: of the fields (B, C),
-/// and of the waves in a medium of admittance y0.
-struct FieldMatrices {
+/// Matrices of the fields (B, C), or of the waves in a medium of admittance y0.
+struct Matrices {
     std::span<const Medium> media;
     double k0;
     Polarization polarization;
+    std::optional<Complex> y0 = std::nullopt;
 
     Matrix of(const Layer& layer, double thickness_nm) const {
-        return layer_matrix(media[layer.material], k0 * thickness_nm, polarization);
+        const Medium& m = media[layer.material];
+        return y0 ? wave_matrix(m, k0 * thickness_nm, polarization, *y0)
+                  : layer_matrix(m, k0 * thickness_nm, polarization);
     }
-    BlochPhase of(const Group& group, const Matrix& m) const {
-        return bloch_phase_of_group(group, m, media, k0, polarization);
+
+    Matrix of(const Group& group) const {
+        if (const Layer* layer = only_layer(group))
+            return of(*layer, layer->thickness_nm * static_cast<double>(group.repeat));
+        const Matrix m = of(group.elements);
+        if (group.repeat == 1) return m;
+        // the Bloch phase is the same in any basis
+        return power(m, bloch_phase_of_group(group, m, media, k0, polarization), group.repeat);
     }
-};
-struct WaveMatrices {
-    std::span<const Medium> media;
-    double k0;
-    Polarization polarization;
-    Complex y0;
 
-    Matrix of(const Layer& layer, double thickness_nm) const {
-        return wave_matrix(media[layer.material], k0 * thickness_nm, polarization, y0);
-    }
-    BlochPhase of(const Group& group, const Matrix& m) const {
-        return bloch_phase_of_group(group, m, media, k0, polarization);  // the same in any basis
-    }
-};
-
-template <class Matrices>
-Matrix product_of(std::span<const Element> elements, const Matrices& matrices);
-
-template <class Matrices>
-Matrix power_of(const Group& group, const Matrices& matrices) {
-    if (const Layer* layer = only_layer(group))
-        return matrices.of(*layer, layer->thickness_nm * static_cast<double>(group.repeat));
-    const Matrix m = product_of(group.elements, matrices);
-    return group.repeat == 1 ? m : power(m, matrices.of(group, m), group.repeat);
-}
-
-template <class Matrices>
-Matrix product_of(std::span<const Element> elements, const Matrices& matrices) {
-    Matrix total;
-    for (std::size_t i = elements.size(); i-- > 0;) {
-        const Layer* layer = std::get_if<Layer>(&elements[i].value);
-        total = (layer ? matrices.of(*layer, layer->thickness_nm)
-                       : power_of(std::get<Group>(elements[i].value), matrices)) *
+    Matrix of(std::span<const Element> elements) const {
+        Matrix total;
+        for (std::size_t i = elements.size(); i-- > 0;) {
+            const Layer* layer = std::get_if<Layer>(&elements[i].value);
+            total =
+                (layer ? of(*layer, layer->thickness_nm) : of(std::get<Group>(elements[i].value))) *
                 total;
+        }
+        return total;
     }
-    return total;
-}
+};
 
 /// The slab with its matrix replaced by an equal one of better digits.
 Slab with_matrix(const Slab& slab, const Matrix& matrix) {
@@ -151,8 +132,7 @@ double log_size(const Matrix& m) {
 Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
                 Polarization polarization) {
     const Slab period = slab_of(group.elements, media, k0, polarization);
-    if (!period.absorbs)
-        return {power_of(group, FieldMatrices{media, k0, polarization}), {}, false};
+    if (!period.absorbs) return {Matrices{media, k0, polarization}.of(group), {}, false};
     const BlochPhase bloch = bloch_phase_of_group(group, period.matrix, media, k0, polarization);
     const double growth = std::abs((2.0 * std::asin(std::sqrt(bloch.sin2))).imag());
     const bool closed = growth * static_cast<double>(group.repeat) < kLargestLogTrace;
@@ -226,12 +206,12 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
 
 Matrix matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
                  Polarization polarization) {
-    return product_of(elements, FieldMatrices{media, k0, polarization});
+    return Matrices{media, k0, polarization}.of(elements);
 }
 
 Matrix wave_matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
                       Polarization polarization, Complex y0) {
-    return product_of(elements, WaveMatrices{media, k0, polarization, y0});
+    return Matrices{media, k0, polarization, y0}.of(elements);
 }
 
 Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, double k0,

@@ -23,6 +23,9 @@ Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, d
 Slab coherent_slab(std::span<const Element> elements, std::span<const Medium> media, double k0,
                    Polarization polarization);
 
+/// Entries beside I or -I below which these tell more of the Bloch phase than the trace.
+inline constexpr double kNearlyIdentity = 0.5;
+
 /// Bloch phase K of a period, cos(K) = tr(M)/2, by the squares of its half angle: each loses its
 /// digits where it is formed from the other.
 struct BlochPhase {

@@ -109,9 +109,6 @@ Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
 
 namespace {
 
-/// Where light grows by more than this, sums of fields lose the wave that is weak in them.
-constexpr double kAmplified = 100;
-
 /// By the amplitudes of the waves in the medium of `in`; nothing where a layer has none.
 std::optional<Response> amplified_response(const Wave& in, std::span<const Element> elements,
                                            const Wave& out, std::span<const Medium> media,

@@ -9,6 +9,10 @@ namespace irido {
 /// An absorption above this loses nothing as 1 - R - T.
 inline constexpr double kSubtractable = 0.01;
 
+/// Where light grows by more than this, sums of fields lose the wave that is weak in them, and the
+/// plain kernel takes waves instead.
+inline constexpr double kAmplified = 100;
+
 /// One wave of a medium: its tangential fields B : C, up to a common factor, and the flux
 /// Re(conj(B) C) of that.
 struct Wave {

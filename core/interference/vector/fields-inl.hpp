@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/interference/period.hpp"
 #include "core/interference/slab_response.hpp"
 #include "core/interference/vector/kernel.hpp"
 #include "core/math/vector_math-inl.hpp"
@@ -48,14 +49,8 @@ constexpr double kDeepLogScale = 200;
 /// Layers whose sines are computed side by side: more would not fit the registers.
 constexpr std::uint32_t kSideBySide = 4;
 
-/// Where light grows by more than this, the plain kernel keeps more digits.
-constexpr double kAmplified = 100;
-
 /// A half period with a larger exponent is left to the plain kernel.
 constexpr double kLargestHalfExponent = 150;
-
-/// Entries beside I or -I below which these tell more of the Bloch phase than the trace.
-constexpr double kNearlyIdentity = 0.5;
 
 /// A thin layer, |delta|^2, whose depth integrals are summed as series.
 constexpr double kThinSquare = 0.25;
