@@ -7,6 +7,7 @@
 #include "cli/bench_speed.hpp"
 #include "cli/stopwatch.hpp"
 #include "core/color/illuminant.hpp"
+#include "core/math/constants.hpp"
 #include "core/rough/filter.hpp"
 #include "core/rough/filter_reference.hpp"
 #include "tables/lut_maker.hpp"
@@ -18,7 +19,6 @@ namespace {
 /// F_alpha as FPB24 compute it: their eq. 29 by the midpoint rule over psi.
 double filter_by_sum(double alpha, double theta_i_deg, double theta_d_deg) {
     constexpr int kSamples = 1000;
-    constexpr double kPi = std::numbers::pi;
     const double ti = theta_i_deg * kPi / 180, td = theta_d_deg * kPi / 180;
     const double a2 = alpha * alpha, cc = std::cos(ti) * std::cos(td),
                  ss = std::sin(ti) * std::sin(td);

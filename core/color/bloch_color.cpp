@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/color/bloch_sums.hpp"
 #include "core/color/difference.hpp"
 #include "core/color/film_parts.hpp"
 #include "core/color/one_mirror.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/pool.hpp"
 
 namespace irido {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// Radians that the fastest harmonic that counts as resolved turns from one point of a band to the
 /// next, in its middle.
@@ -42,7 +40,6 @@ constexpr double kOpaque = 0.02;
 /// Largest error from rounding.
 constexpr double kRounding = 1e-12;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The series at one point of a band.
 struct Sample {

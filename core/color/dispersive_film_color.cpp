@@ -1,14 +1,12 @@
-#include <limits>
 
 #include "core/color/film_parts.hpp"
+#include "core/math/constants.hpp"
 
 namespace irido {
 
 namespace {
 
 constexpr Complex kI{0, 1};
-constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The nearest path that SensitivityTransform takes.
 Complex admitted(Complex path_nm) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 
 #include "core/color/film_orders.hpp"
@@ -12,13 +10,11 @@
 #include "core/color/held_stack.hpp"
 #include "core/color/one_film.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 
 namespace irido {
 
 namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Error of a colour from rounding, of the Fresnel terms above all.
 constexpr double kRounding = 1e-13;

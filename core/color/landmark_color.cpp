@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/color/film_parts.hpp"
 #include "core/color/one_mirror.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 
 namespace irido {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The constants of w~ and of its linear regression. Source: FPB24 appendix B.
 constexpr double kSlope = 0.735, kOffset = 0.532;

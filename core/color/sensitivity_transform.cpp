@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/transform.hpp"
 #include "core/math/vector_math.hpp"
@@ -15,7 +16,6 @@ namespace irido {
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kLongestPath = 1e7;
 
 /// Turn in radians of the fastest wave over a piece that 8, or 16, Gauss points integrate to 2e-15

@@ -4,15 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 
 namespace irido {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
 
 double total_path(const BraggPeriod& period) {

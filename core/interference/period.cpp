@@ -12,7 +12,7 @@ namespace {
 constexpr double kLargestLogTrace = 40;
 
 /// Past N Im K of this the smaller one of the diagonal entries of M^N is summed apart.
-constexpr double kDeepExponent = 1;
+constexpr double kAttenuated = 1;
 
 /// (sign cos(z) - 1) exp(-log_scale); cos_z is cos(z) exp(-Im z), log_scale >= Im z.
 Complex without_identity(double sign, Complex z, Complex cos_z, double log_scale) {
@@ -191,7 +191,7 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     const Complex diagonal = without_identity(sign, n * k, all.cos, result.log_scale);
     result.a += diagonal;
     result.d += diagonal;
-    if (n * k.imag() > kDeepExponent) {
+    if (n * k.imag() > kAttenuated) {
         // exp(i N K) + ratio (sigma - |traceless|), sigma = -i sin K: neither of them cancels
         const Complex sigma = Complex(0, -1) * sine * std::exp(-ahead);
         const bool below = std::real(traceless * std::conj(sigma)) > 0;  // the smaller entry

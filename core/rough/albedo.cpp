@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <numbers>
 
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
 #include "core/interference/coherent.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/parallel.hpp"
 #include "core/rough/filter.hpp"
@@ -42,9 +42,6 @@
 namespace irido {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kPi = std::numbers::pi;
 
 /// Angles from grazing, radians, below which the features of G2 are not followed: they are that
 /// narrow themselves.

@@ -10,15 +10,14 @@ namespace irido {
 
 namespace {
 
-constexpr std::size_t kDegree = AngleSeries::kDegree;
 constexpr unsigned kFirstLevel = 3, kLastLevel = 30;
 
 /// Angles of a panel, from its end to its begin.
-std::array<double, kDegree + 1> nodes_of(const AngleSeries::Panel& panel) {
+std::array<double, AngleSeries::kPanelDegree + 1> nodes_of(const AngleSeries::Panel& panel) {
     const double begin = panel.begin_deg(), end = panel.end_deg();
-    std::array<double, kDegree + 1> nodes;
-    for (std::size_t j = 0; j <= kDegree; ++j) {
-        const double turn = std::numbers::pi * static_cast<double>(j) / kDegree;
+    std::array<double, AngleSeries::kPanelDegree + 1> nodes;
+    for (std::size_t j = 0; j <= AngleSeries::kPanelDegree; ++j) {
+        const double turn = kPi * static_cast<double>(j) / AngleSeries::kPanelDegree;
         nodes[j] = 0.5 * (begin + end) + 0.5 * (end - begin) * std::cos(turn);
     }
     nodes.front() = end;
@@ -27,14 +26,14 @@ std::array<double, kDegree + 1> nodes_of(const AngleSeries::Panel& panel) {
 }
 
 double last_of(const AngleSeries::Coefficients& series) {
-    return std::abs(series[kDegree - 2]) + std::abs(series[kDegree - 1]) +
-           std::abs(series[kDegree]);
+    return std::abs(series[AngleSeries::kPanelDegree - 2]) + std::abs(series[AngleSeries::kPanelDegree - 1]) +
+           std::abs(series[AngleSeries::kPanelDegree]);
 }
 
 double sum_of_products(const AngleSeries::Coefficients& a, const AngleSeries::Coefficients& b) {
     // four sums, so that no step waits for the one before
-    std::array<double, 4> sums{a[kDegree] * b[kDegree], 0, 0, 0};
-    for (std::size_t k = 0; k < kDegree; k += 4)
+    std::array<double, 4> sums{a[AngleSeries::kPanelDegree] * b[AngleSeries::kPanelDegree], 0, 0, 0};
+    for (std::size_t k = 0; k < AngleSeries::kPanelDegree; k += 4)
         for (std::size_t j = 0; j < 4; ++j) sums[j] += a[k + j] * b[k + j];
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
@@ -43,7 +42,7 @@ double sum_of_products(const AngleSeries::Coefficients& a, const AngleSeries::Co
 void add_polynomials(double x, double weight, AngleSeries::Coefficients& to) {
     double before = weight, now = weight * x;
     to[0] += before;
-    for (std::size_t k = 1; k <= kDegree; ++k) {
+    for (std::size_t k = 1; k <= AngleSeries::kPanelDegree; ++k) {
         to[k] += now;
         before = std::exchange(now, 2 * x * now - before);
     }
@@ -66,7 +65,7 @@ AngleSeries::AngleSeries(
     std::vector<std::pair<Panel, std::vector<Coefficients>>> done;
     std::vector<Panel> open;
     for (std::uint64_t i = 0; i < 1U << kFirstLevel; ++i) open.push_back({kFirstLevel, i});
-    std::array<double, kDegree + 1> samples;
+    std::array<double, AngleSeries::kPanelDegree + 1> samples;
     while (!open.empty()) {
         std::vector<double> angles;
         for (const Panel& panel : open)
@@ -79,9 +78,9 @@ AngleSeries::AngleSeries(
             std::vector<Coefficients> series(functions);
             bool is_good = true;
             for (std::size_t f = 0; f < functions; ++f) {
-                for (std::size_t j = 0; j <= kDegree; ++j)
-                    samples[j] = values[(i * (kDegree + 1) + j) * functions + f];
-                chebyshev_transform(kDegree)(samples, series[f]);
+                for (std::size_t j = 0; j <= AngleSeries::kPanelDegree; ++j)
+                    samples[j] = values[(i * (AngleSeries::kPanelDegree + 1) + j) * functions + f];
+                chebyshev_transform(AngleSeries::kPanelDegree)(samples, series[f]);
                 is_good = is_good && last_of(series[f]) <= tolerance;
             }
             const Panel& panel = open[i];

@@ -22,8 +22,8 @@ struct WeightedAngles {
 /// Functions of an angle in [0, 90] degrees as Chebyshev series on panels 90 [i, i + 1] / 2^level.
 class AngleSeries {
 public:
-    static constexpr std::size_t kDegree = 16;
-    using Coefficients = std::array<double, kDegree + 1>;
+    static constexpr std::size_t kPanelDegree = 16;
+    using Coefficients = std::array<double, kPanelDegree + 1>;
 
     struct Panel {
         unsigned level = 0;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/vector_math.hpp"
 #include "core/rough/filter_row.hpp"
 #include "core/rough/ggx.hpp"
@@ -14,7 +15,6 @@ namespace irido {
 namespace {
 
 constexpr double kHalfDegree = std::numbers::pi / 360;
-constexpr double kPi = std::numbers::pi;
 
 double checked(const char* name, double theta_deg) {
     require_in_range(name, theta_deg, 0, 90);

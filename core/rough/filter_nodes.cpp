@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/complex.hpp"
+#include "core/math/constants.hpp"
 
 namespace irido {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Feature feature_at(Complex root) {
     return {root.real(), std::abs(root.imag())};

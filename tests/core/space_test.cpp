@@ -10,6 +10,7 @@
 #include "core/color/observer.hpp"
 #include "core/color/space.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 
 using Catch::Contains;
 using Catch::WithinAbs;
@@ -18,7 +19,6 @@ using namespace irido;
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr ColorMatrix kIdentity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 Triple times(const ColorMatrix& m, const Triple& v) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tests/core/interference/ask.hpp"
+#include "core/math/constants.hpp"
 #include "tests/oracle/random_stacks.hpp"
 
 using namespace irido;
@@ -12,8 +13,6 @@ using Catch::WithinRel;
 using oracle::StackBuilder;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A few dozen operations in double on either side.
 constexpr double kRounding = 1e-14;

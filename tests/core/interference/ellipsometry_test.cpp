@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "core/interference/ellipsometry.hpp"
+#include "core/math/constants.hpp"
 #include "tests/core/interference/ask.hpp"
 #include "tests/oracle/random_stacks.hpp"
 
@@ -11,8 +11,6 @@ using Catch::WithinAbs;
 using oracle::StackBuilder;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 EllipsometricAngles angles_of(const Stack& stack, double wavelength_nm, double angle_deg) {
     const IndexTable table(stack, {wavelength_nm});

@@ -2,11 +2,11 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "core/color/illuminant.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
 #include "core/rough/ggx.hpp"
 #include "schemas/stack_document.hpp"
@@ -17,8 +17,6 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 /// The albedo of a perfect mirror's facets, by AlbedoNodes.
 double mirror(double alpha, double theta_i_deg) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "core/interference/coherent.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/random.hpp"
 #include "core/rough/filter_nodes.hpp"
 #include "core/rough/filter_reference.hpp"
@@ -20,8 +20,6 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 
 struct Angles {
     double i, d;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/interference/coherent.hpp"
+#include "core/math/constants.hpp"
 #include "core/rough/filter.hpp"
 #include "core/rough/ggx.hpp"
 #include "schemas/stack_document.hpp"
@@ -34,7 +35,6 @@ double T_of(const Stack& stack, double theta_deg, double wavelength_nm) {
 /// The integral over theta_d by tanh-sinh between `cuts`, the kink and points around the peak.
 double by_tanh_sinh(const Stack& stack, double alpha, double theta_i, double wavelength_nm,
                     std::vector<double> cuts) {
-    constexpr double kDegree = std::numbers::pi / 180;
     const TransmissionFilter filter(alpha);
     for (double width = alpha / kDegree; width < 90; width *= 3)
         for (const double at : {theta_i - width, theta_i + width}) cuts.push_back(at);
