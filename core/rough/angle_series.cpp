@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/math/constants.hpp"
 #include "core/math/transform.hpp"
 
 namespace irido {
