@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "schemas/number.hpp"
-#include "tables/atomic_file.hpp"
+#include "schemas/readers/number.hpp"
+#include "tables/files/atomic_file.hpp"
 
 namespace irido {
 

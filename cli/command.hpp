@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/list.hpp"
 #include "cli/message.hpp"
+#include "cli/options/list.hpp"
 #include "core/math/simd_level.hpp"
-#include "schemas/stack_document.hpp"
-#include "tables/records.hpp"
+#include "schemas/documents/stack_document.hpp"
+#include "tables/records/records.hpp"
 
 namespace irido {
 
@@ -79,7 +79,8 @@ void set_examples(CLI::App& command, const std::vector<std::string>& examples,
 /// The format's name as typed or as the file's extension says, "csv" if by neither. UsageError.
 std::string resolved_format(const OutputOptions& output);
 
-/// The format of tables/records.hpp of that name. Throws UsageError, which names `others` too.
+/// The format of tables/records/records.hpp of that name. Throws UsageError, which names `others`
+/// too.
 const RecordFormat& resolved_record_format(const OutputOptions& output,
                                            std::string_view others = "");
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "cli/command.hpp"
-#include "schemas/nearest.hpp"
+#include "schemas/readers/nearest.hpp"
 
 namespace irido {
 

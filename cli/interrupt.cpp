@@ -6,7 +6,7 @@
 #include <csignal>
 #include <ctime>
 
-#include "tables/atomic_file.hpp"
+#include "tables/files/atomic_file.hpp"
 
 namespace irido {
 

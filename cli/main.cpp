@@ -3,10 +3,10 @@
 #include "cli/command.hpp"
 #include "cli/command_line.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/questions/question.hpp"
+#include "cli/queries/question.hpp"
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
-#include "tables/atomic_file.hpp"
+#include "tables/files/atomic_file.hpp"
 #include "tables/version.hpp"
 
 namespace {

@@ -81,8 +81,8 @@ TEST_CASE("one file includes FFTW, one HDF5, one room each knows JSON schemas an
             if (target.starts_with("yaml-cpp/")) users["yaml"].insert(file);
         }
     CHECK(users["fftw"] == std::set<std::string>{"core/math/transform.cpp"});
-    CHECK(users["hdf5"] == std::set<std::string>{"tables/stream/h5_file.cpp"});
-    CHECK(users["valijson"] == std::set<std::string>{"schemas/schema_check.cpp"});
+    CHECK(users["hdf5"] == std::set<std::string>{"tables/records/h5_file.cpp"});
+    CHECK(users["valijson"] == std::set<std::string>{"schemas/documents/schema_check.cpp"});
     CHECK(users["yaml"] ==
-          std::set<std::string>{"schemas/material_formats/refractiveindex_info.cpp"});
+          std::set<std::string>{"schemas/readers/materials/refractiveindex_info.cpp"});
 }

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "cli/list.hpp"
+#include "cli/options/list.hpp"
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/sweep/stacks.hpp"
-#include "tables/stream/record_stream.hpp"
+#include "tables/records/record_stream.hpp"
 
 namespace irido {
 

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include "cli/list.hpp"
+#include "cli/options/list.hpp"
+#include "core/coherent/coherent.hpp"
 #include "core/error.hpp"
-#include "core/interference/coherent.hpp"
 #include "core/material/material.hpp"
+#include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
-#include "schemas/json_document.hpp"
-#include "schemas/number.hpp"
-#include "schemas/points_csv.hpp"
-#include "schemas/text_file.hpp"
-#include "schemas/utf8.hpp"
+#include "schemas/readers/number.hpp"
+#include "schemas/readers/points_csv.hpp"
+#include "schemas/readers/text_file.hpp"
+#include "schemas/readers/utf8.hpp"
 
 namespace irido {
 

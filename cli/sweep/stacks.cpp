@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
-#include "schemas/json_document.hpp"
 
 namespace irido {
 

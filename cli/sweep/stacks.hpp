@@ -6,9 +6,9 @@
 #include <mutex>
 #include <vector>
 
-#include "cli/questions/question.hpp"
+#include "cli/queries/question.hpp"
 #include "cli/sweep/space.hpp"
-#include "schemas/varied_stack.hpp"
+#include "schemas/documents/varied_stack.hpp"
 
 namespace irido {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/color/space.hpp"
-#include "core/interference/spectrum.hpp"
+#include "core/colorimetry/space.hpp"
 #include "core/math/simd_level.hpp"
+#include "core/spectrum/spectrum.hpp"
 #include "core/stack/stack.hpp"
 
 namespace irido {

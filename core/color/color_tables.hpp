@@ -7,12 +7,12 @@
 #include <tuple>
 #include <utility>
 
-#include "core/color/bloch_sums.hpp"
-#include "core/color/cumulative_sensitivity.hpp"
-#include "core/color/quadrature_rule.hpp"
-#include "core/color/sensitivity.hpp"
-#include "core/color/sensitivity_transform.hpp"
-#include "core/color/smooth_sensitivity.hpp"
+#include "core/color/bloch/bloch_sums.hpp"
+#include "core/color/quadrature/quadrature_rule.hpp"
+#include "core/colorimetry/cumulative_sensitivity.hpp"
+#include "core/colorimetry/sensitivity.hpp"
+#include "core/colorimetry/sensitivity_transform.hpp"
+#include "core/colorimetry/smooth_sensitivity.hpp"
 #include "core/math/lazy.hpp"
 
 namespace irido {

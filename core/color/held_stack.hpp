@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/color/sensitivity.hpp"
+#include "core/colorimetry/sensitivity.hpp"
 #include "core/stack/stack.hpp"
 
 namespace irido {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/color/approximation.hpp"
-#include "core/color/bloch_color.hpp"
-#include "core/color/difference.hpp"
-#include "core/color/film_color.hpp"
-#include "core/color/landmark_color.hpp"
-#include "core/color/one_mirror.hpp"
-#include "core/color/quadrature_color.hpp"
+#include "core/color/baselines/approximation.hpp"
+#include "core/color/baselines/landmark_color.hpp"
+#include "core/color/bloch/bloch_color.hpp"
+#include "core/color/bloch/one_mirror.hpp"
+#include "core/color/fourier/film_color.hpp"
+#include "core/color/quadrature/quadrature_color.hpp"
+#include "core/colorimetry/difference.hpp"
 #include "core/error.hpp"
 #include "core/math/lazy.hpp"
 #include "core/math/parallel.hpp"

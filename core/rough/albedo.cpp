@@ -4,9 +4,9 @@
 #include <cmath>
 #include <mutex>
 
+#include "core/coherent/coherent.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
-#include "core/interference/coherent.hpp"
 #include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/parallel.hpp"

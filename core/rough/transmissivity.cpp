@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/coherent/coherent.hpp"
 #include "core/error.hpp"
-#include "core/interference/coherent.hpp"
 #include "core/math/parallel.hpp"
 #include "core/rough/filter_nodes.hpp"
 #include "core/rough/ggx.hpp"

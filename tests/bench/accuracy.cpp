@@ -8,10 +8,10 @@
 #include <mutex>
 #include <string>
 
-#include "core/color/illuminant.hpp"
 #include "core/color/stack_color.hpp"
-#include "core/interference/spectrum.hpp"
+#include "core/colorimetry/illuminant.hpp"
 #include "core/math/parallel.hpp"
+#include "core/spectrum/spectrum.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
 #include "tests/oracle/stack_oracle.hpp"

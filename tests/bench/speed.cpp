@@ -5,12 +5,12 @@
 #include <array>
 #include <numeric>
 
-#include "core/color/illuminant.hpp"
-#include "core/color/observer.hpp"
 #include "core/color/stack_color.hpp"
+#include "core/colorimetry/illuminant.hpp"
+#include "core/colorimetry/observer.hpp"
 #include "core/math/random.hpp"
-#include "schemas/json_document.hpp"
-#include "schemas/stack_document.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/documents/stack_document.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/color/difference.hpp"
-#include "tests/program.hpp"
+#include "core/colorimetry/difference.hpp"
+#include "tests/support/program.hpp"
 
 using namespace irido;
 using namespace irido::test;

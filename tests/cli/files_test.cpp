@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "tests/program.hpp"
+#include "tests/support/program.hpp"
 
 namespace irido::test {
 namespace {

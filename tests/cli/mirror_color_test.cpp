@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/program.hpp"
+#include "tests/support/program.hpp"
 
 using namespace irido::test;
 using Catch::Matchers::Contains;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "tests/program.hpp"
+#include "tests/support/program.hpp"
 
 using namespace irido::test;
 using Catch::Matchers::Contains;

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/math/simd_level.hpp"
-#include "tests/program.hpp"
+#include "tests/support/program.hpp"
 
 using namespace irido;
 using namespace irido::test;

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/math/simd_level.hpp"
-#include "tests/program.hpp"
+#include "tests/support/program.hpp"
 
 using namespace irido;
 using namespace irido::test;

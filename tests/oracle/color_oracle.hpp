@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/color/observer.hpp"
-#include "core/color/space.hpp"
+#include "core/colorimetry/observer.hpp"
+#include "core/colorimetry/space.hpp"
 #include "core/material/material.hpp"
 #include "core/stack/stack.hpp"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/stability/reference.hpp"
-#include "core/stability/textbook.hpp"
+#include "core/truth/reference.hpp"
+#include "core/truth/textbook.hpp"
 #include "tests/oracle/legendre.hpp"
 
 namespace irido::oracle {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/interference/coherent.hpp"
+#include "core/coherent/coherent.hpp"
 #include "core/stack/stack.hpp"
 
 /// Second opinions on what core computes, built on core's reference: other formulas, more digits,

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "tests/tables/sample_luts.hpp"
+#include "tests/support/sample_luts.hpp"
 
 using namespace irido;
 using namespace irido::test;

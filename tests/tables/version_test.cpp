@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <regex>
 
-#include "tests/program.hpp"
+#include "tests/support/program.hpp"
 
 using namespace irido;
 using namespace irido::test;

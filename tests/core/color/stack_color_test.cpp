@@ -6,11 +6,11 @@
 #include <string>
 
 #include "core/color/held_stack.hpp"
-#include "core/color/illuminant.hpp"
+#include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "core/math/parallel.hpp"
-#include "core/stability/regimes.hpp"
+#include "core/truth/regimes.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
 

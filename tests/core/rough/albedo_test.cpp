@@ -3,20 +3,19 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/color/illuminant.hpp"
 #include "core/color/stack_color.hpp"
+#include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
 #include "core/rough/ggx.hpp"
-#include "schemas/stack_document.hpp"
+#include "schemas/documents/stack_document.hpp"
 
 using namespace irido;
 using Catch::Contains;
 using Catch::Matchers::WithinAbs;
 
 namespace {
-
 
 /// The albedo of a perfect mirror's facets, by AlbedoNodes.
 double mirror(double alpha, double theta_i_deg) {

@@ -4,13 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/coherent/coherent.hpp"
 #include "core/error.hpp"
-#include "core/interference/coherent.hpp"
 #include "core/math/constants.hpp"
 #include "core/math/random.hpp"
 #include "core/rough/filter_nodes.hpp"
-#include "core/rough/filter_reference.hpp"
 #include "core/rough/ggx.hpp"
+#include "core/truth/filter_reference.hpp"
 #include "tests/oracle/filter_oracle.hpp"
 
 using namespace irido;
@@ -19,7 +19,6 @@ using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 namespace {
-
 
 struct Angles {
     double i, d;

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/coherent/coherent.hpp"
 #include "core/error.hpp"
-#include "core/interference/coherent.hpp"
 #include "core/math/constants.hpp"
 #include "core/rough/filter.hpp"
 #include "core/rough/ggx.hpp"
-#include "schemas/stack_document.hpp"
+#include "schemas/documents/stack_document.hpp"
 
 using namespace irido;
 using Catch::Contains;

@@ -1,0 +1,246 @@
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "cli/bench/color_comparison.hpp"
+#include "cli/commands/bench.hpp"
+#include "cli/options/color_options.hpp"
+#include "core/colorimetry/illuminant.hpp"
+#include "tables/pictures/plot.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kLargestSeed = 0x1p53, kLargestCount = 1e5;
+
+/// To which the average of Bloch waves is integrated: it is further off itself.
+constexpr double kAverageTolerance = 1e-4;
+
+struct ParetoOptions {
+    std::string cases = "all";
+    std::string count = "50";
+    std::string seed = "1";
+    std::string time = "0.01";
+    std::optional<std::string> plot;
+    OutputOptions output;
+};
+
+/// Tolerances 10^-2 to 10^-last, or counts of something, of one method.
+struct Candidate {
+    ColorMethod::Kind kind;
+    int last_power;  ///< 0 for no tolerances
+    std::vector<std::size_t> counts;
+    bool is_exact;  ///< as exact as asked: compared with equal wavelengths
+
+    std::string name() const { return name_of(ColorMethod{kind}); }
+};
+
+const std::vector<Candidate>& candidates() {
+    using enum ColorMethod::Kind;
+    static const std::vector<Candidate> all{
+        {quadrature, 10, {}, true},
+        {fourier, 8, {1, 2, 3}, true},
+        {fourier_constant, 8, {}, false},
+        {bloch, 8, {1}, true},
+        {automatic, 10, {}, true},
+        {equal, 0, {8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, false},
+        {naive, 0, {0}, false},
+        {gaussian, 0, {0}, false},
+        {gltf, 0, {0}, false},
+        {smits, 0, {0}, false},
+        {landmarks, 0, {1, 2, 3, 4, 5}, false},
+    };
+    return all;
+}
+
+struct Row {
+    std::string_view of;  ///< the case
+    std::size_t candidate = 0;
+    double parameter = 0, tolerance = 0;
+    MethodReport report;
+    EqualMatch equal;
+};
+
+std::vector<Row> rows_of(const ColorCase& one, ColorComparison comparison) {
+    std::vector<Row> rows;
+    const auto add = [&](std::size_t index, std::size_t count, double tolerance) {
+        const Candidate& candidate = candidates()[index];
+        const auto report = comparison.measure({candidate.kind, count}, tolerance);
+        if (!report) return;
+        const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch && count > 0;
+        Row row{one.name, index, static_cast<double>(is_bloch ? count - 1 : count), 0, *report, {}};
+        if (count == 0 && candidate.last_power > 0) {
+            row.tolerance = tolerance;
+            if (candidate.is_exact) row.equal = comparison.equal_match(report->max_error);
+        }
+        rows.push_back(std::move(row));
+    };
+    for (std::size_t index = 0; index < candidates().size(); ++index) {
+        const Candidate& candidate = candidates()[index];
+        for (int power = 2; power <= candidate.last_power; ++power)
+            add(index, 0, std::stod("1e-" + std::to_string(power)));
+        const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch;
+        for (const std::size_t count : candidate.counts)
+            add(index, count, is_bloch ? kAverageTolerance : 1e-6);
+    }
+    return rows;
+}
+
+Records to_records(const std::vector<Row>& rows) {
+    Column::Texts cases, methods, stacks, hexes, exact;
+    for (const Row& row : rows) {
+        cases.emplace_back(row.of);
+        methods.push_back(candidates()[row.candidate].name());
+        stacks.push_back(row.report.worst_stack);
+        hexes.push_back(row.report.worst_hex);
+        exact.push_back(row.report.exact_hex);
+    }
+    Records records{{{"case", std::move(cases)}, {"method", std::move(methods)}}};
+    const auto add = [&](std::string name, auto value) {
+        add_numbers(records, std::move(name), rows, value);
+    };
+    add("parameter", [](const Row& r) { return r.parameter; });
+    add("tolerance", [](const Row& r) { return r.tolerance; });
+    add("colors", [](const Row& r) { return r.report.colors; });
+    add("evaluations", [](const Row& r) { return r.report.evaluations; });
+    add("ns_per_color", [](const Row& r) { return r.report.ns_per_color; });
+    add("max_dXYZ", [](const Row& r) { return r.report.max_error; });
+    add("dE2000_mean", [](const Row& r) { return r.report.mean_de; });
+    add("dE2000_p95", [](const Row& r) { return r.report.p95_de; });
+    add("dE2000_max", [](const Row& r) { return r.report.max_de; });
+    add("equal_wavelengths", [](const Row& r) { return r.equal.wavelengths; });
+    add("equal_ns_per_color", [](const Row& r) { return r.equal.ns_per_color; });
+    add("times_faster", [](const Row& r) { return r.equal.ns_per_color / r.report.ns_per_color; });
+    records.columns.push_back({"worst_stack", std::move(stacks)});
+    add("worst_angle_deg", [](const Row& r) { return r.report.worst_angle_deg; });
+    records.columns.push_back({"worst_hex", std::move(hexes)});
+    records.columns.push_back({"exact_hex", std::move(exact)});
+    return records;
+}
+
+Plot::Point point_of(const Row& row) {
+    return {row.report.ns_per_color, row.report.max_error};
+}
+
+/// The steps along which nothing is both faster and more exact.
+std::vector<Plot::Point> front(const std::vector<Row>& rows) {
+    std::vector<Plot::Point> points, steps;
+    for (const Row& row : rows) points.push_back(point_of(row));
+    std::ranges::sort(points, {}, &Plot::Point::x);
+    for (const Plot::Point& point : points) {
+        if (!steps.empty() && point.y >= steps.back().y) continue;
+        if (!steps.empty()) steps.push_back({point.x, steps.back().y});
+        steps.push_back(point);
+    }
+    return steps;
+}
+
+/// `names` of the methods so far; those that are new are added.
+Plot::Panel panel_of(const std::vector<Row>& rows, std::vector<std::string>& names) {
+    Plot::Panel panel{std::string(rows.front().of), front(rows), {}};
+    for (const Row& row : rows) {
+        const std::string name = candidates()[row.candidate].name();
+        const auto known = std::ranges::find(names, name);
+        const auto kind = static_cast<std::size_t>(known - names.begin());
+        if (known == names.end()) names.push_back(name);
+        const bool goes_on = !panel.series.empty() && panel.series.back().kind == kind;
+        if (!goes_on) panel.series.push_back({kind, {}});
+        panel.series.back().points.push_back(point_of(row));
+    }
+    return panel;
+}
+
+/// Errors below are roundings, and those of the reference.
+constexpr int kSmallestErrorPower = -13;
+
+std::string picture(const std::vector<std::vector<Row>>& cases) {
+    Plot plot;
+    plot.title = "Colours of thin films: run time against error";
+    double fastest = 1e9, slowest = 1;
+    for (const std::vector<Row>& rows : cases) {
+        plot.panels.push_back(panel_of(rows, plot.legend));
+        for (const Row& row : rows) {
+            fastest = std::min(fastest, row.report.ns_per_color);
+            slowest = std::max(slowest, row.report.ns_per_color);
+        }
+    }
+    plot.x = {"time per colour, ns", static_cast<int>(std::floor(std::log10(fastest))),
+              static_cast<int>(std::ceil(std::log10(slowest)))};
+    plot.y = {"largest error of X, Y, Z (white Y = 1)", kSmallestErrorPower, 0};
+    plot.highlight = "best for its time";
+    return write_plot(plot);
+}
+
+int run_pareto(const ParetoOptions& options) {
+    resolved_record_format(options.output);
+    check_writable(options.output);
+    check_plot(options.plot, options.output);
+    const std::uint64_t count = parse_whole_number("--count", options.count, 1, kLargestCount);
+    const std::uint64_t seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
+    const double seconds = parse_one_number("--time", options.time, 0.0001, 60);
+    const SimdLevel simd = execution_of(1).simd;
+    const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
+    std::vector<std::vector<Row>> cases;
+    std::vector<Row> rows;
+    for (const ColorCase& one : chosen_cases<ColorCase>(options.cases, color_cases(), "pareto")) {
+        cases.push_back(
+            rows_of(one, {tables, color_families(one, count, seed), one.is_set, seconds, simd}));
+        rows.insert(rows.end(), cases.back().begin(), cases.back().end());
+    }
+    write_records(to_records(rows), options.output);
+    if (options.plot) write_bytes(picture(cases), {*options.plot, "svg"}, false);
+    return 0;
+}
+
+}  // namespace
+
+void add_bench_pareto(CLI::App& bench, Run& run) {
+    CLI::App* command = bench.add_subcommand(
+        "pareto", "Run time against error of every way to compute a colour, beside the exact one.");
+    const auto options = std::make_shared<ParetoOptions>();
+    command->add_option("-c,--cases", options->cases, cases_help<ColorCase>(color_cases()))
+        ->type_name("NAMES");
+    command
+        ->add_option("-n,--count", options->count,
+                     "stacks of each random set, one angle each, [1, 1e5] [50]")
+        ->type_name("N");
+    command
+        ->add_option("-s,--seed", options->seed,
+                     "stack i of a set depends on seed + i only, [0, 2^53] [1]")
+        ->type_name("S");
+    command
+        ->add_option("-t,--time", options->time,
+                     "seconds spent on the time of each row, [0.0001, 60] [0.01]")
+        ->type_name("S");
+    command
+        ->add_option("--plot", options->plot,
+                     "draw every case's rows into FILE too, an SVG picture")
+        ->type_name("FILE");
+    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    set_examples(
+        *command,
+        {"irido bench pareto -o pareto.csv --plot pareto.svg",
+         "irido bench pareto --cases dielectric,conductor --count 2000 -f json"},
+        "Reflected unpolarized light, D65, 2 degrees, one thread; white Y = 1. Methods:\n"
+        "quadrature, fourier, fourier-constant, bloch and auto at their tolerances (fourier\n"
+        "also up to the order `parameter`, bloch also the average alone, at tolerance 0);\n"
+        "landmarks: FPB24's boxes, subdivided by `parameter`;\n"
+        "equal: `parameter` equally spaced wavelengths;\n"
+        "naive: 650, 510, 475 nm; gaussian: Belcour and Barla's Gaussians; gltf: the\n"
+        "formulas of KHR_materials_iridescence; smits: two beams. A method that does not\n"
+        "take a case's stacks has no rows there.\n"
+        "Columns: parameter and tolerance, 0 where there is none; evaluations: wavelengths\n"
+        "a colour; ns_per_color: the shortest of repeated runs, in the random sets with\n"
+        "each stack's preparation, else of a prepared method; max_dXYZ: largest error of\n"
+        "X, Y, Z against quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours, the\n"
+        "mean of the case's `colors`, what 95 % of them stay below, and the largest.\n"
+        "For methods with a tolerance: equal_wavelengths: equally spaced ones with the same "
+        "max_dXYZ,\n"
+        "equal_ns_per_color and times_faster; 0 for the others, and if more than 65536\n"
+        "are needed. worst_stack, worst_angle_deg: where dE2000 is largest, which is\n"
+        "worst_hex there instead of exact_hex.");
+    command->callback([options, &run] { run = [options] { return run_pareto(*options); }; });
+}
+
+}  // namespace irido

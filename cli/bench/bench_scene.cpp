@@ -1,0 +1,288 @@
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "cli/commands/bench.hpp"
+#include "cli/stopwatch.hpp"
+#include "core/error.hpp"
+#include "schemas/documents/scene_document.hpp"
+#include "schemas/input_error.hpp"
+#include "tables/files/atomic_file.hpp"
+#include "tables/lut/lut_file.hpp"
+#include "tables/shaders/scene/bake.hpp"
+#include "tables/shaders/scene/scene_error.hpp"
+
+namespace irido {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLargestSeed = 0x1p53, kLargestCount = 1e6;
+constexpr std::size_t kFixedSize = 256;
+
+struct SceneBenchOptions {
+    std::vector<std::string> scenes;
+    std::string count = "1000";
+    std::string seed = "1";
+    unsigned threads = 0;
+    OutputOptions output;
+};
+
+/// The example scenes and the stacks that they name, which the program carries in itself.
+struct Document {
+    const char* path;
+    const char* text;
+};
+
+constexpr std::array<Document, 6> kExamples{{
+    {
+        "scenes/beetle.json",
+#include "scene_beetle.inc"
+    },
+    {
+        "scenes/soap-bubbles.json",
+#include "scene_soap_bubbles.inc"
+    },
+    {
+        "scenes/vehicle.json",
+#include "scene_vehicle.inc"
+    },
+    {
+        "jewel-beetle-green.json",
+#include "jewel_beetle_green.inc"
+    },
+    {
+        "jewel-beetle-red.json",
+#include "jewel_beetle_red.inc"
+    },
+    {
+        "jewel-beetle-purple.json",
+#include "jewel_beetle_purple.inc"
+    },
+}};
+
+/// A folder for the bakes, gone at the end.
+class Workplace {
+public:
+    Workplace() {
+        std::string name = (fs::temp_directory_path() / "irido-bench-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw OutputError(name + ": cannot be made");
+        path_ = name;
+    }
+    ~Workplace() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+
+    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+private:
+    std::string path_;
+};
+
+struct Row {
+    std::string scene, method;
+    std::size_t tables = 0, bytes = 0;
+    double seconds = 0, worst = 0, worst_of_levels = 0;
+    std::size_t written = 0;
+};
+
+bool is_in_delta_e(const LutPlan& plan) {
+    return plan.measure.name == "delta_e_2000";
+}
+
+/// Bakes into `folder`; the worst Delta E is left out.
+Row baked(const std::string& name, const Scene& scene, const std::string& folder,
+          const SceneBenchOptions& options) {
+    Row row{name, "irido", 0, 0, 0, 0, 0, 0};
+    BakeResult result;
+    row.seconds = seconds_of([&] {
+        const Scene again = read_scene(scene.file);
+        const ScenePlan plan = plan_scene(again, execution_of(options.threads));
+        BakeRequest request;
+        request.place.folder = folder;
+        request.threads = options.threads;
+        result = bake(again, plan, request);
+        row.tables = plan.tables.size();
+    });
+    if (!result.faults.empty())
+        throw DomainError(
+            fault_text(scene, result.faults.begin()->first, result.faults.begin()->second.front()));
+    row.written = result.manifest_written ? 1 : 0;
+    for (const std::string& made : result.made) row.written += made.ends_with(")") ? 0 : 1;
+    for (const auto& file : fs::directory_iterator(folder))
+        if (file.path().filename() != "manifest.json") row.bytes += fs::file_size(file.path());
+    return row;
+}
+
+/// The values of a table of a bake, from its file or from the manifest.
+Lut lut_of(const SceneTable& table, const nlohmann::json& entry, const std::string& folder) {
+    if (entry.contains("file")) return read_lut(folder + "/" + table.file);
+    return make_lut(*table.kind, table.kind->plan(table.request), table.making);
+}
+
+double worst_of_bake(const Scene& scene, const std::string& folder, const Execution& execution,
+                     const RandomPoints& points) {
+    const ScenePlan plan = plan_scene(scene, execution);
+    const TableEntries entries = baked_scene({folder}, scene).tables;
+    double worst = 0;
+    for (const SceneTable& table : plan.tables) {
+        const LutPlan function = table.kind->plan(table.request);
+        if (!is_in_delta_e(function)) continue;
+        const Lut lut = lut_of(table, entries.at(table.id), folder);
+        worst = std::max(worst, worst_difference(function, lut, points));
+    }
+    for (std::size_t m = 0; m < plan.materials.size(); ++m) {
+        const MaterialPlan& material = plan.materials[m];
+        if (material.shading != Shading::fourier) continue;
+        std::unique_ptr<Lut> lut;
+        for (const MaterialPlan::Use& use : material.tables) {
+            const SceneTable& table = plan.tables[use.table];
+            lut = std::make_unique<Lut>(lut_of(table, entries.at(table.id), folder));
+        }
+        worst = std::max(worst, worst_fourier_difference(scene, scene.materials[m], material,
+                                                         lut.get(), execution, points));
+    }
+    return worst;
+}
+
+/// Tables of all colours of every material, of both polarizations and both sides, 256 samples
+/// along the angle from 0 to 90 degrees and along the first value that varies.
+Row fixed(const std::string& name, const Scene& scene, const SceneBenchOptions& options,
+          const RandomPoints& points) {
+    Row row{name, "fixed 256", 0, 0, 0, 0, 0, 0};
+    const Execution execution = execution_of(options.threads);
+    const LutKind& kind = *find_lut_kind("color");
+    for (const SceneMaterial& material : scene.materials) {
+        LutRequest request = color_request_of(scene, material, execution);
+        const std::vector<double> used = request.list("cos");
+        for (const Side side : {Side::reflected, Side::transmitted})
+            for (const Light light : {Light::s, Light::p}) {
+                request.options["cos"] = equally_spaced(0, 1, 2);
+                request.color.sides = {side};
+                request.color.light = light;
+                LutMaking making;
+                making.type = LutType::f16;
+                making.measure = false;
+                making.threads = options.threads;
+                making.sizing.counts.assign(1 + request.vary.size(), kFixedSize);
+                if (request.vary.size() > 1) making.sizing.counts.back() = kFixedSize / 16;
+                Lut lut;
+                row.seconds +=
+                    seconds_of([&] { lut = make_lut(kind, kind.plan(request), making); });
+                ++row.tables;
+                ++row.written;
+                // four halves a texel, and a third more for the mip levels
+                row.bytes += lut.values.size() / 3 * 8 * 4 / 3;
+                for (double& value : lut.values) value = rounded(value, LutType::f16);
+                request.options["cos"] = used;
+                row.worst = std::max(row.worst, worst_difference(kind.plan(request), lut, points));
+                row.worst_of_levels = row.worst;
+            }
+    }
+    return row;
+}
+
+Records to_records(const std::vector<Row>& rows) {
+    Column::Texts cases, methods;
+    for (const Row& row : rows) {
+        cases.push_back(row.scene);
+        methods.push_back(row.method);
+    }
+    Records records{{{"case", std::move(cases)}, {"method", std::move(methods)}}};
+    const auto add = [&](std::string name, auto value) {
+        add_numbers(records, std::move(name), rows, value);
+    };
+    add("tables", [](const Row& r) { return static_cast<double>(r.tables); });
+    add("bytes", [](const Row& r) { return static_cast<double>(r.bytes); });
+    add("seconds", [](const Row& r) { return r.seconds; });
+    add("worst_delta_e", [](const Row& r) { return r.worst; });
+    add("files_written", [](const Row& r) { return static_cast<double>(r.written); });
+    add("worst_delta_e_levels", [](const Row& r) { return r.worst_of_levels; });
+    return records;
+}
+
+/// Names and files of the scenes that were typed, or of the examples.
+std::vector<std::pair<std::string, std::string>> scenes_of(const SceneBenchOptions& options,
+                                                           const Workplace& place) {
+    std::vector<std::pair<std::string, std::string>> scenes;
+    for (const std::string& file : options.scenes)
+        scenes.emplace_back(fs::path(file).stem().string(), file);
+    if (!scenes.empty()) return scenes;
+    fs::create_directories(place / "scenes");
+    for (const Document& example : kExamples) {
+        const std::string file = place / example.path;
+        write_file(file, example.text);
+        if (file.find("/scenes/") != std::string::npos)
+            scenes.emplace_back(fs::path(file).stem().string(), file);
+    }
+    return scenes;
+}
+
+int run_scene(const SceneBenchOptions& options) {
+    resolved_record_format(options.output);
+    check_writable(options.output);
+    RandomPoints points;
+    points.count = parse_whole_number("--count", options.count, 1, kLargestCount);
+    points.seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
+    points.threads = options.threads;
+    const Workplace place;
+    std::vector<Row> rows;
+    for (const auto& [name, file] : scenes_of(options, place)) {
+        if (file == "-") throw UsageError("a scene that is baked twice must be a file");
+        const Scene scene = read_scene(file);
+        const std::string folder = place / ("tables-" + std::to_string(rows.size()));
+        Row first = baked(name, scene, folder, options);
+        points.all_levels = false;
+        first.worst = worst_of_bake(scene, folder, execution_of(options.threads), points);
+        points.all_levels = true;
+        first.worst_of_levels = worst_of_bake(scene, folder, execution_of(options.threads), points);
+        Row second = baked(name, scene, folder, options);
+        second.method = "irido again";
+        second.worst = first.worst;
+        second.worst_of_levels = first.worst_of_levels;
+        rows.push_back(first);
+        rows.push_back(second);
+        rows.push_back(fixed(name, scene, options, points));
+    }
+    write_records(to_records(rows), options.output);
+    return 0;
+}
+
+}  // namespace
+
+void add_bench_scene(CLI::App& bench, Run& run) {
+    CLI::App* command = bench.add_subcommand(
+        "scene", "A scene's bake beside tables of everything at a fixed size.");
+    const auto options = std::make_shared<SceneBenchOptions>();
+    command->add_option("SCENE", options->scenes, "scene files [the examples of the source]");
+    command
+        ->add_option("-n,--count", options->count,
+                     "random points of each table for worst_delta_e, [1, 1e6] [1000]")
+        ->type_name("N");
+    command
+        ->add_option("-s,--seed", options->seed, "point i depends on seed + i only, [0, 2^53] [1]")
+        ->type_name("S");
+    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_threads_option(*command, options->threads);
+    set_examples(
+        *command, {"irido bench scene", "irido bench scene vehicle.json --count 10000 -f json"},
+        "Methods: irido, a bake into an empty folder; irido again, the same scene once\n"
+        "more; fixed 256, colours of every material at 256 samples of cos(theta) from 0\n"
+        "to 1 and 256 of the first value that varies (16 of the second), of both\n"
+        "polarizations and both sides, with all mip levels (counted, not computed), f16.\n"
+        "Columns: tables; bytes of their files; seconds with planning and writing, of\n"
+        "fixed 256 without writing; worst_delta_e: CIEDE2000 to the exact colour at random\n"
+        "places of the domain that the scene uses, of tables of colours and albedos and of\n"
+        "what the shader computes with the shading fourier (tables in other measures are\n"
+        "left out), without a spread of the thickness; files_written;\n"
+        "worst_delta_e_levels: with its spreads, too, whose mip levels are coarser and not\n"
+        "held to the tolerance (fixed 256 has none).");
+    command->callback([options, &run] { run = [options] { return run_scene(*options); }; });
+}
+
+}  // namespace irido

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/color/stack_color.hpp"
+#include "core/truth/color_cases.hpp"
+
+namespace irido {
+
+/// How far a method's colours of one case are from the exact ones, and what one of them costs.
+struct MethodReport {
+    double colors = 0;
+    double evaluations = 0;                      ///< wavelengths a colour, the mean
+    double ns_per_color = 0;                     ///< see ColorComparison
+    double max_error = 0;                        ///< of X, Y, Z
+    double mean_de = 0, p95_de = 0, max_de = 0;  ///< CIEDE2000
+    // where CIEDE2000 is largest
+    std::string worst_stack;
+    double worst_angle_deg = 0;
+    std::string worst_hex, exact_hex;
+};
+
+/// Equally spaced wavelengths that do as well as another method; all 0 if none do.
+struct EqualMatch {
+    double wavelengths = 0, ns_per_color = 0;
+};
+
+/// The colours of a case by one method after another, reflected unpolarized light, one thread, as
+/// if in a run of very many.
+/// Exact are those of quadrature at 1e-11. Times are the shortest of repeated runs: of a set with
+/// each stack's algorithm made anew, else of the calls alone.
+class ColorComparison {
+public:
+    /// seconds  spent on each time
+    ColorComparison(const ColorTables& tables, std::vector<ColorFamily> families, bool is_set,
+                    double seconds, SimdLevel simd);
+
+    /// Nothing if the method does not take the stacks.
+    std::optional<MethodReport> measure(const ColorMethod& method, double tolerance) const;
+
+    /// The fewest equally spaced wavelengths, up to kMostEqual, with a largest error of X, Y, Z
+    /// that is no larger: by doubling, then halving to within 3 % (the error does not fall evenly).
+    EqualMatch equal_match(double max_error);
+
+    static constexpr std::size_t kMostEqual = 1U << 16;
+
+private:
+    using Algorithms = std::vector<std::unique_ptr<ColorAlgorithm>>;  ///< one a family
+    struct Run {
+        std::vector<StackColor> colors;
+        double ns_per_color = 0;
+    };
+
+    ColorRequest request(double tolerance) const;
+    Algorithms algorithms(const ColorMethod& method, const ColorRequest& request) const;
+    void compute(const ColorAlgorithm& algorithm, const ColorFamily& family,
+                 std::span<StackColor> colors) const;
+    std::vector<StackColor> colors(const Algorithms& algorithms) const;
+    Run run(const ColorMethod& method, double tolerance) const;
+    double max_error(const std::vector<StackColor>& colors) const;
+    double equal_error(std::size_t count);
+
+    const ColorTables& tables_;
+    std::vector<ColorFamily> families_;
+    bool is_set_;
+    double seconds_;
+    SimdLevel simd_;
+    std::size_t count_ = 0;  ///< colours
+    std::vector<Triple> exact_;
+    std::map<std::size_t, double> equal_errors_, equal_ns_;  ///< by count
+};
+
+}  // namespace irido

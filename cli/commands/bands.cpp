@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <numbers>
+
+#include "cli/command.hpp"
+#include "cli/queries/bands_question.hpp"
+#include "core/error.hpp"
+#include "schemas/input_error.hpp"
+#include "tables/files/atomic_file.hpp"
+#include "tables/pictures/band_diagram.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+struct BandsCommand {
+    StackRequest stack;
+    std::unique_ptr<QuestionOptions> typed;
+    std::optional<std::string> plot;
+    OutputOptions output;
+    bool quiet = false;
+};
+
+BandDiagram::Edges wavelengths_of(const BandGap& gap) {
+    return {kTurn / gap.high_per_nm, kTurn / gap.low_per_nm};
+}
+
+std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
+                    const std::string& title) {
+    const std::span<const double> angles = question.angles_deg();
+    BandDiagram diagram{
+        title, question.first_nm(), question.last_nm(), {angles.begin(), angles.end()}, {}};
+    std::ranges::sort(diagram.angles_deg);
+    const auto repeated = std::ranges::unique(diagram.angles_deg);
+    diagram.angles_deg.erase(repeated.begin(), repeated.end());
+    constexpr std::array kBoth{Polarization::s, Polarization::p};
+    std::map<double, BandDiagram::Gap> gaps;
+    for (const double angle_deg : diagram.angles_deg)
+        for (const Polarization p : kBoth)
+            for (const BandGap& gap : band_gaps(mirror.period_at(angle_deg, p), question.omega()))
+                gaps[gap.order].order = gap.order;
+    for (auto& [order, gap] : gaps) {
+        for (const double angle_deg : diagram.angles_deg) {
+            gap.s.push_back(wavelengths_of(band_gap(mirror.period_at(angle_deg, kBoth[0]), order)));
+            gap.p.push_back(wavelengths_of(band_gap(mirror.period_at(angle_deg, kBoth[1]), order)));
+        }
+        diagram.gaps.push_back(std::move(gap));
+    }
+    return write_band_diagram(diagram);
+}
+
+std::string picture(const BandsQuestion& question, const StackDocument& document,
+                    const std::string& title) {
+    try {
+        return picture(question, question.mirror(document, document.stack),
+                       document.name.empty() ? title : document.name);
+    } catch (const DomainError& error) {
+        throw InputError(document.file, "", error.what());
+    }
+}
+
+int run_bands(const BandsCommand& command) {
+    resolved_record_format(command.output);
+    const BandsQuestion question(
+        static_cast<const BandsOptions&>(*command.typed),
+        {.note = [&](const std::string& text) { note(text, command.quiet); }});
+    const auto [least, most] = std::ranges::minmax(question.angles_deg());
+    if (command.plot && least == most)
+        throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
+    const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+    check_plot(command.plot, command.output);
+    const Records records = records_of(question, *prepared);
+    const std::string drawn =
+        command.plot ? picture(question, prepared->document, command.stack.stack) : "";
+    write_records(records, command.output);
+    if (command.plot) write_file(*command.plot, drawn);
+    return 0;
+}
+
+}  // namespace
+
+void add_bands_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand(
+        "bands", "Landmarks and gaps of a Bragg mirror: modes, band edges, Airy points, zeros.");
+    const auto options = std::make_shared<BandsCommand>();
+    add_stack_options(*command, options->stack);
+    options->typed = BandsOptions::add(*command);
+    command
+        ->add_option("--plot", options->plot,
+                     "draw the gaps over angle and wavelength as SVG, for several angles")
+        ->type_name("FILE");
+    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    set_examples(
+        *command,
+        {"irido bands \"1 | (1@200 | 1.5@180)^10 | 1\" -a 20 -p p",
+         "irido bands \"air | (TiO2@58.5 | SiO2@94.2)^10 | BK7\" -a 0:85:1 --gaps "
+         "--plot bands.svg"},
+        "The STACK has one group of two transparent layers that is repeated, and any others "
+        "around\n"
+        "it; landmarks are those of the group without end. With a and b the phases across its\n"
+        "layers and KL that across both,\n"
+        "    mode m  a + b = m pi      edge m  both ends of the gap around mode m\n"
+        "    zero z  b = z pi          airy m  cos(KL) = 0 between the modes m and m + 1.\n"
+        "Closed gaps have two equal edges. Every landmark has the indices at its own wavelength\n"
+        "(edges of a gap past what is known of a material: those at its end). A k up to 0.1 and\n"
+        "thickness_sigma_nm are left out of landmarks, but not of R. An angle past the\n"
+        "critical angle of a layer is an error, as is dispersion so anomalous that the phase\n"
+        "of a layer grows with the wavelength.");
+    command->callback([options, &run] { run = [options] { return run_bands(*options); }; });
+}
+
+}  // namespace irido

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "cli/command.hpp"
+#include "schemas/readers/nearest.hpp"
+
+namespace irido {
+
+/// The subcommands of `irido bench`, each in a file of its own.
+void add_bench_speed(CLI::App& bench, Run& run);
+void add_bench_stability(CLI::App& bench, Run& run);
+void add_bench_pareto(CLI::App& bench, Run& run);
+void add_bench_scene(CLI::App& bench, Run& run);
+
+/// The cases of "a,b" or "all" in that order; `bench` is the subcommand whose help lists them.
+/// Throws UsageError.
+template <class Case>
+std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> all,
+                               const std::string& bench) {
+    if (text == "all") return {all.begin(), all.end()};
+    std::vector<Case> chosen;
+    for (const std::string_view name : comma_separated(text)) {
+        const auto found = std::ranges::find(all, name, &Case::name);
+        if (found != all.end()) {
+            chosen.push_back(*found);
+            continue;
+        }
+        std::vector<std::string> names;
+        for (const Case& one : all) names.emplace_back(one.name);
+        throw UsageError("--cases: there is no case '" + std::string(name) + "'" +
+                         did_you_mean(name, names) + " (see irido bench " + bench + " --help)");
+    }
+    return chosen;
+}
+
+/// The help of --cases.
+template <class Case>
+std::string cases_help(std::span<const Case> all) {
+    std::string text = "all, or some of these with commas [all]:";
+    for (const Case& one : all)
+        text += "\n" + std::string(one.name) + ": " + std::string(one.summary);
+    return text;
+}
+
+/// A column of value(row) for every row.
+template <class Row, class Value>
+void add_numbers(Records& records, std::string name, const std::vector<Row>& rows,
+                 const Value& value) {
+    Column::Numbers numbers(rows.size());
+    std::ranges::transform(rows, numbers.begin(), value);
+    records.columns.push_back({std::move(name), std::move(numbers)});
+}
+
+}  // namespace irido

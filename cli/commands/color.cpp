@@ -1,0 +1,75 @@
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/queries/color_question.hpp"
+#include "tables/pictures/swatches.hpp"
+
+namespace irido {
+
+namespace {
+
+struct ColorCommand {
+    StackRequest stack;
+    std::unique_ptr<QuestionOptions> typed;
+    OutputOptions output;
+    unsigned threads = 0;
+    bool quiet = false;
+};
+
+std::string picture(const ColorQuestion& question, const StackColors& stack,
+                    const std::string& title) {
+    Swatches swatches{title, "angle of incidence, degrees", stack.angles_deg, {}};
+    const RgbSpace& space = rgb_space("srgb");
+    const std::size_t sides = question.sides().size();
+    for (std::size_t l = 0; l < stack.colors.size(); ++l) {
+        const Illumination& lighting = *question.lightings()[l];
+        const RgbTransform transform = rgb_transform(space, lighting.white(), Adaptation::bradford);
+        for (std::size_t s = 0; s < sides; ++s) {
+            const std::string side(letter(question.sides()[s]));
+            Swatches::Strip strip{stack.colors.size() == 1 ? side : lighting.name + " " + side, {}};
+            for (std::size_t i = s; i < stack.colors[l].size(); i += sides)
+                strip.colors.push_back(hex(space, transform(stack.colors[l][i].xyz)));
+            swatches.strips.push_back(std::move(strip));
+        }
+    }
+    return write_swatches(swatches);
+}
+
+int run_color(const ColorCommand& command) {
+    const bool is_picture = resolved_format(command.output) == "svg";
+    if (!is_picture) resolved_record_format(command.output, "svg");
+    const ColorQuestion question(
+        static_cast<const ColorQuestionOptions&>(*command.typed),
+        {.execution = execution_of(command.threads),
+         .note = [&](const std::string& text) { note(text, command.quiet); }});
+    const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+    check_writable(command.output);
+    const StackDocument& document = prepared->document;
+    const StackColors colors = question.colors(*prepared, document.stack, question.angles_deg());
+    if (is_picture) {
+        const std::string title = document.name.empty() ? command.stack.stack : document.name;
+        write_bytes(picture(question, colors, title), command.output, false);
+    } else {
+        write_records(question.records({colors}), command.output);
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_color_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand(
+        "color", "X, Y, Z and linear RGB of the light that a stack reflects or transmits.");
+    const auto options = std::make_shared<ColorCommand>();
+    add_stack_options(*command, options->stack);
+    options->typed = ColorQuestionOptions::add(*command);
+    add_output_options(*command, options->output,
+                       "csv, json, npy, or svg: a strip of the colours in sRGB [csv]");
+    add_threads_option(*command, options->threads);
+    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    set_examples(*command, {"irido color \"air | TiO2@35 | Ti\" -a 0:80:10 --stats",
+                            "irido color stack.json -a 0:85:1 --side R,T -o strip.svg"});
+    command->callback([options, &run] { run = [options] { return run_color(*options); }; });
+}
+
+}  // namespace irido

@@ -1,0 +1,92 @@
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "core/error.hpp"
+#include "schemas/readers/stack_expression.hpp"
+#include "tables/files/atomic_file.hpp"
+
+namespace irido {
+
+namespace {
+
+using nlohmann::json;
+
+struct ConvertCommand {
+    StackRequest stack;
+    OutputOptions output;
+    bool quiet = false;
+};
+
+enum class StackFormat { document, expression };
+
+StackFormat resolved_stack_format(const OutputOptions& output) {
+    const bool is_default = output.format.empty() && output.file.empty();
+    const std::string name = is_default ? "json" : resolved_format(output);
+    if (name == "json") return StackFormat::document;
+    if (name == "expression" || (output.format.empty() && name == "txt"))
+        return StackFormat::expression;
+    if (output.format.empty())
+        throw UsageError("--output: the extension must be json or txt, for an expression (got " +
+                         name + ")");
+    throw UsageError("--format: must be one of json, expression (got " + name + ")");
+}
+
+/// Whole numbers without a point: 100, not 100.0.
+void shorten_numbers(json& value) {
+    constexpr double kLargestWhole = 9007199254740992;
+    if (value.is_structured()) {
+        for (json& item : value) shorten_numbers(item);
+    } else if (value.is_number_float()) {
+        const double number = value.get<double>();
+        if (number == std::floor(number) && std::abs(number) < kLargestWhole)
+            value = static_cast<std::int64_t>(number);
+    }
+}
+
+std::string as_json(StackSource source, const std::string& file) {
+    move_files(source.document, source.folder, std::filesystem::path(file).parent_path().string());
+    shorten_numbers(source.document);
+    return source.document.dump(2) + "\n";
+}
+
+std::string as_expression(const StackDocument& document, bool quiet) {
+    const StackExpression expression = stack_expression(document.stack);
+    for (const std::string& loss : expression.losses)
+        note("an expression cannot say: " + loss, quiet);
+    return expression.text + "\n";
+}
+
+int run_convert(const ConvertCommand& command) {
+    const StackFormat format = resolved_stack_format(command.output);
+    StackSource source = load_stack(command.stack);
+    const StackDocument document = read_stack(source.document, source.file, source.folder);
+    for (const std::string& text : document.notes) note(text, command.quiet);
+    const std::string text = format == StackFormat::document
+                                 ? as_json(std::move(source), command.output.file)
+                                 : as_expression(document, command.quiet);
+    write_bytes(text, command.output, false);
+    return 0;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand("convert", "A stack as JSON, or as an expression.");
+    const auto options = std::make_shared<ConvertCommand>();
+    add_stack_options(*command, options->stack);
+    add_output_options(*command, options->output,
+                       "json, or expression (files: .json, .txt) [json]");
+    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    set_examples(*command,
+                 {"irido convert \"air | (TiO2@58.5 | SiO2@94.2)^10 | BK7@1mm! | air\"",
+                  "irido convert stack.json -f expression",
+                  "irido convert stack.json --set substrate=Si -o on-silicon.json"},
+                 "Material files are named as seen from FILE. What an expression cannot say (a\n"
+                 "spread of thickness, materials that are neither built in, nor files, nor\n"
+                 "constant) is noted on standard error.");
+    command->callback([options, &run] { run = [options] { return run_convert(*options); }; });
+}
+
+}  // namespace irido

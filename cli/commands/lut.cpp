@@ -1,0 +1,429 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "cli/options/color_options.hpp"
+#include "cli/progress.hpp"
+#include "core/colorimetry/illuminant.hpp"
+#include "core/error.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/input_error.hpp"
+#include "tables/files/atomic_file.hpp"
+#include "tables/lut/lut_file.hpp"
+#include "tables/lut/lut_kind.hpp"
+#include "tables/lut/lut_maker.hpp"
+#include "tables/shaders/shader.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr int kCheckFailed = 1;
+constexpr double kLargestCount = 8192;
+constexpr std::size_t kMostVaried = 2;
+
+/// What was typed for one kind of table.
+struct LutCommand {
+    StackRequest stack;
+    ColorOptions color;
+    std::vector<std::string> vary;
+    std::map<std::string, std::string, std::less<>> options;  ///< of the kind
+    std::map<std::string, bool, std::less<>> flags;
+    OutputOptions output;
+    std::string type = "f32", size, tolerance;
+    bool any_size = false;
+    LutLayout layout;
+    unsigned threads = 0;
+    bool quiet = false;
+};
+
+std::vector<std::string_view> format_names() {
+    std::vector<std::string_view> names;
+    for (const LutFormat* format : lut_formats()) names.push_back(format->name);
+    return names;
+}
+
+const LutFormat& resolved_lut_format(const OutputOptions& output) {
+    const std::string name = resolved_format(output);
+    const std::size_t dot = output.file.find_last_of('.');
+    const std::string extension = dot == std::string::npos ? "" : output.file.substr(dot + 1);
+    if (!output.format.empty() && extension != name && find_lut_format(extension))
+        throw UsageError("--format: " + name + " into a file named ." + extension +
+                         " could not be read again");
+    if (const LutFormat* format = find_lut_format(name)) return *format;
+    throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
+                     not_one_of(format_names(), name));
+}
+
+LutType parse_type(const std::string& text) {
+    for (const LutType type : {LutType::f16, LutType::f32, LutType::f64})
+        if (name_of(type) == text) return type;
+    throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + text + "')");
+}
+
+/// "64x512": one number for each axis; one number alone is for all.
+std::vector<std::size_t> parse_size(std::string text, std::size_t axes) {
+    std::vector<std::size_t> counts;
+    if (text.empty()) return counts;
+    std::ranges::replace(text, 'x', ',');
+    for (const std::string_view part : comma_separated(text))
+        counts.push_back(
+            static_cast<std::size_t>(parse_whole_number("--size", part, 1, kLargestCount)));
+    if (counts.size() == 1) counts.resize(axes, counts.front());
+    return counts;
+}
+
+void parse_option(const LutOption& option, const std::string& text, LutOptions& values) {
+    const std::string typed = "--" + std::string(option.name), name(option.name);
+    if (option.type == LutOption::Type::list) {
+        values[name] = parse_list(typed, text, option.lowest, option.highest);
+    } else if (option.type == LutOption::Type::number) {
+        values[name] = parse_one_number(typed, text, option.lowest, option.highest);
+    } else if (option.type == LutOption::Type::whole) {
+        values[name] =
+            static_cast<double>(parse_whole_number(typed, text, option.lowest, option.highest));
+    } else {
+        if (std::ranges::find(option.words, text) == option.words.end())
+            throw UsageError(typed + ": " + not_one_of(option.words, text));
+        values[name] = text;
+    }
+}
+
+LutOptions parse_options(const LutKind& kind, const LutCommand& command) {
+    LutOptions values;
+    for (const LutOption& option : kind.options) {
+        if (option.type == LutOption::Type::flag) {
+            const auto flag = command.flags.find(option.name);
+            if (flag != command.flags.end() && flag->second)
+                values[std::string(option.name)] = std::string("true");
+            continue;
+        }
+        const std::string& text = command.options.find(option.name)->second;
+        if (option.name == "theta" && !text.empty() && !command.options.find("cos")->second.empty())
+            throw UsageError("--theta: gives the angles instead of --cos, not beside it");
+        const std::string used = text.empty() ? std::string(option.fallback) : text;
+        if (!used.empty()) parse_option(option, used, values);
+    }
+    return values;
+}
+
+VariedValue parse_vary(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw UsageError(
+            "--vary: must be PATH=LIST, as in layers.0.thickness_nm=0:1000/256 (got '" + text +
+            "')");
+    const std::string path = text.substr(0, equals);
+    std::vector<double> values = parse_list("--vary " + path, text.substr(equals + 1), -1e9, 1e9);
+    if (!std::ranges::is_sorted(values, std::ranges::less_equal()))
+        throw UsageError("--vary " + path + ": the values must ascend");
+    return {path, std::move(values)};
+}
+
+nlohmann::json name_or_rows(const std::string& typed, const Table& illuminant) {
+    if (std::ranges::find(illuminant_names(), typed) != illuminant_names().end()) return typed;
+    nlohmann::json rows = nlohmann::json::array();
+    for (std::size_t i = 0; i < illuminant.value.size(); ++i)
+        rows.push_back({illuminant.wavelength_nm[i], illuminant.value[i]});
+    return {{"table", std::move(rows)}};
+}
+
+void parse_color(const LutKind& kind, const LutCommand& command, LutRequest& request) {
+    const ColorOptions& typed = command.color;
+    if (kind.light) {
+        request.observer = typed.observer;
+        const Table light = parse_illuminant(typed.illuminant);
+        request.illuminant = name_or_rows(typed.illuminant, light);
+        request.sensitivity = std::make_shared<Sensitivity>(parse_observer(typed.observer), light);
+    }
+    if (!kind.color) return;
+    request.color.sides = parse_sides(typed.sides);
+    if (request.color.sides.size() != 1)
+        throw UsageError("--side: must be R or T for a table (got '" + typed.sides + "')");
+    request.color.light = parse_light(typed.polarization);
+    request.color.simd = request.execution.simd;
+    request.space = &parse_space(typed.space);
+    request.adaptation = parse_adaptation(typed.adaptation);
+}
+
+LutRequest parse(const LutKind& kind, const LutCommand& command) {
+    LutRequest request;
+    request.execution = execution_of(command.threads);
+    request.options = parse_options(kind, command);
+    parse_color(kind, command, request);
+    for (const std::string& text : command.vary) request.vary.push_back(parse_vary(text));
+    if (request.vary.size() > kMostVaried) throw UsageError("--vary: at most two values may vary");
+    if (!kind.stack) return request;
+    request.source = load_stack(command.stack);
+    for (const VariedValue& vary : request.vary)
+        set_value(request.source.document, vary.path, vary.values.front());
+    request.document =
+        read_stack(request.source.document, request.source.file, request.source.folder);
+    for (const std::string& text : request.document.notes) note(text, command.quiet);
+    if (kind.light)
+        report_held_ranges(request.document, *request.sensitivity, false,
+                           [&](const std::string& text) { note(text, command.quiet); });
+    return request;
+}
+
+LutPlan plan_of(const LutKind& kind, const LutRequest& request) {
+    try {
+        return kind.plan(request);
+    } catch (const DomainError& error) {
+        throw InputError(kind.stack ? request.document.file : std::string(kind.name), "",
+                         error.what());
+    }
+}
+
+LutMaking making_of(const LutCommand& command, const LutFormat& format, std::size_t axes) {
+    LutMaking making;
+    making.sizing.counts = parse_size(command.size, axes);
+    making.sizing.power_of_two = !command.any_size;
+    if (command.any_size && command.tolerance.empty())
+        throw UsageError("--any-size: is for sizes by --tolerance");
+    if (!command.tolerance.empty()) {
+        if (!making.sizing.counts.empty())
+            throw UsageError("--tolerance: finds the size, so leave out --size");
+        making.sizing.tolerance = parse_one_number("--tolerance", command.tolerance, 1e-12, 1e3);
+    }
+    making.type = parse_type(command.type);
+    making.mips = format.name == "ktx2" && !command.layout.layers;
+    making.measure = !command.output.file.empty();
+    making.threads = command.threads;
+    return making;
+}
+
+int run_lut(const LutKind& kind, const LutCommand& command) {
+    const LutFormat& format = resolved_lut_format(command.output);
+    const LutRequest request = parse(kind, command);
+    check_writable(command.output);
+    LutPlan plan = plan_of(kind, request);
+    LutMaking making = making_of(command, format, plan.axes.size());
+    Progress progress(command.quiet);
+    making.progress = [&progress](double done) { progress.set(done); };
+    Lut lut;
+    try {
+        lut = make_lut(kind, std::move(plan), making);
+    } catch (const LutToleranceError& error) {
+        progress.clear();
+        print_error(error.what());
+        return kCheckFailed;
+    }
+    progress.clear();
+    for (const auto& text : lut.facts["notes"]) note(text.get<std::string>(), command.quiet);
+    if (command.output.file.empty()) {
+        const std::vector<LutFile> files = format.write(lut, command.layout);
+        const auto table = std::ranges::find(files, std::string(), &LutFile::suffix);
+        write_bytes(table->bytes, command.output, format.is_binary);
+    } else {
+        write_lut(lut, command.output.file, format, command.layout);
+    }
+    if (command.layout.layers)
+        note("three.js reads the first of a file's array layers only", command.quiet);
+    if (format.name == "ktx2" || format.name == "exr")
+        for (const LutAxis& axis : lut.axes)
+            if (!axis.is_linear() && !(lut.mips && &axis == &lut.axes.front()))
+                note(axis.name +
+                         ": not equally spaced, so look its samples up one by one: nothing "
+                         "in between means anything to a texture's filter",
+                     command.quiet);
+    return 0;
+}
+
+std::string formats_text() {
+    std::string text;
+    for (const std::string_view name : format_names())
+        text += (text.empty() ? "" : ", ") + std::string(name);
+    return text;
+}
+
+void add_kind_options(CLI::App& command, const LutKind& kind, LutCommand& typed) {
+    for (const LutOption& option : kind.options) {
+        const std::string name(option.name);
+        const std::string spelled =
+            (option.letter ? std::string("-") + option.letter + "," : "") + "--" + name;
+        if (option.type == LutOption::Type::flag) {
+            command.add_flag(spelled, typed.flags[name], std::string(option.help));
+            continue;
+        }
+        constexpr std::array<const char*, 4> types{"LIST", "NUMBER", "N", "NAME"};
+        command.add_option(spelled, typed.options[name], std::string(option.help))
+            ->type_name(types[static_cast<std::size_t>(option.type)]);
+    }
+}
+
+void add_lut_kind(CLI::App& lut, const LutKind& kind, Run& run) {
+    CLI::App* command = lut.add_subcommand(std::string(kind.name), std::string(kind.summary));
+    const auto typed = std::make_shared<LutCommand>();
+    if (kind.stack) add_stack_options(*command, typed->stack);
+    if (kind.vary)
+        command
+            ->add_option("--vary", typed->vary,
+                         "a number of the stack that varies, by dotted path, up to two of them:\n"
+                         "layers.0.thickness_nm=0:1000/256")
+            ->type_name("PATH=LIST")
+            ->allow_extra_args(false);
+    add_kind_options(*command, kind, *typed);
+    if (kind.color)
+        add_side_options(*command, typed->color,
+                         kind.name == "albedo" ? "R (reflected), the only side of this table [R]"
+                                               : "R (reflected) or T (transmitted) [R]");
+    if (kind.light) add_light_options(*command, typed->color);
+    if (kind.color) add_space_options(*command, typed->color);
+    command->add_option("--dtype", typed->type, "numbers: f16, f32 or f64 [f32]")
+        ->type_name("NAME");
+    command
+        ->add_option("--size", typed->size,
+                     "samples along the axes, [1, 8192]: 64x512, in the order of the axes, or\n"
+                     "one number for all [as the axes' lists say]")
+        ->type_name("SIZE");
+    command
+        ->add_option("--tolerance", typed->tolerance,
+                     "the smallest size with this interpolation error instead (of colours\n"
+                     "in CIEDE2000, else as said below); axes that do not matter get one\n"
+                     "sample. Exit status 1 if it cannot be met")
+        ->type_name("E");
+    command->add_flag("--any-size", typed->any_size,
+                      "with --tolerance: sizes that are no powers of two, too");
+    add_output_options(*command, typed->output, formats_text() + " [csv]");
+    command->add_flag("--zstd", typed->layout.zstd, "ktx2: compressed with Zstandard");
+    command->add_flag("--layers", typed->layout.layers,
+                      "ktx2: a third axis as array layers, not as depth or mip levels");
+    add_threads_option(*command, typed->threads);
+    command->add_flag("--quiet", typed->quiet, "no notes on standard error");
+    std::vector<std::string> examples;
+    for (const std::string_view example : kind.examples)
+        examples.push_back("irido lut " + std::string(example));
+    set_examples(*command, examples,
+                 "Axes: " + std::string(kind.axes) + ".\n" + std::string(kind.notes));
+    command->callback(
+        [&kind, typed, &run] { run = [&kind, typed] { return run_lut(kind, *typed); }; });
+}
+
+int list_kinds(const OutputOptions& output) {
+    Column::Texts names, axes, summaries;
+    for (const LutKind* kind : lut_kinds()) {
+        names.emplace_back(kind->name);
+        axes.emplace_back(kind->axes);
+        summaries.emplace_back(kind->summary);
+    }
+    write_records({{{"kind", names}, {"axes", axes}, {"summary", summaries}}}, output);
+    return 0;
+}
+
+void add_list(CLI::App& lut, Run& run) {
+    CLI::App* command = lut.add_subcommand("list", "The kinds of tables.");
+    const auto output = std::make_shared<OutputOptions>();
+    add_output_options(*command, *output, "csv or json [csv]");
+    command->callback([output, &run] { run = [output] { return list_kinds(*output); }; });
+}
+
+int show_info(const std::string& file) {
+    const Lut lut = read_lut(file);
+    write_stdout(metadata_of(lut).dump(2) + "\n");
+    return 0;
+}
+
+/// What is wrong with a file, one line each.
+std::vector<std::string> problems_of(const std::string& file) {
+    try {
+        const Lut lut = read_lut(file);
+        std::vector<std::string> problems = lut_problems(lut);
+        const LutKind* const kind = find_lut_kind(lut.kind);
+        if (!kind)
+            problems.push_back("there is no kind '" + lut.kind + "'");
+        else if (problems.empty() && kind->problems)
+            problems = kind->problems(lut);
+        return problems;
+    } catch (const LutError& error) {
+        const std::string text = error.what(), name = file + ": ";
+        return {text.starts_with(name) ? text.substr(name.size()) : text};
+    } catch (const nlohmann::json::exception&) {
+        return {"the metadata misses what its kind has"};
+    }
+}
+
+int check_files(const std::vector<std::string>& files) {
+    constexpr int unreadable = 2;
+    int status = 0;
+    std::string text;
+    for (const std::string& file : files) {
+        try {
+            const std::vector<std::string> problems = problems_of(file);
+            if (problems.empty()) text += escaped(file) + ": ok\n";
+            for (const std::string& problem : problems)
+                text += message_line(file + ": " + problem) + "\n";
+            if (!problems.empty()) status = std::max(status, kCheckFailed);
+        } catch (const InputError& error) {
+            print_error(error.what());
+            status = unreadable;
+        }
+    }
+    write_stdout(text);
+    return status;
+}
+
+void add_info(CLI::App& lut, Run& run) {
+    CLI::App* info = lut.add_subcommand("info", "The metadata of a table's file, as JSON.");
+    const auto file = std::make_shared<std::string>();
+    info->add_option("FILE", *file, "a file that irido lut wrote")->required();
+    set_examples(*info, {"irido lut info film.ktx2", "irido lut info film.exr | jq .error"});
+    info->callback([file, &run] { run = [file] { return show_info(*file); }; });
+}
+
+void add_check(CLI::App& lut, Run& run) {
+    CLI::App* check = lut.add_subcommand(
+        "check", "Verifies a table's checksum, numbers and the invariants of its kind.");
+    const auto files = std::make_shared<std::vector<std::string>>();
+    check->add_option("FILE", *files, "files that irido lut wrote")->required();
+    set_examples(*check, {"irido lut check film.ktx2", "irido lut check baked/*.exr"},
+                 "Prints FILE: ok or what is wrong; then the exit status is 1.");
+    check->callback([files, &run] { run = [files] { return check_files(*files); }; });
+}
+
+void add_shader(CLI::App& lut, Run& run) {
+    struct Typed {
+        std::string name, language = "glsl";
+    };
+    CLI::App* shader = lut.add_subcommand("shader", "Prints shader code that reads a table.");
+    const auto typed = std::make_shared<Typed>();
+    std::string names;
+    for (const std::string_view name : shader_names())
+        names += (names.empty() ? "" : ", ") + std::string(name);
+    shader->add_option("NAME", typed->name, "one of " + names)->required();
+    shader->add_option("--language", typed->language, "glsl or hlsl [glsl]")->type_name("NAME");
+    set_examples(
+        *shader,
+        {"irido lut shader color > color.glsl",
+         "irido lut shader --language hlsl falpha-closed > falpha.hlsl"},
+        "The code is under MIT-0: paste it anywhere. bragg, falpha-closed and fourier are\n"
+        "functions to compute with; the others look up the table of their name.");
+    shader->callback([typed, &run] {
+        run = [typed] {
+            const auto known = shader_names(), languages = shader_languages();
+            if (std::ranges::find(known, typed->name) == known.end())
+                throw UsageError("lut shader: " + not_one_of(known, typed->name));
+            if (std::ranges::find(languages, typed->language) == languages.end())
+                throw UsageError("--language: " + not_one_of(languages, typed->language));
+            write_stdout(shader_source(typed->name, typed->language));
+            return 0;
+        };
+    });
+}
+
+}  // namespace
+
+void add_lut_command(CLI::App& program, Run& run) {
+    CLI::App* lut = program.add_subcommand("lut", "Tables for shaders and renderers.");
+    lut->require_subcommand(1);
+    for (const LutKind* kind : lut_kinds()) add_lut_kind(*lut, *kind, run);
+    add_list(*lut, run);
+    add_info(*lut, run);
+    add_check(*lut, run);
+    add_shader(*lut, run);
+    set_examples(*lut, {"irido lut color \"air | 1.33@400 | 1.9+1.5i\" --vary "
+                        "layers.0.thickness_nm=0:1000/512 --dtype f16 -o film.ktx2",
+                        "irido lut falpha --alpha 0.1 -o falpha.exr", "irido lut KIND --help"});
+}
+
+}  // namespace irido

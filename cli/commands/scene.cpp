@@ -1,0 +1,462 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "core/error.hpp"
+#include "schemas/documents/canonical_stack.hpp"
+#include "schemas/documents/scene_document.hpp"
+#include "schemas/readers/nearest.hpp"
+#include "tables/files/atomic_file.hpp"
+#include "tables/shaders/scene/bake.hpp"
+#include "tables/shaders/scene/scene_error.hpp"
+
+namespace irido {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaterialFailed = 1;
+
+struct SceneCommand {
+    std::string scene;
+    BakePlace place;
+    std::string format = "text", explained;
+    bool force = false, verify = false, prune = false;
+    unsigned threads = 0;
+    bool quiet = false;
+};
+
+std::string size_text(const json& axes) {
+    std::string text;
+    for (const json& axis : axes)
+        text += (text.empty() ? "" : " x ") + std::to_string(axis["count"].get<std::size_t>());
+    return text;
+}
+
+/// Samples of a table with those of its mip levels.
+std::size_t samples_of_entry(const json& entry) {
+    const json& axes = entry["axes"];
+    const bool mips = entry.value("mips", false);
+    std::size_t samples = 0;
+    for (std::size_t level = 0; level < (mips ? axes[0]["count"].get<std::size_t>() : 1); ++level) {
+        std::size_t of_level = 1;
+        for (std::size_t a = mips ? 1 : 0; a < axes.size(); ++a)
+            of_level *= std::max<std::size_t>(1, axes[a]["count"].get<std::size_t>() >> level);
+        samples += of_level;
+    }
+    return samples;
+}
+
+/// Bytes of a table's numbers, without what its file has beside them.
+std::size_t bytes_of_entry(const json& entry, const std::string& format) {
+    if (entry.contains("values")) return 0;
+    std::size_t channels = entry["channels"].size();
+    if (format == "ktx2" && channels % 3 == 0) channels = channels / 3 * 4;
+    const std::string type = entry["dtype"].get<std::string>();
+    const std::size_t bytes = type == "f16" ? 2 : type == "f32" ? 4 : 8;
+    return samples_of_entry(entry) * channels * bytes;
+}
+
+/// One line of the plan.
+struct PlanRow {
+    std::string materials, role, table, size;
+    double bytes = 0, samples = 0;
+    std::string state{};  ///< new, kept or numbers
+    std::string why{};    ///< it is new, if that is asked
+};
+
+struct PlannedScene {
+    ScenePlan plan;
+    TableEntries entries;  ///< of tables that can be made
+    std::vector<PlanRow> rows;
+    MaterialFaults faults;
+    std::vector<std::string> stale, notes;
+    double seconds = 0;  ///< that making what is new will take, an estimate
+};
+
+std::string role_of(const ScenePlan& plan, std::size_t table) {
+    for (const MaterialPlan& material : plan.materials)
+        for (const MaterialPlan::Use& use : material.tables)
+            if (use.table == table) return use.role;
+    return "";
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+/// The largest difference of what the shader shows from the exact colour, for a loss.
+std::optional<double> delta_e_of(const Scene& scene, const ScenePlan& plan, std::size_t m,
+                                 const Omission& loss, const SceneCommand& command) {
+    constexpr std::size_t points = 300;
+    const Execution execution = execution_of(command.threads);
+    if (loss.delta_e) return loss.delta_e;
+    if (loss.what == "dispersion")
+        return dispersion_difference(scene, scene.materials[m], execution);
+    if (plan.materials[m].shading != Shading::fourier || loss.what != kPastCriticalAngle)
+        return std::nullopt;
+    const SceneTable& table = plan.tables[plan.materials[m].tables.front().table];
+    const Lut lut = make_lut(*table.kind, table.kind->plan(table.request), table.making);
+    return worst_fourier_difference(scene, scene.materials[m], plan.materials[m], &lut, execution,
+                                    {points, 1, command.threads, false});
+}
+
+/// Plans one table: its row, and its entry.
+void plan_table(const Scene& scene, PlannedScene& result, std::size_t t, const Baked& before,
+                const SceneCommand& command) {
+    SceneTable& table = result.plan.tables[t];
+    table.making.threads = command.threads;
+    Keeping keeping;
+    if (!command.place.folder.empty() && !command.force)
+        keeping = keeping_of(scene, result.plan, table, before, command.place, false);
+    const bool is_kept = !keeping.entry.is_null();
+    json entry = is_kept ? keeping.entry : planned_entry(table);
+    PlanRow row{joined(table.materials), role_of(result.plan, t), table.file,
+                size_text(entry["axes"])};
+    row.state = entry.contains("values") ? "numbers" : is_kept ? "kept" : "new";
+    row.why = keeping.why;
+    row.bytes = static_cast<double>(bytes_of_entry(entry, scene.format));
+    if (!is_kept) {
+        row.samples = entry["samples"].get<double>();
+        result.seconds += entry["seconds"].get<double>();
+    }
+    result.rows.push_back(std::move(row));
+    result.entries[table.id] = std::move(entry);
+}
+
+PlannedScene planned(const Scene& scene, const SceneCommand& command) {
+    PlannedScene result;
+    Progress progress(command.quiet);
+    result.plan = plan_scene(scene, execution_of(command.threads));
+    result.faults = faults_of(result.plan);
+    Baked before;
+    if (!command.place.folder.empty()) before = baked_scene(command.place, scene);
+    if (!before.note.empty()) result.notes.push_back(before.note);
+    const std::size_t count = result.plan.tables.size();
+    for (std::size_t t = 0; t < count; ++t) {
+        const SceneTable& table = result.plan.tables[t];
+        progress.set(static_cast<double>(t) / static_cast<double>(count), table.materials.front());
+        try {
+            plan_table(scene, result, t, before, command);
+        } catch (const std::exception& error) {  // whatever it is, it is these materials'
+            add_faults(result.faults, scene, table, error);
+        }
+    }
+    for (Omission& omission : result.plan.omissions) {
+        const auto m = std::ranges::find(scene.materials, omission.material, &SceneMaterial::name);
+        if (omission.kind == Omission::Kind::loss)
+            omission.delta_e = delta_e_of(scene, result.plan,
+                                          static_cast<std::size_t>(m - scene.materials.begin()),
+                                          omission, command);
+    }
+    if (!command.place.folder.empty())
+        result.stale = stale_files(command.place, before, result.entries);
+    return result;
+}
+
+std::vector<Omission> all_omissions(const PlannedScene& scene) {
+    std::vector<Omission> all;
+    for (const MaterialPlan& material : scene.plan.materials)
+        std::ranges::move(omissions_of(scene.plan, material, scene.entries),
+                          std::back_inserter(all));
+    return all;
+}
+
+/// Two digits are enough for a largest difference that was looked for.
+std::string short_number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", value);
+    return to_text(std::stod(text.data()));
+}
+
+std::string delta_e_text(const Omission& loss) {
+    return loss.delta_e ? "Delta E " + short_number(*loss.delta_e) : "";
+}
+
+void append_cells(std::string& out, const std::vector<std::string>& cells,
+                  const std::vector<std::size_t>& widths) {
+    std::string line;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        line += cells[c];
+        if (c + 1 < cells.size()) line.append(widths[c] + 2 - cells[c].size(), ' ');
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+}
+
+std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths(rows.front().size());
+    for (const auto& row : rows)
+        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+    std::string out;
+    for (const auto& row : rows) append_cells(out, row, widths);
+    return out;
+}
+
+std::string text_of(const PlannedScene& scene) {
+    std::vector<std::vector<std::string>> cells{
+        {"material", "role", "table", "size", "bytes", "cost", "state", ""}};
+    double bytes = 0, samples = 0;
+    for (const PlanRow& row : scene.rows) {
+        cells.push_back({row.materials, row.role, row.table, row.size, to_text(row.bytes),
+                         to_text(row.samples), row.state, row.why});
+        bytes += row.bytes;
+        samples += row.samples;
+    }
+    cells.push_back({"total", "", "", "", to_text(bytes), to_text(samples), "", ""});
+    std::string out = aligned(cells);
+    std::vector<std::vector<std::string>> losses, skipped;
+    for (const Omission& omission : all_omissions(scene)) {
+        const std::string material = "  " + omission.material;
+        if (omission.kind == Omission::Kind::loss)
+            losses.push_back({material, omission.what, delta_e_text(omission), omission.reason});
+        if (omission.kind == Omission::Kind::skipped)
+            skipped.push_back({material, omission.what, omission.reason});
+    }
+    if (!losses.empty()) out += "losses:\n" + aligned(losses);
+    if (!skipped.empty()) out += "skipped:\n" + aligned(skipped);
+    if (!scene.stale.empty()) out += "stale, removed by bake --prune:\n";
+    for (const std::string& file : scene.stale) out += "  " + file + "\n";
+    return out;
+}
+
+json json_of(const PlannedScene& scene) {
+    json tables = json::array(), skipped = json::array(), losses = json::array();
+    for (const PlanRow& row : scene.rows)
+        tables.push_back({{"materials", row.materials},
+                          {"role", row.role},
+                          {"table", row.table},
+                          {"size", row.size},
+                          {"bytes", row.bytes},
+                          {"cost", row.samples},
+                          {"state", row.state},
+                          {"why", row.why}});
+    for (const Omission& omission : all_omissions(scene)) {
+        json line = {
+            {"material", omission.material}, {"what", omission.what}, {"reason", omission.reason}};
+        if (omission.delta_e) line["delta_e"] = *omission.delta_e;
+        (omission.kind == Omission::Kind::loss ? losses : skipped).push_back(std::move(line));
+    }
+    json faults = json::object();
+    for (const auto& [name, all] : scene.faults)
+        for (const SceneFault& fault : all)
+            faults[name].push_back({{"pointer", fault.pointer}, {"reason", fault.reason}});
+    return {{"tables", tables},
+            {"losses", losses},
+            {"skipped", skipped},
+            {"stale", scene.stale},
+            {"faults", faults}};
+}
+
+std::string axis_text(const json& axis) {
+    const std::string unit = axis["unit"].get<std::string>();
+    return "    " + axis["name"].get<std::string>() + ": " +
+           std::to_string(axis["count"].get<std::size_t>()) + " from " +
+           to_text(axis["first"].get<double>()) + " to " + to_text(axis["last"].get<double>()) +
+           (unit.empty() ? "" : " " + unit) + "\n";
+}
+
+/// The long form for one material.
+std::string explained(const Scene& scene, const PlannedScene& planned, const std::string& name) {
+    const auto material = std::ranges::find(scene.materials, name, &SceneMaterial::name);
+    if (material == scene.materials.end()) {
+        std::vector<std::string> names;
+        for (const SceneMaterial& m : scene.materials) names.push_back(m.name);
+        throw UsageError("--explain: there is no material '" + name + "'" +
+                         did_you_mean(name, names));
+    }
+    const MaterialPlan& plan =
+        *std::ranges::find(planned.plan.materials, name, &MaterialPlan::name);
+    std::string out = name + ": shading " + std::string(name_of(plan.shading)) + ", angles " +
+                      to_text(material->angles_deg.first) + " to " +
+                      to_text(material->angles_deg.last) + " degrees\n";
+    out += "  stack " + canonical_stack(material->document.stack).dump() + "\n";
+    for (const VariedRange& vary : material->vary)
+        out += "  varies " + vary.path + " from " + to_text(vary.range.first) + " to " +
+               to_text(vary.range.last) + "\n";
+    for (const MaterialPlan::Use& use : plan.tables) {
+        const SceneTable& table = planned.plan.tables[use.table];
+        const auto entry = planned.entries.find(table.id);
+        out += "  table " + use.role + ": " + table.file + ", interpolation error at most " +
+               to_text(*table.making.sizing.tolerance) + "\n";
+        if (entry == planned.entries.end()) continue;
+        for (const json& axis : entry->second["axes"]) out += axis_text(axis);
+        const json& error = entry->second["error"];
+        if (error.is_object() && error.contains("levels")) {
+            std::vector<std::string> levels;
+            for (const json& level : error["levels"])
+                levels.push_back(short_number(level.get<double>()));
+            out += "    error of each mip level: " + joined(levels) + " (" +
+                   error["measure"].get<std::string>() + ")\n";
+        }
+    }
+    if (!plan.constants.empty()) out += "  constants " + plan.constants.dump() + "\n";
+    if (!plan.snippets.empty()) out += "  snippets " + joined(plan.snippets) + "\n";
+    for (const Omission& omission : all_omissions(planned)) {
+        if (omission.material != name) continue;
+        const bool is_loss = omission.kind == Omission::Kind::loss;
+        const std::string delta_e = delta_e_text(omission);
+        out += (is_loss ? "  loss " : "  skipped ") + omission.what + ": " + omission.reason +
+               (delta_e.empty() ? "" : ", " + delta_e) + "\n";
+    }
+    return out;
+}
+
+int report_faults(const Scene& scene, const MaterialFaults& faults) {
+    if (faults.empty()) return 0;
+    for (const SceneMaterial& material : scene.materials)
+        if (const auto found = faults.find(material.name); found != faults.end())
+            for (const SceneFault& fault : found->second)
+                print_error(fault_text(scene, material.name, fault));
+    print_error(scene.file + ": " + std::to_string(faults.size()) + " of " +
+                std::to_string(scene.materials.size()) + " materials failed");
+    return kMaterialFailed;
+}
+
+Scene scene_of(const SceneCommand& command) {
+    Scene scene = read_scene(command.scene);
+    for (const std::string& text : scene.notes) note(text, command.quiet);
+    return scene;
+}
+
+int run_plan(const SceneCommand& command) {
+    if (command.format != "text" && command.format != "json")
+        throw UsageError("--format: must be one of text, json (got '" + command.format + "')");
+    const Scene scene = scene_of(command);
+    const PlannedScene result = planned(scene, command);
+    for (const std::string& text : result.notes) note(text, command.quiet);
+    std::string text;
+    if (!command.explained.empty())
+        text = explained(scene, result, command.explained);
+    else
+        text = command.format == "json" ? json_of(result).dump(2) + "\n" : text_of(result);
+    write_stdout(text);
+    if (result.seconds > 0)
+        note("to make what is new will take about " + short_number(result.seconds) + " s",
+             command.quiet);
+    return report_faults(scene, result.faults);
+}
+
+int run_bake(const SceneCommand& command) {
+    const Scene scene = scene_of(command);
+    const ScenePlan plan = plan_scene(scene, execution_of(command.threads));
+    Progress progress(command.quiet);
+    const BakeRequest request{command.place,
+                              command.force,
+                              command.verify,
+                              command.prune,
+                              command.threads,
+                              [&progress](double done, const std::string& text) {
+            progress.set(done, text); }};
+    const BakeResult result = bake(scene, plan, request);
+    progress.clear();
+    for (const std::string& text : result.notes) note(text, command.quiet);
+    if (!command.quiet) {
+        for (const std::string& file : result.made) std::cerr << "irido: made " << file << '\n';
+        for (const std::string& file : result.pruned)
+            std::cerr << "irido: removed " << file << '\n';
+        std::cerr << "irido: " << result.made.size() << " made, " << result.kept.size() << " kept"
+                  << (result.manifest_written ? ", " + command.place.manifest + " written" : "")
+                  << '\n';
+    }
+    return report_faults(scene, result.faults);
+}
+
+/// The manifest's file name as typed, .json added if it is not there.
+std::string manifest_name(std::string typed) {
+    if (!typed.ends_with(".json")) typed += ".json";
+    const bool is_name = typed.front() != '.' && std::ranges::all_of(typed, [](unsigned char c) {
+                             return std::isalnum(c) || c == '.' || c == '-' || c == '_';
+                         });
+    const std::size_t longest = 200;
+    if (!is_name || typed.size() > longest)
+        throw UsageError(
+            "--manifest: must be the name of a file in the folder, of letters, digits, "
+            "., - and _, not beginning with . (got '" +
+            typed + "')");
+    return typed;
+}
+
+void add_manifest_option(CLI::App& command, SceneCommand& typed) {
+    command
+        .add_option_function<std::string>(
+            "--manifest",
+            [&typed](const std::string& name) { typed.place.manifest = manifest_name(name); },
+            "the manifest's name in the folder, one for each scene that is baked\n"
+            "there [manifest.json]")
+        ->type_name("NAME");
+}
+
+void add_common(CLI::App& command, SceneCommand& typed) {
+    command
+        .add_option("SCENE", typed.scene,
+                    "scene file (.json; irido validate --schema scene explains it)")
+        ->required();
+    add_threads_option(command, typed.threads);
+    command.add_flag("--quiet", typed.quiet, "no notes on standard error");
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand(
+        "plan", "What a scene's tables will be, and what is left out and why.");
+    const auto typed = std::make_shared<SceneCommand>();
+    add_common(*command, *typed);
+    command
+        ->add_option("-o,--output", typed->place.folder,
+                     "folder of a bake: says what would be kept")
+        ->type_name("DIR");
+    add_manifest_option(*command, *typed);
+    command->add_option("-f,--format", typed->format, "text or json [text]")->type_name("FORMAT");
+    command->add_option("--explain", typed->explained, "the long form for one material")
+        ->type_name("NAME");
+    set_examples(
+        *command, {"irido plan vehicle.json", "irido plan vehicle.json --explain rim"},
+        "size: samples along the axes; bytes: of the table's numbers; cost: how often the\n"
+        "table's function will be computed; state: new, kept (with -o, then new ones say\n"
+        "why), or numbers in the manifest. losses: where what is seen differs from what\n"
+        "the scene describes, with the largest Delta E 2000 that was found; mip levels are\n"
+        "estimated where they are worst without a spread. What the scene itself says is\n"
+        "left to --explain. How long a bake will take, an estimate, is on standard error.");
+    command->callback([typed, &run] { run = [typed] { return run_plan(*typed); }; });
+}
+
+void add_bake_command(CLI::App& program, Run& run) {
+    CLI::App* command =
+        program.add_subcommand("bake", "Writes all tables that a scene needs, and nothing else.");
+    const auto typed = std::make_shared<SceneCommand>();
+    add_common(*command, *typed);
+    command
+        ->add_option("-o,--output", typed->place.folder, "folder for the tables and manifest.json")
+        ->type_name("DIR")
+        ->required();
+    add_manifest_option(*command, *typed);
+    command->add_flag("--force", typed->force, "make every table again");
+    command->add_flag("--verify", typed->verify,
+                      "read the tables that are kept and compare their checksums");
+    command->add_flag("--prune", typed->prune,
+                      "remove tables that this scene made and no\nmaterial needs any more");
+    set_examples(
+        *command,
+        {"irido bake vehicle.json -o tables", "irido bake vehicle.json -o tables --prune --quiet"},
+        "Tables whose inputs are unchanged stay as they are: files of the size that the\n"
+        "manifest says, not touched since it was written, are believed, others are read,\n"
+        "and all with --verify. The folder is irido's own: what is not the table that\n"
+        "belongs in a place is replaced, symbolic links, too. A bake that was interrupted\n"
+        "goes on where it was. If a material fails, the others are made, the manifest says\n"
+        "why and the exit status is 1. Several scenes share a folder if each has its own\n"
+        "--manifest; --prune removes nothing that another manifest there has.");
+    command->callback([typed, &run] { run = [typed] { return run_bake(*typed); }; });
+}
+
+}  // namespace irido

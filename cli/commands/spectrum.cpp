@@ -1,0 +1,60 @@
+#include <iostream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "cli/queries/spectrum_question.hpp"
+#include "tables/records/record_stream.hpp"
+
+namespace irido {
+
+namespace {
+
+struct SpectrumCommand {
+    StackRequest stack;
+    std::unique_ptr<QuestionOptions> typed;
+    OutputOptions output;
+    unsigned threads = 0;
+    bool stats = false;
+    bool quiet = false;
+};
+
+int run_spectrum(const SpectrumCommand& command) {
+    const StreamFormat& format = *find_counted_format(resolved_record_format(command.output).name);
+    const SpectrumQuestion question(
+        static_cast<const SpectrumOptions&>(*command.typed),
+        {.execution = execution_of(command.threads),
+         .note = [&](const std::string& text) { note(text, command.quiet); }});
+    const StackDocument document = read_noted_stack(command.stack, command.quiet);
+    const RecordLayout layout = question.layout(document);
+    const auto stream = counted_output(command.output.file, format, layout, question.rows());
+    question.each_block(document, [&](const Records& rows) {
+        stream->append(format.rows(layout, rows), 0, rows.rows());
+    });
+    stream->finish();
+    if (command.stats)
+        for (const std::string& line : question.stats(*question.prepare(document)))
+            std::cerr << "irido: stats: " << line << '\n';
+    return 0;
+}
+
+}  // namespace
+
+void add_spectrum_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand(
+        "spectrum", "Reflectance, transmittance and absorptance of a stack (R, T, A).");
+    const auto options = std::make_shared<SpectrumCommand>();
+    add_stack_options(*command, options->stack);
+    options->typed = SpectrumOptions::add(*command);
+    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_threads_option(*command, options->threads);
+    command->add_flag("--stats", options->stats,
+                      "say on standard error how it was computed and what was skipped");
+    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    set_examples(*command,
+                 {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
+                  "irido spectrum \"air | SiO2@25 | Si\" -a 70 -p s --columns psi_deg,delta_deg",
+                  "irido spectrum stack.json --set layers.0.thickness_nm=420 -o out.npy"});
+    command->callback([options, &run] { run = [options] { return run_spectrum(*options); }; });
+}
+
+}  // namespace irido

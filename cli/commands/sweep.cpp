@@ -1,0 +1,425 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "cli/sweep/engine.hpp"
+#include "core/error.hpp"
+#include "schemas/documents/canonical_stack.hpp"
+#include "schemas/readers/nearest.hpp"
+#include "tables/files/atomic_file.hpp"
+#include "tables/files/hash.hpp"
+
+namespace irido {
+
+namespace {
+
+struct SweepCommand {
+    StackRequest stack;
+    std::vector<std::string> vary;
+    std::string points;
+    const QuestionKind* kind = nullptr;
+    std::unique_ptr<QuestionOptions> typed;  ///< of the kind
+    std::string compute;
+    OutputOptions output;
+    std::string shard;
+    std::vector<std::string> merge;
+    bool resume = false, keep_going = false, stats = false, quiet = false;
+    bool has_angles = false, has_wavelengths = false;  ///< typed as options of the kind
+    unsigned threads = 0;
+};
+
+/// Shard K of N.
+struct Shard {
+    std::uint64_t number = 1, of = 1;
+};
+
+constexpr double kMostShards = 1e6;
+
+Shard parse_shard(const std::string& text) {
+    if (text.empty()) return {};
+    const std::size_t slash = text.find('/');
+    if (slash == std::string::npos)
+        throw UsageError("--shard: must be K/N, as in 3/8 (got '" + text + "')");
+    const auto of = parse_whole_number("--shard", text.substr(slash + 1), 1, kMostShards);
+    return {parse_whole_number("--shard", text.substr(0, slash), 1, static_cast<double>(of)), of};
+}
+
+const StreamFormat& resolved_stream_format(const OutputOptions& output) {
+    const std::string name = resolved_format(output);
+    if (const StreamFormat* format = find_stream_format(name)) return *format;
+    constexpr std::array<std::string_view, 4> names{"csv", "json", "npy", "h5"};
+    throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
+                     not_one_of(names, name));
+}
+
+/// Says each note once.
+class Notes {
+public:
+    explicit Notes(bool quiet) : quiet_(quiet) {}
+
+    void operator()(const std::string& text) {
+        const std::scoped_lock guard(lock_);
+        if (said_.size() >= kMost || !said_.insert(text).second) return;
+        note(said_.size() < kMost ? text : "there are more notes like the ones above", quiet_);
+    }
+
+private:
+    static constexpr std::size_t kMost = 100;
+
+    bool quiet_;
+    std::mutex lock_;
+    std::set<std::string> said_;
+};
+
+/// Whether stacks that differ in it only are of one structure.
+bool is_shared(const SweptColumn& column) {
+    return column.is_light() || VariedStack::is_thickness(column.path);
+}
+
+/// Stacks of one structure, as far as that is known before.
+double stacks_of_structure(const SweepSpace& space) {
+    double stacks = 1, points = 1;
+    bool points_share = true;
+    for (const SweptColumn& column : space.columns()) {
+        if (column.of_points) {
+            points = static_cast<double>(column.size());
+            points_share = points_share && is_shared(column);
+        } else if (is_shared(column)) {
+            stacks *= static_cast<double>(column.size());
+        }
+    }
+    return points_share ? stacks * points : stacks;
+}
+
+std::size_t structures_together(const SweepSpace& space) {
+    double structures = 1;
+    for (const SweptColumn& column : space.columns())
+        if (!is_shared(column)) structures *= static_cast<double>(column.size());
+    return static_cast<std::size_t>(
+        std::min(structures, static_cast<double>(SweptStacks::kMostStructures)));
+}
+
+std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
+    std::vector<LayerPlace> places;
+    for (const SweptColumn& column : space.columns())
+        if (VariedStack::is_thickness(column.path))
+            places.push_back(VariedStack::place_of(column.path));
+    return places;
+}
+
+/// Angles and wavelengths come from one place.
+void require_once(const SweepCommand& command, const SweepSpace& space) {
+    for (const SweptColumn& column : space.columns()) {
+        if (column.path == kSweptAngle && command.has_angles)
+            throw UsageError("--angles: angle_deg varies, so leave out --angles");
+        if (column.path == kSweptWavelength && command.has_wavelengths)
+            throw UsageError("--wavelengths: wavelength_nm varies, so leave out --wavelengths");
+    }
+}
+
+bool varies_wavelength(const SweepSpace& space) {
+    return std::ranges::find(space.columns(), kSweptWavelength, &SweptColumn::path) !=
+           space.columns().end();
+}
+
+/// All that the rows depend on, but for the machine.
+std::string request_hash(const SweepCommand& command, const Question& question,
+                         const StackSource& source, const StackDocument& first,
+                         const SweepSpace& space) {
+    nlohmann::json vary = nlohmann::json::array();
+    for (const SweptColumn& column : space.columns())
+        vary.push_back({column.path, column.numbers, column.texts, column.codes, column.of_points});
+    const nlohmann::json request{{"compute", command.kind->name},
+                                 {"options", command.typed->typed()},
+                                 {"data", question.data()},
+                                 {"stack", source.document},
+                                 {"first", canonical_stack(first.stack)},
+                                 {"vary", std::move(vary)}};
+    return sha256_of(request.dump());
+}
+
+std::string in_words(double seconds) {
+    std::array<char, 32> text{};
+    const auto whole = static_cast<long>(std::min(seconds, 1e9));
+    if (whole < 3600) {
+        std::snprintf(text.data(), text.size(), "%ld:%02ld", whole / 60, whole % 60);
+    } else {
+        std::snprintf(text.data(), text.size(), "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60,
+                      whole % 60);
+    }
+    return text.data();
+}
+
+/// "950", "38.9 k", "1.2 M"
+std::string short_number(double number) {
+    std::array<char, 32> text{};
+    const char* const unit = number < 1e3 ? "" : number < 1e6 ? " k" : number < 1e9 ? " M" : " G";
+    const double scale = number < 1e3 ? 1 : number < 1e6 ? 1e3 : number < 1e9 ? 1e6 : 1e9;
+    std::snprintf(text.data(), text.size(), scale == 1 ? "%.0f%s" : "%.1f%s", number / scale, unit);
+    return text.data();
+}
+
+/// Done, rate and time left.
+class SweepProgress {
+public:
+    SweepProgress(bool quiet, std::uint64_t units, const SweepCounts& counts)
+        : progress_(quiet), units_(units), counts_(counts) {}
+
+    void set(std::uint64_t done) {
+        const double passed = seconds(),
+                     part = static_cast<double>(done) /
+                            static_cast<double>(std::max<std::uint64_t>(1, units_));
+        progress_.set(part, short_number(static_cast<double>(counts_.rows)) + " rows, " +
+                                short_number(rows_per_second()) + "/s, " +
+                                (part > 0 ? in_words(passed / part - passed) : "?") + " left");
+    }
+    void clear() { progress_.clear(); }
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+    double rows_per_second() const {
+        return static_cast<double>(counts_.rows) / std::max(seconds(), 1e-9);
+    }
+
+private:
+    Progress progress_;
+    std::uint64_t units_;
+    const SweepCounts& counts_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void print_stats(const SweepEngine& engine, const SweptStacks& stacks,
+                 const SweepProgress& progress) {
+    const SweepCounts& counts = engine.counts();
+    std::fprintf(stderr, "irido: stats: %llu rows in %.3g s, %.3g rows/s\n",
+                 static_cast<unsigned long long>(counts.rows), progress.seconds(),
+                 progress.rows_per_second());
+    std::fprintf(stderr,
+                 "irido: stats: stacks %llu, of structures %llu: so often were materials, index "
+                 "tables and weights made\n",
+                 static_cast<unsigned long long>(counts.stacks),
+                 static_cast<unsigned long long>(stacks.prepared()));
+}
+
+std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const StreamFormat& format,
+                                          const SweepEngine& engine,
+                                          const StreamIdentity& identity) {
+    const bool is_known = engine.rows_per_unit() > 0 && !command.keep_going;
+    const std::uint64_t rows =
+        is_known ? engine.rows_per_unit() * (identity.end - identity.begin) : 0;
+    if (!command.output.file.empty())
+        return record_file(command.output.file, format, engine.layout(), identity, command.resume,
+                           rows);
+    if (command.resume) throw UsageError("--resume: needs --output FILE");
+    if (format.name == "npy" && !is_known)
+        throw UsageError(
+            "--format: npy needs --output FILE where the number of rows is not known before");
+    return record_output(format, engine.layout(), rows);
+}
+
+int run_merge(const SweepCommand& command) {
+    if (command.output.file.empty()) throw UsageError("--merge: needs --output FILE");
+    merge_streams(command.merge, command.output.file, resolved_stream_format(command.output));
+    return 0;
+}
+
+/// Writes what is left of a stream's units. Returns the exit status.
+int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& stacks,
+               const StreamFormat& format, const StreamIdentity& identity, RecordStream& stream,
+               const OrderlyEnd* orderly) {
+    const std::uint64_t begin = identity.begin + stream.units_done();
+    SweepProgress progress(command.quiet, identity.end - begin, engine.counts());
+    const auto proceed = [&](std::uint64_t done) {
+        progress.set(done);
+        return !orderly || orderly->signal() == 0;
+    };
+    const bool is_whole = engine.run(begin, identity.end, format, stream, command.threads, proceed);
+    progress.clear();
+    if (!is_whole) {
+        stream.suspend();
+        note("ended early; the same command with --resume goes on", command.quiet);
+        return 128 + orderly->signal();
+    }
+    const std::uint64_t left_out = engine.counts().left_out, all = identity.end - begin;
+    if (left_out > 0 && left_out == all && stream.rows_done() == 0 && identity.shards == 1) {
+        stream.discard();
+        throw CheckFailed("nothing is left: none of " + std::to_string(all) +
+                          " can be computed, the first one " + engine.first_left_out());
+    }
+    stream.finish();
+    if (left_out > 0)
+        note("left out " + std::to_string(left_out) + " of " + std::to_string(all) +
+                 ", the first one " + engine.first_left_out(),
+             command.quiet);
+    if (command.stats) print_stats(engine, stacks, progress);
+    return 0;
+}
+
+int run_sweep(const SweepCommand& command) {
+    if (!command.merge.empty()) return run_merge(command);
+    if (command.stack.stack.empty()) throw UsageError("STACK is required (see irido sweep --help)");
+    if (!command.kind) throw UsageError("--compute: is required: spectrum, color, bands or cm");
+    const StreamFormat& format = resolved_stream_format(command.output);
+    const Shard shard = parse_shard(command.shard);
+    check_writable(command.output);
+    Notes notes(command.quiet);
+    const SweepSpace space(command.vary, command.points);
+    require_once(command, space);
+    const Execution machine{1, execution_of(command.threads).simd};
+    const auto question =
+        command.typed->parse({.execution = machine,
+                              .note = [&](const std::string& text) { notes(text); },
+                              .stacks = stacks_of_structure(space),
+                              .varied = varied_layers(space),
+                              .structures = structures_together(space),
+                              .varies_wavelength = varies_wavelength(space),
+                              .in_sweep = true});
+    const StackSource source = load_stack(command.stack);
+    SweptStacks stacks(source, space, *question);
+    SweepEngine engine(stacks, space, *question, command.keep_going);
+    const std::vector<std::uint64_t> ends =
+        shard.of > 1 ? engine.shard_ends(shard.of) : std::vector<std::uint64_t>{0, engine.units()};
+    const StreamIdentity identity{request_hash(command, *question, source, stacks.first(), space),
+                                  std::string(name_of(machine.simd)),
+                                  shard.number,
+                                  shard.of,
+                                  ends[shard.number - 1],
+                                  ends[shard.number],
+                                  engine.units(),
+                                  !command.shard.empty()};
+    std::optional<OrderlyEnd> orderly;
+    if (!command.output.file.empty()) orderly.emplace();  // before there is a part
+    std::error_code ignored;
+    if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
+        note(command.output.file +
+                 ".part of an earlier run is begun anew; --resume would have gone on",
+             command.quiet);
+    const std::unique_ptr<RecordStream> stream = open_stream(command, format, engine, identity);
+    if (stream->is_complete()) return 0;
+    if (stream->rows_done() > 0)
+        note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
+    try {
+        return write_rows(command, engine, stacks, format, identity, *stream,
+                          orderly ? &*orderly : nullptr);
+    } catch (...) {
+        // what --resume asked to be kept is kept, whatever goes wrong
+        if (command.resume) {
+            stream->suspend();
+        } else {
+            stream->discard();
+        }
+        throw;
+    }
+}
+
+/// The kind that follows --compute on the command line; nullptr if there is none.
+const QuestionKind* typed_kind(std::span<char* const> arguments) {
+    for (std::size_t i = 2; i < arguments.size(); ++i) {
+        std::string_view argument = arguments[i];
+        constexpr std::string_view option = "--compute";
+        if (argument == option && i + 1 < arguments.size()) {
+            argument = arguments[i + 1];
+        } else if (argument.starts_with("--compute=")) {
+            argument.remove_prefix(option.size() + 1);
+        } else {
+            continue;
+        }
+        for (const QuestionKind& kind : question_kinds())
+            if (kind.name == argument) return &kind;
+        std::vector<std::string_view> names;
+        for (const QuestionKind& kind : question_kinds()) names.push_back(kind.name);
+        throw UsageError("--compute: " + not_one_of(names, std::string(argument)));
+    }
+    return nullptr;
+}
+
+void add_sweep_options(CLI::App& command, SweepCommand& typed) {
+    add_stack_options(command, typed.stack);
+    command.get_option("STACK")->required(false);
+    command
+        .add_option("--vary", typed.vary,
+                    "a value of the stack by dotted path, and what it becomes: a LIST\n"
+                    "(layers.0.thickness_nm=0:1000:10), names and other values with\n"
+                    "commas (substrate=Ag,Au,1.9+1.5i,{\"n\":2}); also angle_deg and, for\n"
+                    "spectrum, wavelength_nm. Again for more; the last changes first")
+        ->type_name("PATH=LIST")
+        ->allow_extra_args(false);
+    command
+        .add_option("--points", typed.points,
+                    "a CSV file of combinations, its columns named by path; each with\n"
+                    "every combination of --vary, if there is any")
+        ->type_name("FILE");
+    command
+        .add_option("--compute", typed.compute,
+                    "spectrum, color, bands or cm, with the options of that command:\n"
+                    "irido sweep --compute color --help shows them, too")
+        ->type_name("COMMAND");
+    command
+        .add_option("--shard", typed.shard,
+                    "only part K of N, K in [1, N], each about as much work; for --merge,\n"
+                    "with FILE.sweep beside it, which holds its checksum")
+        ->type_name("K/N");
+    command.add_flag("--resume", typed.resume,
+                     "go on where an earlier run of the same command ended; nothing that\n"
+                     "is done is thrown away if this one ends early");
+    command
+        .add_option("--merge", typed.merge,
+                    "put the files of all shards together, in any order, instead of\n"
+                    "computing: the same bytes as of one run. Refuses files that were\n"
+                    "changed, or are of another build of irido (--version) or another\n"
+                    "SIMD level (IRIDO_SIMD=avx2 forces one)")
+        ->type_name("FILE");
+    command.add_flag("--keep-going", typed.keep_going,
+                     "leave out combinations that cannot be computed, and say how many;\n"
+                     "if none is left that is exit status 1, and FILE stays as it was");
+    if (!command.get_option_no_throw("--stats")) {
+        command.add_flag("--stats", typed.stats, "say on standard error what was used again");
+    } else {
+        command.get_option("--stats")->description(
+            "adds method,evaluations,error_estimate; the error of methods\n"
+            "that are not exact is measured against quadrature. Says on\n"
+            "standard error what was used again");
+    }
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments) {
+    CLI::App* command = program.add_subcommand(
+        "sweep", "Every combination of varied values, in one file: streamed, resumed, sharded.");
+    const auto options = std::make_shared<SweepCommand>();
+    const bool is_typed = arguments.size() > 1 && std::string_view(arguments[1]) == "sweep";
+    options->kind = is_typed ? typed_kind(arguments) : nullptr;
+    if (options->kind) options->typed = options->kind->add_options(*command);
+    add_sweep_options(*command, *options);
+    add_output_options(*command, options->output, "csv, json, npy or h5 (HDF5) [csv]");
+    add_threads_option(*command, options->threads);
+    command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");
+    set_examples(
+        *command,
+        {"irido sweep \"air | TiO2@35 | Ti\" --vary layers.0.thickness_nm=0:200:1 --compute color",
+         "irido sweep stack.json --vary substrate=Ag,Au,Cu --vary layers.0.thickness_nm=0:500:5 "
+         "--compute spectrum -w 400:700:10 -o sweep.npy",
+         "irido sweep --merge part-1.csv part-2.csv part-3.csv -o all.csv"},
+        "Columns are the varied values, named by path, and those of the command. With -o, what is\n"
+        "done is in FILE.part until all is; Ctrl-C, or a crash, leaves it there for --resume.");
+    command->callback([options, command, &run] {
+        const auto is_given = [&](const std::string& name) {
+            const CLI::Option* const option = command->get_option_no_throw(name);
+            return option && option->count() > 0;
+        };
+        options->stats = is_given("--stats");  // of color, perhaps
+        options->has_angles = is_given("--angles");
+        options->has_wavelengths = is_given("--wavelengths");
+        run = [options] { return run_sweep(*options); };
+    });
+}
+
+}  // namespace irido

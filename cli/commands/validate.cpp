@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/documents/scene_document.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/material_file.hpp"
+#include "schemas/readers/nearest.hpp"
+#include "schemas/readers/text_file.hpp"
+#include "tables/files/atomic_file.hpp"
+#include "tables/lut/lut_metadata.hpp"
+#include "tables/shaders/scene/bake.hpp"
+
+namespace irido {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kInvalid = 1, kUnreadable = 2;
+
+struct SchemaText {
+    std::string_view name;
+    const char* (*text)();
+};
+
+constexpr std::array<SchemaText, 4> kSchemas{{{"stack", stack_schema_text},
+                                              {"scene", scene_schema_text},
+                                              {"manifest", manifest_schema_text},
+                                              {"lut", lut_schema_text}}};
+
+/// What has keys of a stack is one, whatever else is in it by mistake.
+bool is_stack(const json& document) {
+    return !document.is_object() || !document.contains("materials") ||
+           document.contains("layers") || document.contains("incident") ||
+           document.contains("substrate");
+}
+
+std::vector<std::string> material_problems(const std::string& text, const std::string& file) {
+    try {
+        read_material_file(text, file);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+    return {};
+}
+
+std::vector<std::string> expression_problems(const std::string& expression) {
+    try {
+        const StackSource source = load_stack({expression, {}});
+        return stack_problems(source.document, source.file, source.folder);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+}
+
+std::vector<std::string> problems_of(const std::string& path) {
+    if (path.find('|') != std::string::npos) return expression_problems(path);
+    const std::string text = read_text(path), file = shown_path(path);
+    if (is_material_file(path)) return material_problems(text, file);
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    json document;
+    try {
+        document = parse_json(text, file);
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+    if (is_stack(document)) return stack_problems(document, file, folder);
+    if (document.contains("tables"))
+        return manifest_problems(document, file, path == "-" ? "" : folder.empty() ? "." : folder);
+    return problems_of_scene(document, file, folder, execution_of());
+}
+
+int run_validate(const std::vector<std::string>& files) {
+    std::string out;
+    int status = 0;
+    for (const std::string& file : files) {
+        try {
+            const std::vector<std::string> problems = problems_of(file);
+            for (const std::string& line : problems) out += message_line(line) + '\n';
+            if (problems.empty()) out += escaped(file) + ": ok\n";
+            if (!problems.empty()) status = std::max(status, kInvalid);
+        } catch (const InputError& error) {
+            print_error(error.what());
+            status = kUnreadable;
+        }
+    }
+    write_stdout(out);
+    return status;
+}
+
+int print_schema(const std::string& name) {
+    const auto found = std::ranges::find(kSchemas, name, &SchemaText::name);
+    if (found == kSchemas.end()) {
+        std::vector<std::string> names;
+        for (const SchemaText& schema : kSchemas) names.emplace_back(schema.name);
+        throw UsageError("--schema: must be one of stack, scene, manifest, lut (got '" + name +
+                         "')" + did_you_mean(name, names));
+    }
+    write_stdout(found->text());
+    return 0;
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand(
+        "validate",
+        "Check stacks, scenes, manifests and material files: every error of every file, or\n"
+        "FILE: ok.");
+    const auto files = std::make_shared<std::vector<std::string>>();
+    const auto schema = std::make_shared<std::string>();
+    CLI::Option* option =
+        command
+            ->add_option("--schema", *schema,
+                         "print the JSON Schema of stack, scene or manifest files or of a\n"
+                         "lut's metadata, which explains every key [stack]")
+            ->type_name("[NAME]")
+            ->expected(0, 1);
+    command
+        ->add_option("FILE", *files,
+                     "stack or scene files or manifests (.json), material files (.csv,\n"
+                     ".txt, .tsv, .dat, .nk, .mat, .yml), - for JSON on standard input,\n"
+                     "or expressions")
+        ->excludes(option);
+    set_examples(*command, {"irido validate schemas/examples/*.json",
+                            "irido validate - < stack.json", "irido validate --schema scene"});
+    command->footer(
+        command->get_footer() +
+        "\n\nOf a scene, everything that is known before its tables are computed; of a manifest\n"
+        "with its tables beside it, every file is read.\n\n"
+        "Exit status: 0 if all are right, 1 if not, 2 if a file cannot be read.");
+    command->callback([files, schema, option, &run] {
+        if (option->count() > 0 || !option->empty()) {
+            run = [schema] { return print_schema(schema->empty() ? "stack" : *schema); };
+        } else if (files->empty()) {
+            throw UsageError("validate: FILE is required (see irido validate --help)");
+        } else {
+            run = [files] { return run_validate(*files); };
+        }
+    });
+}
+
+}  // namespace irido

@@ -1,0 +1,271 @@
+#include "cli/options/color_options.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/color/held_stack.hpp"
+#include "core/colorimetry/illuminant.hpp"
+#include "core/error.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/nearest.hpp"
+#include "schemas/readers/spectrum_csv.hpp"
+#include "schemas/readers/text_file.hpp"
+
+namespace irido {
+
+namespace {
+
+struct NamedMethod {
+    std::string_view name;
+    ColorMethod::Kind kind;
+    double fewest, most;    ///< of the number after a slash; 0, 0: it takes none
+    std::size_t by_itself;  ///< the count where none is typed
+    std::size_t more = 0;   ///< the count is so much more than the number
+};
+
+constexpr double kMostHarmonics = 1000, kMostSubdivisions = 1000;
+
+using enum ColorMethod::Kind;
+
+constexpr std::array kMethods{
+    NamedMethod{"auto", automatic, 0, 0, 0},
+    NamedMethod{"quadrature", quadrature, 0, 0, 0},
+    NamedMethod{"fourier", fourier, 1, 1000, 0},
+    NamedMethod{"fourier-constant", fourier_constant, 1, 1000, 0},
+    NamedMethod{"bloch", bloch, 0, kMostHarmonics, 0, 1},
+    NamedMethod{"naive", naive, 0, 0, 0},
+    NamedMethod{"equal", equal, 2, 1e6, 32},
+    NamedMethod{"gaussian", gaussian, 0, 0, 0},
+    NamedMethod{"gltf", gltf, 0, 0, 0},
+    NamedMethod{"smits", smits, 0, 0, 0},
+    NamedMethod{"landmarks", landmarks, 1, kMostSubdivisions, 1},
+};
+
+std::vector<std::string_view> method_names() {
+    std::vector<std::string_view> names;
+    names.reserve(kMethods.size());
+    for (const NamedMethod& method : kMethods) names.push_back(method.name);
+    return names;
+}
+
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+}  // namespace
+
+std::vector<Side> parse_sides(const std::string& text) {
+    if (text == "R") return {Side::reflected};
+    if (text == "T") return {Side::transmitted};
+    if (text == "R,T") return {Side::reflected, Side::transmitted};
+    if (text == "T,R") return {Side::transmitted, Side::reflected};
+    throw UsageError("--side: must be R, T or both with a comma (got '" + text + "')");
+}
+
+Light parse_light(const std::string& text) {
+    if (text == "s") return Light::s;
+    if (text == "p") return Light::p;
+    if (text == "u") return Light::unpolarized;
+    throw UsageError("--polarization: must be one of s, p, u for a colour (got '" + text + "')");
+}
+
+const RgbSpace& parse_space(const std::string& text) {
+    if (contains(rgb_space_names(), text)) return rgb_space(text);
+    throw UsageError("--space: " + not_one_of(rgb_space_names(), text));
+}
+
+Adaptation parse_adaptation(const std::string& text) {
+    constexpr std::array<std::string_view, 2> names{"bradford", "none"};
+    if (!contains(names, text)) throw UsageError("--adaptation: " + not_one_of(names, text));
+    return text == "none" ? Adaptation::none : Adaptation::bradford;
+}
+
+const Observer& parse_observer(const std::string& text) {
+    if (text == "2") return observer(2);
+    if (text == "10") return observer(10);
+    throw UsageError("--observer: must be 2 or 10 (got '" + text + "')");
+}
+
+double parse_tolerance(const std::string& text) {
+    return text.empty() ? ColorRequest().tolerance
+                        : parse_one_number("--tolerance", text, 1e-12, 1);
+}
+
+ColorMethod parse_method(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const std::string name = text.substr(0, slash);
+    const auto method = std::ranges::find(kMethods, name, &NamedMethod::name);
+    if (method == kMethods.end()) {
+        const std::vector<std::string_view> names = method_names();
+        throw UsageError("--method: " + not_one_of(names, name) +
+                         did_you_mean(name, {names.begin(), names.end()}));
+    }
+    if (slash == std::string::npos) return {method->kind, method->by_itself};
+    if (method->most == 0)
+        throw UsageError("--method: " + name + " takes no number (got " + text + ")");
+    return {method->kind,
+            method->more + static_cast<std::size_t>(parse_whole_number(
+                               "--method: the number of " + name, text.substr(slash + 1),
+                               method->fewest, method->most))};
+}
+
+ColorMethod parse_method(const ColorOptions& options) {
+    ColorMethod method = parse_method(options.method);
+    const bool has_number = options.method.find('/') != std::string::npos;
+    const auto number = [&](const std::string& flag, const std::string& typed,
+                            ColorMethod::Kind kind, double fewest, double most) {
+        if (method.kind != kind)
+            throw UsageError(flag + ": needs --method " + name_of(ColorMethod{kind}) + " (got " +
+                             options.method + ")");
+        if (has_number)
+            throw UsageError(flag + ": the method has its number (got " + options.method + ")");
+        return static_cast<std::size_t>(parse_whole_number(flag, typed, fewest, most));
+    };
+    if (!options.subdivide.empty())
+        method.count = number("--subdivide", options.subdivide, landmarks, 1, kMostSubdivisions);
+    if (!options.harmonics.empty())
+        method.count = number("--harmonics", options.harmonics, bloch, 0, kMostHarmonics) + 1;
+    return method;
+}
+
+std::optional<Triple> parse_base_color(const ColorOptions& options) {
+    if (options.base_color.empty()) return {};
+    if (parse_method(options.method).kind != gltf)
+        throw UsageError("--base-color: needs --method gltf (got " + options.method + ")");
+    const std::vector<double> typed = parse_list("--base-color", options.base_color, 0, 1);
+    Triple rgb{};
+    if (typed.size() != rgb.size() || options.base_color.find(':') != std::string::npos)
+        throw UsageError("--base-color: must be three numbers R,G,B (got " + options.base_color +
+                         ")");
+    std::ranges::copy(typed, rgb.begin());
+    return rgb;
+}
+
+Table parse_illuminant(const std::string& text) {
+    if (contains(illuminant_names(), text)) return illuminant(text);
+    try {
+        return read_spectrum_csv(read_text(text), text);
+    } catch (const InputError& error) {
+        if (text.find_first_of("./") != std::string::npos || text == "-") throw;
+        throw UsageError("--illuminant: " + not_one_of(illuminant_names(), text) + ", or a file");
+    }
+}
+
+std::string name_of(const ColorMethod& method) {
+    const auto named = std::ranges::find(kMethods, method.kind, &NamedMethod::kind);
+    const std::string name(named->name);
+    return method.count == 0 ? name : name + "/" + std::to_string(method.count - named->more);
+}
+
+std::string_view letter(Side side) {
+    return side == Side::reflected ? "R" : "T";
+}
+
+namespace {
+
+std::string in_words(const HeldRange& held, const StackDocument& document) {
+    const std::string& name = document.stack.materials[held.material].name;
+    return (name.empty() ? "the material" : name) + " is known from " +
+           to_text(held.range.first_nm) + " to " + to_text(held.range.last_nm) + " nm";
+}
+
+/// Two digits of a fraction in percent.
+std::string percent(double fraction) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g %%", 100 * fraction);
+    return text.data();
+}
+
+}  // namespace
+
+void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity, bool strict,
+                        const std::function<void(const std::string&)>& say) {
+    for (const HeldRange& held : held_ranges(document.stack, sensitivity)) {
+        const std::string& pointer = document.material_pointers[held.material];
+        if (!held.usable)
+            throw InputError(document.file, pointer,
+                             in_words(held, document) + ", a colour needs 400 to 700 nm");
+        const std::string text = in_words(held, document) + ", its end values are held for " +
+                                 percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
+                                 percent(held.weight[2]) + " of the X, Y, Z weight";
+        if (strict) throw InputError(document.file, pointer, text);
+        say(InputError(document.file, pointer, text).what());
+    }
+}
+
+void add_side_options(CLI::App& command, ColorOptions& options, const std::string& sides) {
+    command.add_option("--side", options.sides, sides)->type_name("SIDES");
+    command
+        .add_option("-p,--polarization", options.polarization,
+                    "s, p or u (unpolarized: the mean of both) [u]")
+        ->type_name("LETTER");
+}
+
+void add_light_options(CLI::App& command, ColorOptions& options) {
+    command
+        .add_option("--illuminant", options.illuminant,
+                    "D65, D50, A, E, FL2, FL11 or a CSV file of rows nm,power\n"
+                    "(relative, linear in between, zero outside) [D65]")
+        ->type_name("NAME");
+    command.add_option("--observer", options.observer, "2 (CIE 1931) or 10 (CIE 1964) degrees [2]")
+        ->type_name("DEGREES");
+}
+
+void add_space_options(CLI::App& command, ColorOptions& options) {
+    command
+        .add_option("--space", options.space,
+                    "of r, g, b, hex: srgb, rec2020, display-p3, acescg, xyz [srgb]")
+        ->type_name("NAME");
+    command
+        .add_option("--adaptation", options.adaptation,
+                    "bradford (a perfect mirror is r = g = b = 1) or none [bradford]")
+        ->type_name("NAME");
+}
+
+void add_color_options(CLI::App& command, ColorOptions& options) {
+    add_side_options(command, options, "R (reflected), T (transmitted) or R,T [R]");
+    add_light_options(command, options);
+    add_space_options(command, options);
+    command
+        .add_option("--method", options.method,
+                    "auto: the cheapest of the exact ones for as many colours as are asked for\n"
+                    "(--stats says which): a row of a large sweep of one film may differ from\n"
+                    "that of a small one, within the tolerance; with a method by name it is\n"
+                    "the same row in any [auto]\n"
+                    "quadrature: product quadrature of the spectrum, any stack\n"
+                    "fourier: series over the orders of interference, one real film over\n"
+                    "any substrate; exact for constant indices; fourier/M, M in [1, 1000],\n"
+                    "ends it at order M; fourier-constant(/M) takes constant indices where\n"
+                    "media have dispersion\n"
+                    "bloch: Bloch waves, one group of two layers, all media of constant real\n"
+                    "index; exact, and the quicker the more periods there are, from 100 on\n"
+                    "to be compared with, none of them exact:\n"
+                    "landmarks: boxes between the landmarks of such a group (see bands);\n"
+                    "equal/N: N equally spaced wavelengths, [2, 1e6] [32]; naive: 650, 510,\n"
+                    "475 nm as R, G, B; of one film, reflected: gaussian: Gaussians for the\n"
+                    "observer; gltf (-p u): the formulas of KHR_materials_iridescence, as in\n"
+                    "three.js; smits: a single bounce")
+        ->type_name("METHOD");
+    command
+        .add_option("--subdivide", options.subdivide,
+                    "of landmarks: boxes next to gap m are split into S - m, [1, 1000] [1]")
+        ->type_name("S");
+    command
+        .add_option("--harmonics", options.harmonics,
+                    "of bloch: harmonics of the fringes, [0, 1000]; 0: their average only\n"
+                    "[as many as the tolerance needs]")
+        ->type_name("M");
+    command
+        .add_option("--base-color", options.base_color,
+                    "of gltf: the base colour, linear sRGB, each in [0, 1] [that of the bare\n"
+                    "substrate in air at normal incidence]")
+        ->type_name("R,G,B");
+    command
+        .add_option("--tolerance", options.tolerance,
+                    "largest error of X, Y, Z (white Y = 1), [1e-12, 1] [1e-6];\n"
+                    "exit status 1 if it cannot be met. Methods that are not exact are\n"
+                    "held to a tolerance only if one is given")
+        ->type_name("T");
+}
+
+}  // namespace irido

@@ -1,0 +1,290 @@
+#include "cli/queries/bands_question.hpp"
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+#include "cli/command.hpp"
+#include "core/error.hpp"
+#include "schemas/input_error.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+std::vector<Polarization> parse_polarizations(const std::string& text) {
+    std::vector<Polarization> polarizations;
+    for (const std::string_view item : comma_separated(text)) {
+        if (item != "s" && item != "p")
+            throw UsageError("--polarization: must be s, p or both with a comma (got '" + text +
+                             "')");
+        polarizations.push_back(item == "s" ? Polarization::s : Polarization::p);
+    }
+    return polarizations;
+}
+
+/// Both ends of FIRST:LAST.
+std::pair<double, double> parse_range(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::string rule =
+        "--range: must be FIRST:LAST in nm, FIRST below LAST (got '" + text + "')";
+    if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
+        throw UsageError(rule);
+    const auto end = [](const std::string& number) {
+        return parse_one_number("--range", number, kAllWavelengths.first_nm,
+                                kAllWavelengths.last_nm);
+    };
+    const double first = end(text.substr(0, colon)), last = end(text.substr(colon + 1));
+    if (!(first < last)) throw UsageError(rule);
+    return {first, last};
+}
+
+std::string letter(Polarization polarization) {
+    return polarization == Polarization::s ? "s" : "p";
+}
+
+std::string name_of(LandmarkKind kind) {
+    switch (kind) {
+        case LandmarkKind::mode:
+            return "mode";
+        case LandmarkKind::edge:
+            return "edge";
+        case LandmarkKind::airy:
+            return "airy";
+        case LandmarkKind::zero:
+            return "zero";
+    }
+    return "";
+}
+
+}  // namespace
+
+/// Rows one by one, those of a stack that fails taken back.
+template <class Rows>
+class BandsAnswers : public Answers {
+public:
+    explicit BandsAnswers(const BandsQuestion& question) : question_(question) {}
+
+    std::size_t add(const PreparedStack& prepared, const Stack& stack,
+                    const Incidence& incidence) override {
+        const BraggMirror mirror = question_.mirror(prepared.document, stack);
+        Rows rows;
+        try {
+            append(mirror, incidence, rows);
+        } catch (const DomainError& error) {
+            throw InputError(prepared.document.file, "", error.what());
+        }
+        const std::size_t count = rows.angle.size();
+        all_.append(to_records(std::move(rows)));
+        return count;
+    }
+
+    Records records() override {
+        if (all_.columns.empty()) return to_records({});
+        return std::exchange(all_, {});
+    }
+
+protected:
+    virtual void append(const BraggMirror& mirror, const Incidence& incidence,
+                        Rows& rows) const = 0;
+    virtual Records to_records(Rows rows) const = 0;
+
+    const BandsQuestion& question_;
+
+private:
+    Records all_;
+};
+
+struct LandmarkRows {
+    Column::Numbers angle, order, omega, wavelength;
+    Column::Texts polarization, kind;
+};
+
+class LandmarkAnswers : public BandsAnswers<LandmarkRows> {
+public:
+    using BandsAnswers::BandsAnswers;
+
+private:
+    void append(const BraggMirror& mirror, const Incidence& incidence,
+                LandmarkRows& rows) const override {
+        for (const double angle_deg : incidence.angles_deg) {
+            for (const Polarization p : question_.polarizations_) {
+                for (const Landmark& mark :
+                     landmarks(mirror.period_at(angle_deg, p), question_.omega())) {
+                    const double wavelength_nm = kTurn / mark.omega_per_nm;
+                    if (wavelength_nm < question_.first_nm() || wavelength_nm > question_.last_nm())
+                        continue;
+                    rows.angle.push_back(angle_deg);
+                    rows.polarization.push_back(letter(p));
+                    rows.kind.push_back(name_of(mark.kind));
+                    rows.order.push_back(mark.order);
+                    rows.omega.push_back(mark.omega_per_nm);
+                    rows.wavelength.push_back(wavelength_nm);
+                }
+            }
+        }
+    }
+
+    Records to_records(LandmarkRows rows) const override {
+        return {{{"angle_deg", std::move(rows.angle)},
+                 {"polarization", std::move(rows.polarization)},
+                 {"kind", std::move(rows.kind)},
+                 {"order", std::move(rows.order)},
+                 {"omega_per_nm", std::move(rows.omega)},
+                 {"wavelength_nm", std::move(rows.wavelength)}}};
+    }
+};
+
+struct GapRows {
+    Column::Numbers angle, order, shorter, longer, width, R, centre;
+    std::array<Column::Numbers, BraggMirror::kReflectances.size()> periods;
+    Column::Texts polarization;
+    Column::Flags omnidirectional;
+};
+
+class GapAnswers : public BandsAnswers<GapRows> {
+public:
+    using BandsAnswers::BandsAnswers;
+
+private:
+    void append(const BraggMirror& mirror, const Incidence& incidence,
+                GapRows& rows) const override {
+        std::map<double, bool> known;
+        for (const double angle_deg : incidence.angles_deg) {
+            for (const Polarization p : question_.polarizations_) {
+                for (const BandGap& gap :
+                     band_gaps(mirror.period_at(angle_deg, p), question_.omega())) {
+                    const double short_nm = kTurn / gap.high_per_nm;
+                    const double long_nm = kTurn / gap.low_per_nm;
+                    if (long_nm < question_.first_nm() || short_nm > question_.last_nm()) continue;
+                    if (!known.contains(gap.order))
+                        known[gap.order] = mirror.is_omnidirectional(gap.order);
+                    rows.angle.push_back(angle_deg);
+                    rows.polarization.push_back(letter(p));
+                    rows.order.push_back(gap.order);
+                    rows.shorter.push_back(short_nm);
+                    rows.longer.push_back(long_nm);
+                    rows.width.push_back(long_nm - short_nm);
+                    rows.omnidirectional.push_back(known[gap.order]);
+                    append_middle(mirror, angle_deg, p, gap, rows);
+                }
+            }
+        }
+    }
+
+    static void append_middle(const BraggMirror& mirror, double angle_deg, Polarization p,
+                              const BandGap& gap, GapRows& rows) {
+        const double middle = gap.centre_per_nm();
+        rows.R.push_back(mirror.reflectance(angle_deg, p, middle));
+        rows.centre.push_back(kTurn / middle);
+        BraggMirror::Periods needed{};
+        if (gap.is_open()) needed = mirror.periods_needed(angle_deg, p, middle);
+        for (std::size_t i = 0; i < needed.size(); ++i) rows.periods[i].push_back(needed[i]);
+    }
+
+    Records to_records(GapRows rows) const override {
+        return {{{"angle_deg", std::move(rows.angle)},
+                 {"polarization", std::move(rows.polarization)},
+                 {"order", std::move(rows.order)},
+                 {"short_nm", std::move(rows.shorter)},
+                 {"long_nm", std::move(rows.longer)},
+                 {"width_nm", std::move(rows.width)},
+                 {"R_mid", std::move(rows.R)},
+                 {"centre_nm", std::move(rows.centre)},
+                 {"N_95", std::move(rows.periods[0])},
+                 {"N_99", std::move(rows.periods[1])},
+                 {"N_999", std::move(rows.periods[2])},
+                 {"omnidirectional", std::move(rows.omnidirectional)}}};
+    }
+};
+
+BandsQuestion::BandsQuestion(const BandsOptions& typed, const Answering& answering)
+    : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
+      polarizations_(parse_polarizations(typed.polarization)),
+      gaps_(typed.gaps),
+      answering_(answering) {
+    std::tie(first_nm_, last_nm_) = parse_range(typed.range);
+}
+
+OmegaRange BandsQuestion::omega() const {
+    return {kTurn / last_nm_ * (1 - 1e-15), kTurn / first_nm_ * (1 + 1e-15)};
+}
+
+BraggMirror BandsQuestion::mirror(const StackDocument& document, const Stack& stack) const {
+    try {
+        return {stack, first_nm_, last_nm_};
+    } catch (const DomainError& error) {
+        throw InputError(document.file, "", error.what());
+    }
+}
+
+RecordLayout BandsQuestion::layout(const StackDocument&) const {
+    using enum RecordField::Type;
+    constexpr std::size_t longest_kind = 4;
+    if (!gaps_)
+        return {{"angle_deg"}, {"polarization", text, 1}, {"kind", text, longest_kind},
+                {"order"},     {"omega_per_nm"},          {"wavelength_nm"}};
+    return {{"angle_deg"}, {"polarization", text, 1},
+            {"order"},     {"short_nm"},
+            {"long_nm"},   {"width_nm"},
+            {"R_mid"},     {"centre_nm"},
+            {"N_95"},      {"N_99"},
+            {"N_999"},     {"omnidirectional", flag}};
+}
+
+std::unique_ptr<const PreparedStack> BandsQuestion::prepare(StackDocument document) const {
+    const double k = mirror(document, document.stack).left_out_k();
+    if (k > 0)
+        answering_.note("the absorption of the two layers (k up to " + to_text(k) +
+                        ") is left out of landmarks and gaps");
+    return std::make_unique<PreparedStack>(std::move(document));
+}
+
+std::unique_ptr<Answers> BandsQuestion::answers() const {
+    if (gaps_) return std::make_unique<GapAnswers>(*this);
+    return std::make_unique<LandmarkAnswers>(*this);
+}
+
+double BandsQuestion::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                              std::optional<double>) const {
+    constexpr double kStack = 3, kMode = 4, kGap = 30;
+    const PeriodAt period = mirror(prepared.document, stack).period_at(angle_deg, Polarization::s);
+    const OmegaRange range = omega();
+    const BraggPeriod middle = period((range.low_per_nm + range.high_per_nm) / 2);
+    const double modes =
+        (middle.path1_nm + middle.path2_nm) * (range.high_per_nm - range.low_per_nm) / kTurn;
+    return kStack +
+           (1 + 2 * modes) * (gaps_ ? kGap : kMode) * static_cast<double>(polarizations_.size());
+}
+
+std::unique_ptr<QuestionOptions> BandsOptions::add(CLI::App& command) {
+    auto options = std::make_unique<BandsOptions>();
+    add_angles_option(command, options->angles);
+    command
+        .add_option("-p,--polarization", options->polarization, "s, p or both with a comma [s,p]")
+        ->type_name("LETTERS");
+    command
+        .add_option("--range", options->range,
+                    "vacuum wavelengths that are looked at, nm, in [1, 1e7] [360:830]")
+        ->type_name("FIRST:LAST");
+    command.add_flag("--gaps", options->gaps,
+                     "the gaps instead: ends, width, R of the whole stack in the middle\n"
+                     "(of 1/wavelength), N_95, N_99 and N_999 periods needed there for\n"
+                     "R of 0.95, 0.99 and 0.999 (0: none up to 1e9), and whether some\n"
+                     "wavelength lies in the gap at all angles in s and p");
+    return options;
+}
+
+std::unique_ptr<const Question> BandsOptions::parse(const Answering& answering) const {
+    return std::make_unique<BandsQuestion>(*this, answering);
+}
+
+nlohmann::json BandsOptions::typed() const {
+    return {{"angles", angles}, {"polarization", polarization}, {"range", range}, {"gaps", gaps}};
+}
+
+}  // namespace irido

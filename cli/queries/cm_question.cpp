@@ -1,0 +1,202 @@
+#include "cli/queries/cm_question.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "cli/command.hpp"
+#include "core/color/fourier/film_color.hpp"
+#include "core/error.hpp"
+#include "core/film/film.hpp"
+#include "core/stack/index_table.hpp"
+#include "schemas/input_error.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kMostOrders = 1e6, kMostRows = 1e7;
+
+/// The letters of a list, each one of `allowed`; `rule` says so.
+std::vector<char> parse_letters(const std::string& text, std::string_view allowed,
+                                std::string rule) {
+    std::vector<char> letters;
+    for (const std::string_view item : comma_separated(text)) {
+        if (item.size() != 1 || allowed.find(item) == std::string_view::npos)
+            throw UsageError(rule.append(" (got '").append(text).append("')"));
+        letters.push_back(item.front());
+    }
+    return letters;
+}
+
+std::vector<double> parse_orders(const std::string& text) {
+    std::vector<double> orders = parse_list("--orders", text, 0, kMostOrders);
+    for (const double order : orders)
+        if (order != std::floor(order))
+            throw UsageError("--orders: must be whole numbers (got " + to_text(order) + ")");
+    return orders;
+}
+
+/// The film's media at the wavelength asked for.
+Film film_of(const StackDocument& document, double at_nm) {
+    const Stack& stack = document.stack;
+    const std::string fault = stack.elements.empty() ? "no layer" : film_fault(stack);
+    if (!fault.empty())
+        throw InputError(document.file, "",
+                         "cm needs one coherent film of a real index (got " + fault + ")");
+    const Layer layer = only_film(stack);
+    try {
+        const IndexTable table(stack, {at_nm});
+        return {table.n(stack.incident)[0], table.n(layer.material)[0],
+                table.index(stack.substrate, 0), layer.thickness_nm};
+    } catch (const DomainError& error) {
+        throw InputError(document.file, "", error.what());
+    }
+}
+
+struct CmStack : PreparedStack {
+    CmStack(StackDocument read, double at_nm)
+        : PreparedStack(std::move(read)), film(film_of(document, at_nm)) {}
+
+    Film film;
+};
+
+FilmSeries series_at(const StackDocument& document, const Film& film, double angle_deg,
+                     char polarization) {
+    const auto series = film_series(film, incident_angle(angle_deg),
+                                    polarization == 's' ? Polarization::s : Polarization::p);
+    if (series) return *series;
+    throw InputError(document.file, "",
+                     "there is no series at " + to_text(angle_deg) + " degrees, where " +
+                         (film.base.imag() < 0 ? "the film is past its critical angle or the base "
+                                                 "amplifies without bound"
+                                               : "the film is past its critical angle"));
+}
+
+}  // namespace
+
+class CmAnswers : public Answers {
+public:
+    explicit CmAnswers(const CmQuestion& question) : question_(question) {}
+
+    std::size_t add(const PreparedStack& prepared, const Stack& stack,
+                    const Incidence& incidence) override {
+        Film film = static_cast<const CmStack&>(prepared).film;
+        film.thickness_nm = only_film(stack).thickness_nm;
+        std::vector<FilmSeries> series;
+        for (const double angle_deg : incidence.angles_deg)
+            for (const char p : question_.polarizations_)
+                series.push_back(series_at(prepared.document, film, angle_deg, p));
+        std::size_t rows = 0;
+        for (std::size_t i = 0; i < series.size(); ++i) {
+            const std::size_t polarizations = question_.polarizations_.size();
+            rows += append(series[i], incidence.angles_deg[i / polarizations],
+                           question_.polarizations_[i % polarizations]);
+        }
+        return rows;
+    }
+
+    Records records() override {
+        Rows rows = std::exchange(rows_, {});
+        return {{{"angle_deg", std::move(rows.angle)},
+                 {"polarization", std::move(rows.polarization)},
+                 {"side", std::move(rows.side)},
+                 {"order", std::move(rows.order)},
+                 {"C", std::move(rows.C)},
+                 {"opd_nm", std::move(rows.opd)},
+                 {"phi_rad", std::move(rows.phi)}}};
+    }
+
+private:
+    struct Rows {
+        Column::Numbers angle, order, C, opd, phi;
+        Column::Texts polarization, side;
+    };
+
+    std::size_t append(const FilmSeries& series, double angle_deg, char polarization) {
+        for (const char s : question_.sides_) {
+            for (const double m : question_.orders_) {
+                rows_.angle.push_back(angle_deg);
+                rows_.polarization.emplace_back(1, polarization);
+                rows_.side.emplace_back(1, s);
+                rows_.order.push_back(m);
+                rows_.C.push_back(series.coefficient(s == 'T', m));
+                rows_.opd.push_back(series.opd_nm);
+                rows_.phi.push_back(series.phase_rad());
+            }
+        }
+        return question_.sides_.size() * question_.orders_.size();
+    }
+
+    const CmQuestion& question_;
+    Rows rows_;
+};
+
+CmQuestion::CmQuestion(const CmOptions& typed)
+    : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
+      polarizations_(parse_letters(typed.polarization, "sp",
+                                   "--polarization: must be s, p or both with a comma")),
+      sides_(parse_letters(typed.sides, "RT", "--side: must be R, T or both with a comma")),
+      orders_(parse_orders(typed.orders)),
+      at_nm_(
+          parse_one_number("--at", typed.at, kAllWavelengths.first_nm, kAllWavelengths.last_nm)) {
+    const double rows =
+        static_cast<double>(angles_deg_.size()) * static_cast<double>(rows_per_angle());
+    if (rows > kMostRows)
+        throw UsageError("--orders: asks for " + to_text(rows) + " rows, more than " +
+                         to_text(kMostRows));
+}
+
+RecordLayout CmQuestion::layout(const StackDocument&) const {
+    using enum RecordField::Type;
+    return {
+        {"angle_deg"}, {"polarization", text, 1}, {"side", text, 1}, {"order"}, {"C"}, {"opd_nm"},
+        {"phi_rad"}};
+}
+
+std::unique_ptr<const PreparedStack> CmQuestion::prepare(StackDocument document) const {
+    return std::make_unique<CmStack>(std::move(document), at_nm_);
+}
+
+std::unique_ptr<Answers> CmQuestion::answers() const {
+    return std::make_unique<CmAnswers>(*this);
+}
+
+double CmQuestion::cost_us(const PreparedStack&, const Stack&, double,
+                           std::optional<double>) const {
+    constexpr double kAngle = 0.5, kRow = 0.5;
+    return kAngle + kRow * static_cast<double>(rows_per_angle());
+}
+
+std::unique_ptr<QuestionOptions> CmOptions::add(CLI::App& command) {
+    auto options = std::make_unique<CmOptions>();
+    add_angles_option(command, options->angles);
+    command
+        .add_option("-p,--polarization", options->polarization, "s, p or both with a comma [s,p]")
+        ->type_name("LETTERS");
+    command.add_option("--side", options->sides, "R (reflected), T (transmitted) or R,T [R]")
+        ->type_name("SIDES");
+    command
+        .add_option("--orders", options->orders,
+                    "orders m, whole numbers in [0, 1e6], as --angles has its values [0:5:1]")
+        ->type_name("LIST");
+    command
+        .add_option("--at", options->at,
+                    "vacuum wavelength at which the indices are taken, nm, [1, 1e7] [550]")
+        ->type_name("NM");
+    return options;
+}
+
+std::unique_ptr<const Question> CmOptions::parse(const Answering&) const {
+    return std::make_unique<CmQuestion>(*this);
+}
+
+nlohmann::json CmOptions::typed() const {
+    return {{"angles", angles},
+            {"polarization", polarization},
+            {"orders", orders},
+            {"side", sides},
+            {"at", at}};
+}
+
+}  // namespace irido

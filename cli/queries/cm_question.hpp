@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/queries/question.hpp"
+
+namespace irido {
+
+/// What irido cm is asked, as typed.
+struct CmOptions : QuestionOptions {
+    std::string angles = "0";
+    std::string polarization = "s,p";
+    std::string orders = "0:5:1";
+    std::string sides = "R";
+    std::string at = "550";
+
+    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
+    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    nlohmann::json typed() const override;
+};
+
+/// The Fourier series of one film's fringes.
+class CmQuestion : public Question {
+public:
+    explicit CmQuestion(const CmOptions& typed);
+
+    std::span<const double> angles_deg() const override { return angles_deg_; }
+    std::size_t rows_per_angle() const override {
+        return polarizations_.size() * sides_.size() * orders_.size();
+    }
+    RecordLayout layout(const StackDocument& document) const override;
+    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    std::unique_ptr<Answers> answers() const override;
+    double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                   std::optional<double> wavelength_nm) const override;
+
+private:
+    friend class CmAnswers;
+
+    std::vector<double> angles_deg_;
+    std::vector<char> polarizations_;  ///< s or p
+    std::vector<char> sides_;          ///< R or T
+    std::vector<double> orders_;
+    double at_nm_ = 0;
+};
+
+}  // namespace irido

@@ -1,0 +1,330 @@
+#include "cli/queries/color_question.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/coherent/coherent.hpp"
+#include "core/color/baselines/approximation.hpp"
+#include "core/color/held_stack.hpp"
+#include "core/color/quadrature/quadrature_color.hpp"
+#include "core/colorimetry/difference.hpp"
+#include "core/colorimetry/illuminant.hpp"
+#include "core/error.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/utf8.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Of all structures: 256 MB.
+constexpr std::size_t kKeptNumbers = 1U << 25;
+
+/// x, y of the colour, of the white where there is no light.
+std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
+    const Triple& shown = xyz[0] + xyz[1] + xyz[2] > 0 ? xyz : white;
+    const double sum = shown[0] + shown[1] + shown[2];
+    return {shown[0] / sum, shown[1] / sum};
+}
+
+struct ColorStack : PreparedStack {
+    using PreparedStack::PreparedStack;
+
+    std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one a lighting
+};
+
+/// Columns of rows that are filled one after another.
+struct ColorRows {
+    std::array<Column::Numbers, 9> numbers;  ///< angle, X Y Z, x y, r g b
+    Column::CodedTexts side;
+    Column::Texts hexes;
+    Column::Flags gamut;
+    Column::Texts method;
+    Column::Numbers evaluations, error;
+    Column::CodedTexts illuminant;
+    Column::Numbers delta_e;
+
+    void reserve(std::size_t rows) {
+        for (Column::Numbers& column : numbers) column.reserve(rows);
+        hexes.reserve(rows);
+        gamut.reserve(rows);
+        side.codes.reserve(rows);
+    }
+
+    void add(const Illumination& lighting, const RgbSpace& space, double angle_deg,
+             const Triple& xyz) {
+        const auto [x, y] = chromaticity(xyz, lighting.white());
+        const Triple rgb = lighting.transform(xyz);
+        const std::array row{angle_deg, xyz[0], xyz[1], xyz[2], x, y, rgb[0], rgb[1], rgb[2]};
+        for (std::size_t c = 0; c < row.size(); ++c) numbers[c].push_back(row[c]);
+        hexes.push_back(hex(space, rgb));
+        gamut.push_back(in_gamut(rgb));
+    }
+};
+
+/// The incident medium's index at every nm that counts.
+IndexTable incident_table(const Stack& stack, WavelengthRange support) {
+    Material medium = stack.materials[stack.incident];
+    medium.outside = Outside::clamp;
+    std::vector<double> wavelengths;
+    for (double nm = support.first_nm; nm <= support.last_nm; ++nm) wavelengths.push_back(nm);
+    return {Stack{{medium}, 0, {}, 0}, wavelengths};
+}
+
+}  // namespace
+
+RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptation adaptation) {
+    try {
+        return {space, white, adaptation};
+    } catch (const DomainError& error) {
+        throw UsageError("--illuminant: " + std::string(error.what()) +
+                         ", --adaptation none does without");
+    }
+}
+
+Illumination::Illumination(std::string named, Sensitivity sensitivity, const RgbSpace& space,
+                           Adaptation adaptation)
+    : name(std::move(named)),
+      tables(std::move(sensitivity)),
+      transform(rgb_transform(space, white(), adaptation)) {}
+
+class ColorAnswers : public Answers {
+public:
+    explicit ColorAnswers(const ColorQuestion& question) : question_(question) {}
+
+    std::size_t add(const PreparedStack& prepared, const Stack& stack,
+                    const Incidence& incidence) override {
+        stacks_.push_back(question_.colors(prepared, stack, incidence.angles_deg));
+        return incidence.angles_deg.size() * question_.rows_per_angle();
+    }
+
+    Records records() override { return question_.records(std::exchange(stacks_, {})); }
+
+private:
+    const ColorQuestion& question_;
+    std::vector<StackColors> stacks_;
+};
+
+ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering& answering)
+    : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
+      illuminant_(parse_illuminant(typed.color.illuminant)),
+      method_(parse_method(typed.color)),
+      base_color_(parse_base_color(typed.color)),
+      held_to_tolerance_(!typed.color.tolerance.empty()),
+      space_(&parse_space(typed.color.space)),
+      stats_(typed.stats),
+      strict_(typed.strict),
+      answering_(answering) {
+    const Adaptation adaptation = parse_adaptation(typed.color.adaptation);
+    request_.sides = parse_sides(typed.color.sides);
+    request_.light = parse_light(typed.color.polarization);
+    request_.tolerance = parse_tolerance(typed.color.tolerance);
+    request_.colors = static_cast<std::size_t>(
+        std::min(1e15, answering.stacks * static_cast<double>(angles_deg_.size())));
+    request_.varied = answering.varied;
+    request_.kept_numbers = std::min(request_.kept_numbers,
+                                     kKeptNumbers / std::max<std::size_t>(1, answering.structures));
+    request_.simd = answering.execution.simd;
+    const Observer& eye = parse_observer(typed.color.observer);
+    const std::string first = well_formed(typed.color.illuminant);  // perhaps a file's
+    lightings_.push_back(
+        std::make_unique<Illumination>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
+    if (!typed.compare) return;
+    for (const std::string_view name : illuminant_names())
+        if (name != first)
+            lightings_.push_back(std::make_unique<Illumination>(
+                std::string(name), Sensitivity(eye, illuminant(name)), *space_, adaptation));
+}
+
+RecordLayout ColorQuestion::layout(const StackDocument&) const {
+    using enum RecordField::Type;
+    constexpr std::size_t hex_width = 7, longest_method = 24;
+    RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
+    for (const char* name : {"X", "Y", "Z", "x", "y", "r", "g", "b"}) layout.push_back({name});
+    layout.push_back({"hex", text, hex_width});
+    layout.push_back({"in_gamut", flag});
+    if (stats_) {
+        layout.push_back({"method", text, longest_method});
+        layout.push_back({"evaluations"});
+        layout.push_back({"error_estimate"});
+    }
+    if (lightings_.size() == 1) return layout;
+    std::size_t longest = 1;
+    for (const auto& lighting : lightings_) longest = std::max(longest, lighting->name.size());
+    layout.push_back({"illuminant", text, longest});
+    layout.push_back({"delta_e_2000"});
+    return layout;
+}
+
+nlohmann::json ColorQuestion::data() const {
+    return {illuminant_.wavelength_nm, illuminant_.value};
+}
+
+std::unique_ptr<const PreparedStack> ColorQuestion::prepare(StackDocument document) const {
+    report_held_ranges(document, lightings_.front()->tables.sensitivity(), strict_,
+                       answering_.note);
+    const std::string file = document.file;
+    try {
+        const WavelengthRange support = lightings_.front()->tables.sensitivity().support();
+        note_incident(document, incident_table(document.stack, support), answering_.note);
+        auto prepared = std::make_unique<ColorStack>(std::move(document));
+        for (const auto& lighting : lightings_)
+            prepared->algorithms.push_back(
+                base_color_ ? approximate_color(lighting->tables, prepared->document.stack, method_,
+                                                request_, base_color_)
+                            : color_algorithm(lighting->tables, prepared->document.stack, method_,
+                                              request_));
+        return prepared;
+    } catch (const DomainError& error) {
+        throw InputError(file, "", error.what());
+    }
+}
+
+std::unique_ptr<Answers> ColorQuestion::answers() const {
+    return std::make_unique<ColorAnswers>(*this);
+}
+
+double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                              std::optional<double>) const {
+    constexpr double kColor = 1, kLayer = 0.012, kPathWavelength_nm = 500;
+    const Sensitivity& sensitivity = lightings_.front()->tables.sensitivity();
+    const Stack& model = prepared.document.stack;
+    const IndexTable indices(held_stack(model, sensitivity), {kPathWavelength_nm});
+    const std::size_t pieces = smooth_pieces(model, sensitivity.support()).size() - 1;
+    return static_cast<double>(lightings_.size()) *
+           (kColor + kLayer * quadrature_work(stack, indices, pieces, incident_angle(angle_deg)));
+}
+
+StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& stack,
+                                  std::span<const double> angles_deg) const {
+    const auto& algorithms = static_cast<const ColorStack&>(prepared).algorithms;
+    const unsigned threads = answering_.execution.threads;
+    StackColors result{{angles_deg.begin(), angles_deg.end()}, {}};
+    bool approximate = method_.count > 0;
+    try {
+        for (std::size_t i = 0; i < lightings_.size(); ++i) {
+            result.colors.push_back(
+                stack_color(*algorithms[i], stack, sides().size(), angles_deg, threads));
+            if (answering_.in_sweep && !stats_ && !held_to_tolerance_) continue;
+            approximate |= measure_errors(lightings_[i]->tables, stack, request_, angles_deg,
+                                          threads, result.colors.back());
+        }
+    } catch (const DomainError& error) {
+        throw InputError(prepared.document.file, "", error.what());
+    }
+    check_errors(prepared.document, result, approximate);
+    return result;
+}
+
+/// Methods that are not exact are held to nothing by themselves: a note says how far they are off
+/// if it is more than the default tolerance.
+void ColorQuestion::check_errors(const StackDocument& document, const StackColors& colors,
+                                 bool approximate) const {
+    for (const std::vector<StackColor>& lit : colors.colors) {
+        const auto worst = std::ranges::max_element(lit, {}, &StackColor::error);
+        if (worst->error <= request_.tolerance) continue;
+        if (!held_to_tolerance_ && (approximate || !std::isfinite(worst->error))) {
+            if (answering_.in_sweep) continue;
+            std::array<char, 32> text{};
+            std::snprintf(text.data(), text.size(), "%.2g", worst->error);
+            answering_.note(document.file + ": " + name_of(method_) + " is off by up to " +
+                            text.data() + " in X, Y, Z here");
+            continue;
+        }
+        const auto i = static_cast<std::size_t>(worst - lit.begin());
+        const Triple& xyz = worst->xyz;
+        throw ToleranceError(
+            document.file + ": the tolerance " + to_text(request_.tolerance) +
+            " cannot be met; at " + to_text(colors.angles_deg[i / sides().size()]) +
+            " degrees, side " + std::string(letter(sides()[i % sides().size()])) +
+            ", the best value is X, Y, Z = " + to_text(xyz[0]) + ", " + to_text(xyz[1]) + ", " +
+            to_text(xyz[2]) + " with an error of " + to_text(worst->error));
+    }
+}
+
+Records ColorQuestion::records(const std::vector<StackColors>& stacks) const {
+    ColorRows rows;
+    for (const Side side : sides()) rows.side.values.emplace_back(letter(side));
+    for (const auto& lighting : lightings_) rows.illuminant.values.push_back(lighting->name);
+    std::size_t count = 0;
+    for (const StackColors& stack : stacks) count += stack.angles_deg.size() * rows_per_angle();
+    rows.reserve(count);
+    for (const StackColors& stack : stacks) {
+        for (std::uint32_t l = 0; l < lightings_.size(); ++l) {
+            const Illumination& lighting = *lightings_[l];
+            for (std::size_t i = 0; i < stack.colors[l].size(); ++i) {
+                const StackColor& color = stack.colors[l][i];
+                rows.add(lighting, *space_, stack.angles_deg[i / sides().size()], color.xyz);
+                rows.side.codes.push_back(static_cast<std::uint32_t>(i % sides().size()));
+                if (stats_) {
+                    rows.method.push_back(name_of(ColorMethod{color.method, method_.count}));
+                    rows.evaluations.push_back(static_cast<double>(color.evaluations));
+                    rows.error.push_back(color.error);
+                }
+                if (lightings_.size() == 1) continue;
+                rows.illuminant.codes.push_back(l);
+                rows.delta_e.push_back(
+                    ciede2000(lab(color.xyz, lighting.white()),
+                              lab(stack.colors[0][i].xyz, lightings_[0]->white())));
+            }
+        }
+    }
+    Records records{{{"angle_deg", std::move(rows.numbers[0])}, {"side", std::move(rows.side)}}};
+    constexpr std::array names{"X", "Y", "Z", "x", "y", "r", "g", "b"};
+    for (std::size_t c = 0; c < names.size(); ++c)
+        records.columns.push_back({names[c], std::move(rows.numbers[c + 1])});
+    records.columns.push_back({"hex", std::move(rows.hexes)});
+    records.columns.push_back({"in_gamut", std::move(rows.gamut)});
+    if (stats_) {
+        records.columns.push_back({"method", std::move(rows.method)});
+        records.columns.push_back({"evaluations", std::move(rows.evaluations)});
+        records.columns.push_back({"error_estimate", std::move(rows.error)});
+    }
+    if (lightings_.size() == 1) return records;
+    records.columns.push_back({"illuminant", std::move(rows.illuminant)});
+    records.columns.push_back({"delta_e_2000", std::move(rows.delta_e)});
+    return records;
+}
+
+std::unique_ptr<QuestionOptions> ColorQuestionOptions::add(CLI::App& command) {
+    auto options = std::make_unique<ColorQuestionOptions>();
+    add_angles_option(command, options->angles);
+    add_color_options(command, options->color);
+    command.add_flag("--compare-illuminants", options->compare,
+                     "the same under every other named illuminant too; adds\n"
+                     "illuminant,delta_e_2000 (CIEDE2000 to the first one)");
+    command.add_flag("--stats", options->stats,
+                     "adds method,evaluations,error_estimate; the error of methods\n"
+                     "that are not exact is measured against quadrature");
+    command.add_flag("--strict", options->strict,
+                     "a material not known from 360 to 830 nm is an error");
+    return options;
+}
+
+std::unique_ptr<const Question> ColorQuestionOptions::parse(const Answering& answering) const {
+    return std::make_unique<ColorQuestion>(*this, answering);
+}
+
+nlohmann::json ColorQuestionOptions::typed() const {
+    return {{"angles", angles},
+            {"side", color.sides},
+            {"polarization", color.polarization},
+            {"illuminant", color.illuminant},
+            {"observer", color.observer},
+            {"space", color.space},
+            {"adaptation", color.adaptation},
+            {"method", color.method},
+            {"subdivide", color.subdivide},
+            {"harmonics", color.harmonics},
+            {"base_color", color.base_color},
+            {"tolerance", color.tolerance},
+            {"compare", compare},
+            {"stats", stats},
+            {"strict", strict}};
+}
+
+}  // namespace irido

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/options/color_options.hpp"
+#include "cli/queries/question.hpp"
+#include "core/color/color_tables.hpp"
+#include "core/color/stack_color.hpp"
+
+namespace irido {
+
+/// What irido color is asked, as typed.
+struct ColorQuestionOptions : QuestionOptions {
+    std::string angles = "0";
+    ColorOptions color;
+    bool compare = false;
+    bool stats = false;
+    bool strict = false;
+
+    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
+    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    nlohmann::json typed() const override;
+};
+
+/// Throws UsageError that names --illuminant.
+RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptation adaptation);
+
+/// An illuminant, and what all colours under it have in common.
+struct Illumination {
+    Illumination(std::string name, Sensitivity sensitivity, const RgbSpace& space,
+                 Adaptation adaptation);
+
+    const Triple& white() const { return tables.sensitivity().white(); }
+
+    std::string name;
+    ColorTables tables;
+    RgbTransform transform;
+};
+
+/// Colours of one stack, [angle][side] under each lighting.
+struct StackColors {
+    std::vector<double> angles_deg;
+    std::vector<std::vector<StackColor>> colors;
+};
+
+/// X, Y, Z and RGB of what a stack reflects or transmits.
+class ColorQuestion : public Question {
+public:
+    ColorQuestion(const ColorQuestionOptions& typed, const Answering& answering);
+
+    std::span<const double> angles_deg() const override { return angles_deg_; }
+    bool splits_angles() const override { return lightings_.size() == 1; }
+    std::size_t rows_per_angle() const override { return lightings_.size() * sides().size(); }
+    RecordLayout layout(const StackDocument& document) const override;
+    nlohmann::json data() const override;
+    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    std::unique_ptr<Answers> answers() const override;
+    double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                   std::optional<double> wavelength_nm) const override;
+
+    std::span<const Side> sides() const { return request_.sides; }
+    /// The one asked for, and all others to be compared with it.
+    std::span<const std::unique_ptr<Illumination>> lightings() const { return lightings_; }
+    /// Throws InputError, or ToleranceError if a colour is not as exact as asked.
+    StackColors colors(const PreparedStack& prepared, const Stack& stack,
+                       std::span<const double> angles_deg) const;
+    Records records(const std::vector<StackColors>& stacks) const;
+
+private:
+    void check_errors(const StackDocument& document, const StackColors& colors,
+                      bool approximate) const;
+
+    std::vector<double> angles_deg_;
+    Table illuminant_;  ///< asked for
+    std::vector<std::unique_ptr<Illumination>> lightings_;
+    ColorMethod method_;
+    std::optional<Triple> base_color_;  ///< of gltf
+    ColorRequest request_;
+    bool held_to_tolerance_;  ///< one was given
+    const RgbSpace* space_;
+    bool stats_, strict_;
+    Answering answering_;
+};
+
+}  // namespace irido

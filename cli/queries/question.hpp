@@ -1,0 +1,131 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/spectrum/spectrum.hpp"
+#include "core/stack/index_table.hpp"
+#include "schemas/documents/stack_document.hpp"
+#include "tables/records/record_layout.hpp"
+#include "tables/records/records.hpp"
+
+namespace irido {
+
+/// What was asked for cannot be had, though nothing is wrong with the input: exit status 1.
+struct CheckFailed : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A --tolerance that cannot be met.
+struct ToleranceError : CheckFailed {
+    using CheckFailed::CheckFailed;
+};
+
+/// How a question is answered, besides what is asked.
+struct Answering {
+    Execution execution{1};
+    /// What the user should know; may be called from many threads.
+    std::function<void(const std::string&)> note = [](const std::string&) {};
+    /// Stacks of the same materials and structure that will be asked about.
+    double stacks = 1;
+    /// Layers in which these differ; none if there is one stack only.
+    std::vector<LayerPlace> varied = {};
+    /// Structures that may be prepared at the same time; they share the memory.
+    std::size_t structures = 1;
+    /// Every stack comes with a wavelength of its own, instead of those asked for.
+    bool varies_wavelength = false;
+    /// One of many: neither notes nor errors of methods that are not exact, unless asked for.
+    bool in_sweep = false;
+};
+
+/// The light that falls on a stack.
+struct Incidence {
+    std::span<const double> angles_deg;        ///< [0, 90]
+    std::optional<double> wavelength_nm = {};  ///< instead of those asked for
+};
+
+/// A stack document with all that its stacks have in common, whatever their thicknesses.
+struct PreparedStack {
+    explicit PreparedStack(StackDocument read) : document(std::move(read)) {}
+    virtual ~PreparedStack() = default;
+
+    StackDocument document;
+};
+
+/// Rows of one stack after another, on one thread.
+class Answers {
+public:
+    virtual ~Answers() = default;
+
+    /// Adds the rows of a stack that differs from the prepared one in thicknesses only, by angle
+    /// first; returns how many. Nothing is added if it throws: InputError, UsageError,
+    /// ToleranceError.
+    virtual std::size_t add(const PreparedStack& prepared, const Stack& stack,
+                            const Incidence& incidence) = 0;
+    /// All rows since the last call.
+    virtual Records records() = 0;
+};
+
+/// What a command asks of a stack, parsed from its options.
+class Question {
+public:
+    virtual ~Question() = default;
+
+    virtual std::span<const double> angles_deg() const = 0;
+    /// Whether the wavelengths may be others than those asked for.
+    virtual bool takes_wavelength() const { return false; }
+    /// Whether rows of all angles may be asked for angle by angle.
+    virtual bool splits_angles() const { return true; }
+    /// Rows of one stack at one angle; 0 if their number is not known before.
+    virtual std::size_t rows_per_angle() const = 0;
+    /// Names and types of the rows' columns.
+    virtual RecordLayout layout(const StackDocument& document) const = 0;
+
+    /// What the answers depend on that was read from files.
+    virtual nlohmann::json data() const;
+
+    /// Throws InputError or UsageError. Safe from many threads.
+    virtual std::unique_ptr<const PreparedStack> prepare(StackDocument document) const = 0;
+    virtual std::unique_ptr<Answers> answers() const = 0;
+    /// Microseconds of one stack at one angle, more or less: a function of its arguments that is
+    /// the same on every machine.
+    virtual double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                           std::optional<double> wavelength_nm) const = 0;
+};
+
+/// Says so if an incident medium that has k is taken as transparent at the table's wavelengths.
+void note_incident(const StackDocument& document, const IndexTable& table,
+                   const std::function<void(const std::string&)>& say);
+
+/// The rows of the prepared stack itself at the question's angles.
+Records records_of(const Question& question, const PreparedStack& prepared);
+
+/// Options of one kind of question, as typed.
+class QuestionOptions {
+public:
+    virtual ~QuestionOptions() = default;
+
+    /// Throws UsageError or InputError.
+    virtual std::unique_ptr<const Question> parse(const Answering& answering) const = 0;
+    /// All that the answers depend on, besides stack, Answering and what is read from files.
+    virtual nlohmann::json typed() const = 0;
+};
+
+/// A kind of question that commands and sweeps ask.
+struct QuestionKind {
+    std::string_view name;  ///< of the command
+    /// Binds the options, which must live as long as the command.
+    std::unique_ptr<QuestionOptions> (*add_options)(CLI::App& command);
+};
+
+/// spectrum, color, bands and cm.
+std::span<const QuestionKind> question_kinds();
+
+}  // namespace irido

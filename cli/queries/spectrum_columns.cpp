@@ -1,0 +1,179 @@
+#include "cli/queries/spectrum_columns.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "cli/options/list.hpp"
+#include "core/error.hpp"
+#include "core/spectrum/ellipsometry.hpp"
+#include "schemas/readers/nearest.hpp"
+
+namespace irido {
+
+namespace {
+
+/// As typed, in the order of SpectrumColumn.
+constexpr std::array<std::string_view, 7> kNames{"r_re",    "r_im",      "t_re",    "t_im",
+                                                 "psi_deg", "delta_deg", "A_layers"};
+
+std::string name_of(SpectrumColumn column) {
+    return std::string(kNames[static_cast<std::size_t>(column)]);
+}
+
+SpectrumColumn column_of(std::string_view name) {
+    const auto found = std::ranges::find(kNames, name);
+    if (found != kNames.end()) return static_cast<SpectrumColumn>(found - kNames.begin());
+    throw UsageError("--columns: " + not_one_of(kNames, name) +
+                     did_you_mean(name, {kNames.begin(), kNames.end()}));
+}
+
+bool is_ellipsometric(SpectrumColumn column) {
+    return column == SpectrumColumn::psi_deg || column == SpectrumColumn::delta_deg;
+}
+
+/// Appends values of the rows of a table to a column, in their order.
+class RowValues {
+public:
+    RowValues(const SpectrumShape& shape, const Spectra& spectra, Column::Numbers& to)
+        : shape_(shape), spectra_(spectra), to_(to) {}
+
+    /// value(polarization, point), points being [angle][wavelength].
+    template <class Value>
+    void append(const Value& value) const {
+        to_.reserve(to_.size() + shape_.rows());
+        for (std::size_t a = 0; a < shape_.angles; ++a)
+            for (const char polarization : shape_.polarizations)
+                for (std::size_t w = 0; w < shape_.wavelengths; ++w)
+                    to_.push_back(value(polarization, a * shape_.wavelengths + w));
+    }
+
+    /// A quantity of both polarizations, `offset` values further than the first point.
+    void power(std::vector<double> Spectrum::*quantity, std::size_t offset = 0) const {
+        const double* s = (spectra_.s.*quantity).data() + offset;
+        const double* p = (spectra_.p.*quantity).data() + offset;
+        append([&](char polarization, std::size_t point) {
+            if (polarization == 's') return s[point];
+            if (polarization == 'p') return p[point];
+            return (s[point] + p[point]) / 2;
+        });
+    }
+
+    void amplitude(std::vector<Complex> Spectrum::*quantity, double (*part)(const Complex&)) const {
+        append([&](char polarization, std::size_t point) {
+            const Spectrum& spectrum = polarization == 's' ? spectra_.s : spectra_.p;
+            return part((spectrum.*quantity)[point]);
+        });
+    }
+
+    void ellipsometric(double EllipsometricAngles::*angle) const {
+        append([&](char, std::size_t point) {
+            return ellipsometric_angles(spectra_.s.r[point], spectra_.p.r[point]).*angle;
+        });
+    }
+
+private:
+    const SpectrumShape& shape_;
+    const Spectra& spectra_;
+    Column::Numbers& to_;
+};
+
+double real_part(const Complex& z) {
+    return z.real() + 0.0;  // -0 is 0
+}
+double imaginary_part(const Complex& z) {
+    return z.imag() + 0.0;
+}
+
+void append_values(SpectrumColumn column, const RowValues& values) {
+    switch (column) {
+        case SpectrumColumn::r_re:
+            return values.amplitude(&Spectrum::r, real_part);
+        case SpectrumColumn::r_im:
+            return values.amplitude(&Spectrum::r, imaginary_part);
+        case SpectrumColumn::t_re:
+            return values.amplitude(&Spectrum::t, real_part);
+        case SpectrumColumn::t_im:
+            return values.amplitude(&Spectrum::t, imaginary_part);
+        case SpectrumColumn::psi_deg:
+            return values.ellipsometric(&EllipsometricAngles::psi_deg);
+        case SpectrumColumn::delta_deg:
+            return values.ellipsometric(&EllipsometricAngles::delta_deg);
+        case SpectrumColumn::A_layers:
+            return;
+    }
+}
+
+}  // namespace
+
+std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text) {
+    std::vector<SpectrumColumn> columns;
+    if (text.empty()) return columns;
+    for (const std::string_view name : comma_separated(text)) {
+        const SpectrumColumn column = column_of(name);
+        if (std::ranges::find(columns, column) != columns.end())
+            throw UsageError("--columns: each must be named once (got " + std::string(name) +
+                             " twice)");
+        columns.push_back(column);
+    }
+    return columns;
+}
+
+Needs spectrum_needs(const std::string& polarizations, const std::vector<SpectrumColumn>& columns,
+                     const StackPower& stack) {
+    const auto asked_for = [&](char letter) {
+        return polarizations.find(letter) != std::string::npos;
+    };
+    Needs needs{asked_for('s') || asked_for('u'), asked_for('p') || asked_for('u')};
+    for (const SpectrumColumn column : columns) {
+        if (column == SpectrumColumn::A_layers) {
+            if (stack.layer_count() > StackPower::kLargestLayerList)
+                throw UsageError("--columns: A_layers needs a stack of at most " +
+                                 std::to_string(StackPower::kLargestLayerList) + " layers (got " +
+                                 std::to_string(stack.layer_count()) + ", repetitions included)");
+            needs.layers = stack.layer_count() > 0;
+            continue;
+        }
+        if (asked_for('u'))
+            throw UsageError("--columns: " + name_of(column) +
+                             " belongs to s or p, not to their mean: use -p s,p");
+        if (!stack.has_amplitudes())
+            throw UsageError("--columns: " + name_of(column) +
+                             " needs a stack of coherent layers without thickness_sigma_nm: what "
+                             "is added or averaged as power has no amplitude");
+        needs.amplitudes = true;
+        if (is_ellipsometric(column)) needs.s = needs.p = true;
+    }
+    return needs;
+}
+
+std::vector<std::string> spectrum_number_names(const std::vector<SpectrumColumn>& columns,
+                                               std::size_t layers) {
+    std::vector<std::string> names{"R", "T", "A"};
+    for (const SpectrumColumn column : columns) {
+        if (column != SpectrumColumn::A_layers) {
+            names.push_back(name_of(column));
+            continue;
+        }
+        for (std::size_t layer = 1; layer <= layers; ++layer)
+            names.push_back("A_" + std::to_string(layer));
+    }
+    return names;
+}
+
+void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<SpectrumColumn>& columns,
+                             std::size_t layers, const Spectra& spectra,
+                             std::vector<Column::Numbers>& to) {
+    auto next = to.begin();
+    const auto values = [&] { return RowValues(shape, spectra, *next++); };
+    for (const auto quantity : {&Spectrum::R, &Spectrum::T, &Spectrum::A}) values().power(quantity);
+    for (const SpectrumColumn column : columns) {
+        if (column != SpectrumColumn::A_layers) {
+            append_values(column, values());
+            continue;
+        }
+        for (std::size_t layer = 0; layer < layers; ++layer)
+            values().power(&Spectrum::A_layers, layer * shape.angles * shape.wavelengths);
+    }
+}
+
+}  // namespace irido

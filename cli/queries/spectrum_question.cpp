@@ -1,0 +1,472 @@
+#include "cli/queries/spectrum_question.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/command.hpp"
+#include "core/coherent/coherent.hpp"
+#include "core/error.hpp"
+#include "core/spectrum/stack_power.hpp"
+#include "core/stack/index_table.hpp"
+#include "schemas/input_error.hpp"
+
+namespace irido {
+
+namespace {
+
+/// The letters of "s,p,u" in the order typed.
+std::string parse_polarizations(std::string_view text) {
+    std::string letters;
+    for (const std::string_view item : comma_separated(text)) {
+        if (item != "s" && item != "p" && item != "u")
+            throw UsageError("--polarization: must be s, p, u or several with commas (got '" +
+                             std::string(text) + "')");
+        letters += item;
+    }
+    return letters;
+}
+
+/// The error of the first material that has no index at one of the wavelengths, with its place.
+[[noreturn]] void throw_material_error(const StackDocument& document,
+                                       const std::vector<double>& wavelengths_nm,
+                                       const DomainError& fallback) {
+    for (std::size_t m = 0; m < document.stack.materials.size(); ++m) {
+        try {
+            for (const double wavelength : wavelengths_nm)
+                index_at(document.stack.materials[m], wavelength);
+        } catch (const DomainError& error) {
+            throw InputError(document.file, document.material_pointers[m], error.what());
+        }
+    }
+    throw InputError(document.file, document.material_pointers[document.stack.incident],
+                     fallback.what());
+}
+
+IndexTable index_table(const StackDocument& document, const std::vector<double>& wavelengths_nm) {
+    try {
+        return {document.stack, wavelengths_nm};
+    } catch (const DomainError& error) {
+        throw_material_error(document, wavelengths_nm, error);
+    }
+}
+
+StackPower stack_power(const StackDocument& document, const Stack& stack) {
+    try {
+        return StackPower(stack);
+    } catch (const DomainError& error) {
+        throw InputError(document.file, "", error.what());
+    }
+}
+
+struct SpectrumStack : PreparedStack {
+    SpectrumStack(StackDocument read, const std::vector<double>& wavelengths_nm)
+        : PreparedStack(std::move(read)), table(index_table(document, wavelengths_nm)) {}
+
+    IndexTable table;
+};
+
+std::string count_of(std::size_t part, std::size_t all, const std::string& what) {
+    return std::to_string(part) + " of " + std::to_string(all) + " " + what;
+}
+
+/// Why the vector kernel does not take a request.
+std::string why_plain(const StackPower& stack, const Needs& needs, SimdLevel simd) {
+    if (simd == SimdLevel::plain) return "IRIDO_SIMD=plain";
+    if (needs.layers) return "A_layers";
+    if (!stack.chain()) return "spread thicknesses";
+    return "groups of many absorbing layers, or phases beyond 1e12";
+}
+
+std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::size_t angles,
+                                  const std::string& plain_reason) {
+    std::vector<std::string> lines;
+    const std::string points = std::to_string(work.points) + " points of wavelength and angle, ";
+    if (work.kernel == SimdLevel::plain) {
+        lines.push_back(points + "one at a time (" + plain_reason + ")");
+    } else {
+        lines.push_back(points + "side by side (" + std::string(name_of(work.kernel)) + "), " +
+                        std::to_string(work.layers) + " layers");
+    }
+    const auto skipped = [&](const std::string& what) { lines.push_back("skipped: " + what); };
+    if (work.normal_angles > 0 && needs.s && needs.p)
+        skipped("p at " + count_of(work.normal_angles, angles, "angles (s serves both at 0 deg)"));
+    if (!needs.s || !needs.p) skipped(std::string(needs.s ? "p" : "s") + " (not asked for)");
+    if (work.kernel == SimdLevel::plain) return lines;
+    if (work.one_film) skipped("the recursion over layers (one film: Airy's sum)");
+    if (work.mirror)
+        skipped("the matrices of layers (a mirror in a host of one of its indices: Yeh's form)");
+    if (work.transparent_layers > 0)
+        skipped("complex arithmetic in " +
+                count_of(work.transparent_layers, work.layers, "layers (transparent)"));
+    if (work.distinct_layers < work.layers)
+        skipped("matrices of " + count_of(work.layers - work.distinct_layers, work.layers,
+                                          "layers (equal to others)"));
+    if (work.powers > 0)
+        skipped("the repetitions of " + std::to_string(work.powers) +
+                " groups (powers in closed form)");
+    if (work.constant_media > 0)
+        skipped("angle terms of " + count_of(work.constant_media, work.media,
+                                             "media but once an angle (no dispersion)"));
+    if (!work.absorbs) skipped("absorption (no layer absorbs)");
+    if (work.passes > 1)
+        lines.push_back(std::to_string(work.passes) +
+                        " passes through coherent blocks between incoherent layers");
+    return lines;
+}
+
+/// Numbers, more or less, that are computed and written at a time.
+constexpr std::size_t kBlockNumbers = 1U << 20U;
+
+template <class Value>
+std::vector<Value> part_of(const std::vector<Value>& all, std::size_t begin, std::size_t count) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
+    return {first, first + static_cast<std::ptrdiff_t>(std::min(count, all.size() - begin))};
+}
+
+/// Wavelengths that make an IndexTable of themselves and any others of the request choose the same
+/// arithmetic as one of all: where a material first absorbs, amplifies or changes its index, those
+/// of the largest index, and the shortest.
+class Witnesses {
+public:
+    void see(const IndexTable& table) {
+        const std::vector<double>& wavelengths = table.wavelength_nm();
+        if (of_.empty()) {
+            for (std::size_t m = 0; m < table.materials(); ++m)
+                of_.push_back({.first = table.index(m, 0)});
+        }
+        for (std::size_t m = 0; m < table.materials(); ++m) {
+            Material& seen = of_[m];
+            for (std::size_t w = 0; w < wavelengths.size(); ++w) {
+                const Complex index = table.index(m, w);
+                const double size = std::abs(index.real()) + std::abs(index.imag());
+                if (index != seen.first) keep(seen.changes, wavelengths[w]);
+                if (index.imag() != 0) keep(seen.absorbs, wavelengths[w]);
+                if (index.imag() < 0) keep(seen.amplifies, wavelengths[w]);
+                if (size <= seen.size) continue;
+                seen.size = size;
+                seen.largest = wavelengths[w];
+            }
+        }
+        const double shortest = std::ranges::min(wavelengths);
+        if (!shortest_ || shortest < *shortest_) shortest_ = shortest;
+    }
+
+    std::vector<double> wavelengths_nm(double first) const {
+        std::vector<double> all{first, *shortest_};
+        for (const Material& seen : of_)
+            for (const auto& one : {seen.changes, seen.absorbs, seen.amplifies, seen.largest})
+                if (one) all.push_back(*one);
+        return all;
+    }
+
+private:
+    struct Material {
+        Complex first;
+        std::optional<double> changes = {}, absorbs = {}, amplifies = {};
+        double size = 0;
+        std::optional<double> largest = {};
+    };
+
+    static void keep(std::optional<double>& place, double wavelength_nm) {
+        if (!place) place = wavelength_nm;
+    }
+
+    std::vector<Material> of_;
+    std::optional<double> shortest_;
+};
+
+/// Leaves the first rows of each column.
+void cut(Records& records, std::size_t rows) {
+    for (Column& column : records.columns)
+        std::visit(
+            [&](auto& values) {
+                if constexpr (requires { values.codes; })
+                    values.codes.resize(rows);
+                else
+                    values.resize(rows);
+            },
+            column.values);
+}
+
+std::vector<std::string> letters_of(const std::string& polarizations) {
+    std::vector<std::string> result;
+    for (const char letter : polarizations) result.emplace_back(1, letter);
+    return result;
+}
+
+std::vector<IncidentAngle> incident_angles_of(std::span<const double> angles_deg) {
+    std::vector<IncidentAngle> incident_angles;
+    for (const double angle_deg : angles_deg) incident_angles.push_back(incident_angle(angle_deg));
+    return incident_angles;
+}
+
+}  // namespace
+
+class SpectrumAnswers : public Answers {
+public:
+    explicit SpectrumAnswers(const SpectrumQuestion& question) : question_(question) {}
+
+    std::size_t add(const PreparedStack& prepared, const Stack& stack,
+                    const Incidence& incidence) override {
+        const StackPower power = stack_power(prepared.document, stack);
+        const Needs needs = spectrum_needs(question_.polarizations_, question_.columns_, power);
+        const bool is_other = incidence.wavelength_nm.has_value();
+        const IndexTable& table =
+            is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
+                     : static_cast<const SpectrumStack&>(prepared).table;
+        try {
+            spectra(power, table, incident_angles_of(incidence.angles_deg), needs,
+                    question_.execution_, spectra_);
+        } catch (const DomainError& error) {
+            throw InputError(prepared.document.file, "", error.what());
+        }
+        const std::size_t layers = needs.layers ? power.layer_count() : 0;
+        if (numbers_.empty()) begin(layers);
+        if (layers != layers_)
+            throw UsageError("--columns: A_layers needs as many layers in every stack");
+        return append(incidence, table.wavelength_nm());
+    }
+
+    Records records() override {
+        Records records{{{"wavelength_nm", std::move(wavelength_)},
+                         {"angle_deg", std::move(angle_)},
+                         {"polarization", std::move(polarization_)}}};
+        for (std::size_t c = 0; c < names_.size(); ++c)
+            records.columns.push_back({names_[c], std::move(numbers_[c])});
+        numbers_.clear();
+        return records;
+    }
+
+private:
+    void begin(std::size_t layers) {
+        layers_ = layers;
+        names_ = spectrum_number_names(question_.columns_, layers);
+        numbers_.assign(names_.size(), {});
+        wavelength_ = {};
+        angle_ = {};
+        polarization_ = {letters_of(question_.polarizations_), {}};
+        shared_wavelengths_ = false;
+    }
+
+    std::size_t append(const Incidence& incidence, const std::vector<double>& wavelengths_nm) {
+        const SpectrumShape shape{incidence.angles_deg.size(), question_.polarizations_,
+                                  wavelengths_nm.size()};
+        append_spectrum_numbers(shape, question_.columns_, layers_, spectra_, numbers_);
+        if (incidence.wavelength_nm || !shared_wavelengths_) {
+            first_wavelength_ = static_cast<std::uint32_t>(wavelength_.values.size());
+            wavelength_.values.insert(wavelength_.values.end(), wavelengths_nm.begin(),
+                                      wavelengths_nm.end());
+            shared_wavelengths_ = !incidence.wavelength_nm;
+        }
+        for (const double angle_deg : incidence.angles_deg) {
+            const auto angle = static_cast<std::uint32_t>(angle_.values.size());
+            angle_.values.push_back(angle_deg);
+            for (std::uint32_t p = 0; p < shape.polarizations.size(); ++p) {
+                for (std::uint32_t w = 0; w < shape.wavelengths; ++w) {
+                    wavelength_.codes.push_back(first_wavelength_ + w);
+                    polarization_.codes.push_back(p);
+                    angle_.codes.push_back(angle);
+                }
+            }
+        }
+        return shape.rows();
+    }
+
+    const SpectrumQuestion& question_;
+    Spectra spectra_;
+    std::optional<IndexTable> other_;
+    std::size_t layers_ = 0;
+    std::vector<std::string> names_;
+    std::vector<Column::Numbers> numbers_;
+    Column::CodedNumbers wavelength_, angle_;
+    Column::CodedTexts polarization_;
+    bool shared_wavelengths_ = false;  ///< the last values are those of the question
+    std::uint32_t first_wavelength_ = 0;
+};
+
+SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering)
+    : varies_wavelength_(answering.varies_wavelength),
+      wavelengths_nm_(varies_wavelength_
+                          ? std::vector<double>{}
+                          : parse_list("--wavelengths", typed.wavelengths, kAllWavelengths.first_nm,
+                                       kAllWavelengths.last_nm)),
+      angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
+      polarizations_(parse_polarizations(typed.polarization)),
+      columns_(parse_spectrum_columns(typed.columns)),
+      execution_(answering.execution),
+      note_(answering.note) {}
+
+RecordLayout SpectrumQuestion::layout(const StackDocument& document) const {
+    const StackPower power = stack_power(document, document.stack);
+    const bool by_layer = spectrum_needs(polarizations_, columns_, power).layers;
+    RecordLayout layout{
+        {"wavelength_nm"}, {"angle_deg"}, {"polarization", RecordField::Type::text, 1}};
+    for (std::string& name : spectrum_number_names(columns_, by_layer ? power.layer_count() : 0))
+        layout.push_back({std::move(name)});
+    return layout;
+}
+
+std::unique_ptr<const PreparedStack> SpectrumQuestion::prepare(StackDocument document) const {
+    spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));
+    auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
+    note_incident(prepared->document, prepared->table, note_);
+    return prepared;
+}
+
+std::unique_ptr<Answers> SpectrumQuestion::answers() const {
+    return std::make_unique<SpectrumAnswers>(*this);
+}
+
+double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
+                                 double angle_deg, std::optional<double> wavelength_nm) const {
+    constexpr double kStack = 2, kRow = 0.2, kOperation = 3e-5, kPlainPoint = 2;
+    const StackPower power = stack_power(prepared.document, stack);
+    const Needs needs = spectrum_needs(polarizations_, columns_, power);
+    const IncidentAngle at = incident_angle(angle_deg);
+    std::optional<IndexTable> other;
+    const IndexTable& table = wavelength_nm
+                                  ? other.emplace(index_table(prepared.document, {*wavelength_nm}))
+                                  : static_cast<const SpectrumStack&>(prepared).table;
+    const Work work = work_of(power, table, {&at, 1}, needs, execution_);
+    const bool is_plain = work.kernel == SimdLevel::plain;
+    const double point = is_plain ? kPlainPoint : kOperation * work.operations_per_point;
+    return kStack + kRow * static_cast<double>(rows_per_angle()) +
+           point * static_cast<double>(work.points);
+}
+
+std::uint64_t SpectrumQuestion::rows() const {
+    return std::uint64_t{rows_per_angle()} * angles_deg_.size();
+}
+
+Records SpectrumQuestion::block(const StackDocument& document, std::vector<double> wavelengths_nm,
+                                std::vector<double> angles_deg,
+                                const std::string& polarizations) const {
+    SpectrumQuestion part(*this);
+    part.wavelengths_nm_ = std::move(wavelengths_nm);
+    part.angles_deg_ = std::move(angles_deg);
+    part.polarizations_ = polarizations;
+    part.note_ = [](const std::string&) {};  // said once, of all
+    return records_of(part, *part.prepare(document));
+}
+
+void SpectrumQuestion::each_block(const StackDocument& document,
+                                  const std::function<void(const Records&)>& take) const {
+    const std::size_t most = std::max<std::size_t>(1, kBlockNumbers / layout(document).size());
+    if (rows_per_angle() <= most) {
+        const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
+        const std::size_t count = (angles + blocks - 1) / blocks;
+        const auto prepared = prepare(document);
+        const auto answers = this->answers();
+        note_long_work(document);
+        for (std::size_t a = 0; a < angles; a += count) {
+            const std::vector<double> some = part_of(angles_deg_, a, count);
+            answers->add(*prepared, document.stack, {some});
+            take(answers->records());
+        }
+        return;
+    }
+    Witnesses witnesses;
+    for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most) {
+        const IndexTable table = index_table(document, part_of(wavelengths_nm_, w, most));
+        if (w == 0) note_incident(document, table, note_);
+        witnesses.see(table);
+    }
+    const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
+    note_long_work(document);
+    for (const double angle_deg : angles_deg_)
+        for (const char polarization : polarizations_)
+            for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most) {
+                std::vector<double> some = part_of(wavelengths_nm_, w, most);
+                const std::size_t count = some.size();
+                some.insert(some.end(), others.begin(), others.end());
+                Records rows = block(document, std::move(some), {angle_deg}, {polarization});
+                cut(rows, count);
+                take(rows);
+            }
+}
+
+/// Of stacks with spread layers, whose points take long. Doubles the number of points that are
+/// tried until their time can be told, so that work that passes a minute takes a tenth of a second
+/// or a point longer.
+void SpectrumQuestion::note_long_work(const StackDocument& document) const {
+    constexpr double kLong_s = 60, kTold_s = 0.1;
+    const double points =
+        static_cast<double>(angles_deg_.size()) * static_cast<double>(wavelengths_nm_.size());
+    const std::size_t spread = stack_power(document, document.stack).spread_layers();
+    if (spread == 0) return;
+    if (spread == StackPower::kLargestSpreadLayers)
+        return note_("each of " + to_text(points) + " points may take seconds: " +
+                     to_text(static_cast<double>(spread)) + " layers have a thickness_sigma_nm");
+    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+    const unsigned threads = execution_.threads > 0 ? execution_.threads : cores;
+    SpectrumQuestion serial(*this);
+    serial.execution_.threads = 1;
+    double seconds = 0, whole_s = kLong_s;
+    for (std::size_t tried = 1; seconds < kTold_s && whole_s >= kLong_s; tried *= 2) {
+        if (static_cast<double>(tried) > points / 2) return;
+        std::vector<double> some;  // spread over all
+        for (std::size_t i = 0; i < tried; ++i)
+            some.push_back(wavelengths_nm_[(2 * i + 1) * wavelengths_nm_.size() / (2 * tried)]);
+        try {
+            const std::clock_t start = std::clock();  // whatever else the machine is doing
+            serial.block(document, some, {angles_deg_[angles_deg_.size() / 2]}, polarizations_);
+            seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        } catch (const std::runtime_error&) {  // said when it is met in its turn
+            return;
+        }
+        whole_s = seconds * points / static_cast<double>(tried) / threads;
+    }
+    if (whole_s < kLong_s) return;
+    note_("these " + to_text(points) + " points of wavelength and angle take about " +
+          to_text(std::round(whole_s / 60)) + " minutes");
+}
+
+std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) const {
+    const StackPower power = stack_power(prepared.document, prepared.document.stack);
+    const Needs needs = spectrum_needs(polarizations_, columns_, power);
+    const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
+                              incident_angles_of(angles_deg_), needs, execution_);
+    return lines_of(work, needs, angles_deg_.size(), why_plain(power, needs, execution_.simd));
+}
+
+std::unique_ptr<QuestionOptions> SpectrumOptions::add(CLI::App& command) {
+    auto options = std::make_unique<SpectrumOptions>();
+    command
+        .add_option("-w,--wavelengths", options->wavelengths,
+                    "vacuum wavelengths, nm, [1, 1e7]: v, v1,v2, start:stop:step\n"
+                    "or start:stop/count [380:780:1]")
+        ->type_name("LIST");
+    add_angles_option(command, options->angles);
+    command
+        .add_option("-p,--polarization", options->polarization,
+                    "s, p, u (unpolarized: the mean of both), several with commas [u]")
+        ->type_name("LETTERS");
+    command
+        .add_option("--columns", options->columns,
+                    "more columns, several with commas, in that order:\n"
+                    "r_re r_im t_re t_im  amplitudes of the tangential electric\n"
+                    "    field, time factor exp(-i w t), so that r_p = r_s at 0 deg\n"
+                    "psi_deg delta_deg  ellipsometric angles, r_p/r_s = tan(psi)\n"
+                    "    exp(i delta); delta = 0 at 0 deg (others have 180 there)\n"
+                    "A_layers  A_1 A_2 ..., absorbed in each layer, at most 1000\n"
+                    "    (np.load needs max_header_size=100000 for more than 500)\n"
+                    "All but A_layers need -p s, p or s,p and coherent layers")
+        ->type_name("LIST");
+    return options;
+}
+
+std::unique_ptr<const Question> SpectrumOptions::parse(const Answering& answering) const {
+    return std::make_unique<SpectrumQuestion>(*this, answering);
+}
+
+nlohmann::json SpectrumOptions::typed() const {
+    return {{"wavelengths", wavelengths},
+            {"angles", angles},
+            {"polarization", polarization},
+            {"columns", columns}};
+}
+
+}  // namespace irido

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/queries/question.hpp"
+#include "cli/queries/spectrum_columns.hpp"
+
+namespace irido {
+
+/// What irido spectrum is asked, as typed.
+struct SpectrumOptions : QuestionOptions {
+    std::string wavelengths = "380:780:1";
+    std::string angles = "0";
+    std::string polarization = "u";
+    std::string columns;
+
+    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
+    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    nlohmann::json typed() const override;
+};
+
+/// R, T, A and more over wavelengths and angles.
+class SpectrumQuestion : public Question {
+public:
+    SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering);
+
+    std::span<const double> angles_deg() const override { return angles_deg_; }
+    bool takes_wavelength() const override { return true; }
+    std::size_t rows_per_angle() const override {
+        return polarizations_.size() * (varies_wavelength_ ? 1 : wavelengths_nm_.size());
+    }
+    RecordLayout layout(const StackDocument& document) const override;
+    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    std::unique_ptr<Answers> answers() const override;
+    double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                   std::optional<double> wavelength_nm) const override;
+
+    /// Rows of all wavelengths, angles and polarizations.
+    std::uint64_t rows() const;
+    /// Gives all rows of a stack in their order, block after block, in memory that does not grow
+    /// with their number: the values of prepare() and answers(). Before the first, says through
+    /// Answering::note if they will take more than a minute. Throws as these.
+    void each_block(const StackDocument& document,
+                    const std::function<void(const Records&)>& take) const;
+
+    /// How a stack was computed, and what its physics spared, in lines.
+    std::vector<std::string> stats(const PreparedStack& prepared) const;
+
+private:
+    friend class SpectrumAnswers;
+
+    Records block(const StackDocument& document, std::vector<double> wavelengths_nm,
+                  std::vector<double> angles_deg, const std::string& polarizations) const;
+    void note_long_work(const StackDocument& document) const;
+
+    bool varies_wavelength_;
+    std::vector<double> wavelengths_nm_;  ///< none if they vary
+    std::vector<double> angles_deg_;
+    std::string polarizations_;  ///< letters of "spu"
+    std::vector<SpectrumColumn> columns_;
+    Execution execution_;
+    std::function<void(const std::string&)> note_;
+};
+
+}  // namespace irido

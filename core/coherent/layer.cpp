@@ -1,0 +1,249 @@
+#include "core/coherent/layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace irido {
+
+namespace {
+
+constexpr Complex kI{0, 1};
+
+/// Past this |Im delta| the factor exp(|Im delta|) goes into the logarithm.
+constexpr double kLargestPlainExponent = 1;
+
+/// delta = a + i b with b >= 0; less = cos - 1 and s = sin, both times exp(-log_scale).
+struct Phase {
+    double a, b;
+    Complex less, s;
+    double log_scale;
+};
+
+Phase layer_phase(Complex q2, double k0_d) {
+    Complex delta = k0_d * square_root(q2);
+    if (delta.imag() < 0) delta = -delta;  // c and sd are even in delta
+    const double a = delta.real(), b = delta.imag();
+    if (b <= kLargestPlainExponent) {
+        const Complex half = std::sin(delta / 2.0);
+        return {a, b, -2.0 * half * half, std::sin(delta), 0};
+    }
+    const ScaledTurn turn = scaled_turn(delta);
+    return {a, b, turn.cos - std::exp(-b), turn.sin, b};
+}
+
+/// k0 d sinc(delta), times exp(-log_scale).
+Complex scaled_sd(const Phase& phase, double k0_d) {
+    const Complex delta{phase.a, phase.b};
+    if (std::norm(delta) > 1e-8) return k0_d * (phase.s / delta);
+    return k0_d * (1.0 - delta * delta / 6.0);  // next term below 1e-18
+}
+
+/// Integrals over the depth of a layer, divided by exp(2 log_scale), times k0:
+///     cc = int |cos|^2,  ss = int |sin(kz z)/(kz/k0)|^2,  cs = int cos conj(sin(kz z)/(kz/k0))
+struct DepthIntegrals {
+    double cc, ss;
+    Complex cs;
+};
+
+/// sin(2a)/(2a) and sin(a)^2/a^2 without trouble at zero.
+double sinc(double x) {
+    return std::abs(x) > 1e-4 ? std::sin(x) / x : 1 - x * x / 6;
+}
+
+/// (sinh(2b)/(2b) - sin(2a)/(2a)) / (2 |delta|^2) for small delta, as the series
+/// 2 sum_{m>=1} h_{m-1}(u, v)/(2m+1)!, u = 4 b^2, v = -4 a^2, h the complete symmetric polynomials.
+double sine_square_series(double a, double b) {
+    const double u = 4 * b * b, v = -4 * a * a;
+    double h = 1, v_power = 1, factorial = 6, sum = 1.0 / 6;
+    for (int m = 2; m <= 12; ++m) {
+        v_power *= v;
+        h = u * h + v_power;
+        factorial *= 2.0 * m * (2.0 * m + 1);
+        sum += h / factorial;
+    }
+    return 2 * sum;
+}
+
+DepthIntegrals depth_integrals(const Phase& phase, double k0_d) {
+    const double a = phase.a, b = phase.b;
+    const double scale = std::exp(-2 * phase.log_scale);
+    const bool large = phase.log_scale > 0;
+    // exp(-2 log_scale) times sinh(2b)/(2b), sin(2a)/(2a), sinh(b)^2/b and sin(a)^2/a
+    const double hyperbolic = large      ? -std::expm1(-4 * b) / (4 * b)
+                              : b > 1e-4 ? std::sinh(2 * b) / (2 * b)
+                                         : 1 + 2 * b * b / 3;
+    const double circular = sinc(2 * a) * scale;
+    const double sinh_square = large   ? std::pow(std::expm1(-2 * b), 2) / (4 * b)
+                               : b > 0 ? std::pow(std::sinh(b), 2) / b
+                                       : 0;
+    const double sine_square = a * std::pow(sinc(a), 2) * scale;
+    const double delta2 = a * a + b * b;
+    DepthIntegrals result{};
+    result.cc = k0_d / 2 * (hyperbolic + circular);
+    result.ss = k0_d * k0_d * k0_d *
+                (delta2 < 0.25 ? sine_square_series(a, b) : (hyperbolic - circular) / (2 * delta2));
+    const Complex difference{sine_square, -sinh_square};  // -> conj(delta) for thin layers
+    result.cs = k0_d * k0_d / 2 * (delta2 > 1e-280 ? difference / Complex(a, -b) : Complex(1));
+    return result;
+}
+
+AbsorbedPower absorbed_power(const Medium& m, const Phase& phase, double k0_d,
+                             Polarization polarization) {
+    // flux falls by Im(v') |B|^2 + Im(w) |C|^2 a depth of 1/k0, v' = eps for both polarizations
+    const auto [w, v] = coupling(m, polarization);
+    const DepthIntegrals f = depth_integrals(phase, k0_d);
+    const double loss_b = m.eps.imag();
+    AbsorbedPower q;
+    q.bb = loss_b * f.cc;
+    q.cc = loss_b * std::norm(w) * f.ss;
+    q.bc = loss_b * (-kI * w) * std::conj(f.cs);
+    if (polarization == Polarization::p) {
+        const double loss_c = w.imag();
+        q.bb += loss_c * std::norm(v) * f.ss;
+        q.cc += loss_c * f.cc;
+        q.bc += loss_c * std::conj(-kI * v) * f.cs;
+    }
+    return q;
+}
+
+Matrix phase_matrix(const Medium& m, const Phase& phase, double k0_d, Polarization polarization) {
+    const auto [w, v] = coupling(m, polarization);
+    const Complex sd = scaled_sd(phase, k0_d);
+    return {phase.less, -kI * w * sd, -kI * v * sd, phase.less, phase.log_scale};
+}
+
+}  // namespace
+
+Complex square_root(Complex z) {
+    if (z.imag() != 0) return std::sqrt(z);
+    return z.real() >= 0 ? Complex(std::sqrt(z.real()), 0) : Complex(0, std::sqrt(-z.real()));
+}
+
+ScaledTurn scaled_turn(Complex z) {
+    const double cos_a = std::cos(z.real()), sin_a = std::sin(z.real());
+    const double half_less = -std::expm1(-2 * z.imag()) / 2, half_more = 1 - half_less;
+    return {{cos_a * half_more, -sin_a * half_less}, {sin_a * half_more, cos_a * half_less}};
+}
+
+Coupling coupling(const Medium& m, Polarization polarization) {
+    if (polarization == Polarization::s) return {1.0, m.q2};
+    return {m.q2 / m.eps, m.eps};
+}
+
+LayerTurn layer_turn(Complex q2, double k0_d) {
+    const Phase phase = layer_phase(q2, k0_d);
+    return {phase.less + std::exp(-phase.log_scale), scaled_sd(phase, k0_d), phase.log_scale};
+}
+
+AbsorbedPower absorbed_power(const Medium& m, double k0_d, Polarization polarization) {
+    return absorbed_power(m, layer_phase(m.q2, k0_d), k0_d, polarization);
+}
+
+double absorbed_flux(const AbsorbedPower& q, Complex b, Complex c) {
+    return q.bb * std::norm(b) + q.cc * std::norm(c) + 2 * (std::conj(b) * q.bc * c).real();
+}
+
+Matrix layer_matrix(const Medium& m, double k0_d, Polarization polarization) {
+    return phase_matrix(m, layer_phase(m.q2, k0_d), k0_d, polarization);
+}
+
+Matrix wave_matrix(const Medium& m, double k0_d, Polarization polarization, Complex y0) {
+    const Complex kz = square_root(m.q2), delta = k0_d * kz;  // Re(kz) >= 0
+    const Complex y = polarization == Polarization::s ? kz : m.eps / kz;
+    const Complex i_h = kI * ((y - y0) * (y - y0) / (2.0 * y * y0));
+    const Complex i_w = kI * ((y - y0) * (y + y0) / (2.0 * y * y0));
+    const double b = std::abs(delta.imag());
+    if (b <= kLargestPlainExponent) {
+        const Complex half = std::sin(delta / 2.0), sine = std::sin(delta);
+        const Complex less = -2.0 * half * half;
+        return {less - (kI + i_h) * sine, -i_w * sine, i_w * sine, less + (kI + i_h) * sine, 0};
+    }
+    const double identity = std::exp(-b);
+    const Complex down = std::exp(-kI * delta - b), up = std::exp(kI * delta - b);
+    const Complex sine = (up - down) / (2.0 * kI);
+    return {down - identity - i_h * sine, -i_w * sine, i_w * sine, up - identity + i_h * sine, b};
+}
+
+Slab layer_slab(const Medium& m, double k0_d, Polarization polarization) {
+    const Phase phase = layer_phase(m.q2, k0_d);
+    Slab slab{phase_matrix(m, phase, k0_d, polarization), {}, m.eps.imag() != 0};
+    if (slab.absorbs) slab.absorbed = absorbed_power(m, phase, k0_d, polarization);
+    return slab;
+}
+
+double Matrix::identity() const {
+    return std::exp(-log_scale);
+}
+
+double normalize(Matrix& m) {
+    const double size = std::max({std::abs(m.a.real()), std::abs(m.a.imag()), std::abs(m.b.real()),
+                                  std::abs(m.b.imag()), std::abs(m.c.real()), std::abs(m.c.imag()),
+                                  std::abs(m.d.real()), std::abs(m.d.imag())});
+    const bool shrunk = size > 0 && size < 1e-60 && m.log_scale > 1;
+    if (!(size > 1e60) && !shrunk) return 0;
+    const int lowest = -static_cast<int>(std::min(m.log_scale / std::log(2.0), 2000.0));
+    const int exponent = std::max(std::ilogb(size), lowest);
+    const double factor = std::ldexp(1.0, -exponent);
+    for (Complex* entry : {&m.a, &m.b, &m.c, &m.d}) *entry *= factor;
+    const double moved = exponent * std::log(2.0);
+    m.log_scale += moved;
+    return moved;
+}
+
+namespace {
+
+/// (I + e^p U)(I + e^q L) = I + e^(p+q) (U e^-q + L e^-p + U L)
+Matrix product(const Matrix& u, const Matrix& l) {
+    const double with_u = l.identity(), with_l = u.identity();
+    return {with_u * u.a + with_l * l.a + (u.a * l.a + u.b * l.c),
+            with_u * u.b + with_l * l.b + (u.a * l.b + u.b * l.d),
+            with_u * u.c + with_l * l.c + (u.c * l.a + u.d * l.c),
+            with_u * u.d + with_l * l.d + (u.c * l.b + u.d * l.d), u.log_scale + l.log_scale};
+}
+
+/// Q as seen from below the slab of matrix M: M^H Q M.
+AbsorbedPower seen_through(const Matrix& m, const AbsorbedPower& q) {
+    const Complex a = m.a + m.identity(), d = m.d + m.identity();
+    const Complex b1 = q.bb * a + q.bc * m.c, c1 = std::conj(q.bc) * a + q.cc * m.c;
+    const Complex b2 = q.bb * m.b + q.bc * d, c2 = std::conj(q.bc) * m.b + q.cc * d;
+    return {(std::conj(a) * b1 + std::conj(m.c) * c1).real(),
+            (std::conj(m.b) * b2 + std::conj(d) * c2).real(),
+            std::conj(a) * b2 + std::conj(m.c) * c2, q.log_scale};
+}
+
+AbsorbedPower operator+(const AbsorbedPower& p, const AbsorbedPower& q) {
+    const double common = std::max(p.log_scale, q.log_scale);
+    const double f = std::exp(2 * (p.log_scale - common));
+    const double g = std::exp(2 * (q.log_scale - common));
+    return {f * p.bb + g * q.bb, f * p.cc + g * q.cc, f * p.bc + g * q.bc, common};
+}
+
+AbsorbedPower normalized(AbsorbedPower q) {
+    const double size = std::max({std::abs(q.bb), std::abs(q.cc), std::abs(q.bc)});
+    if ((size > 1e-60 && size < 1e60) || size < 1e-280) return q;  // 0 or as good as that
+    const int half = std::ilogb(size) / 2;
+    const double factor = std::ldexp(1.0, -2 * half);
+    return {q.bb * factor, q.cc * factor, q.bc * factor, q.log_scale + half * std::log(2.0)};
+}
+
+}  // namespace
+
+Matrix operator*(const Matrix& upper, const Matrix& lower) {
+    Matrix both = product(upper, lower);
+    normalize(both);
+    return both;
+}
+
+Slab operator*(const Slab& upper, const Slab& lower) {
+    Slab both{product(upper.matrix, lower.matrix), {}, upper.absorbs || lower.absorbs};
+    const double moved = normalize(both.matrix);
+    if (!both.absorbs) return both;
+    AbsorbedPower above = seen_through(lower.matrix, upper.absorbed);
+    AbsorbedPower below = lower.absorbed;
+    above.log_scale -= moved;
+    below.log_scale -= upper.matrix.log_scale + moved;
+    both.absorbed = normalized(!lower.absorbs ? above : !upper.absorbs ? below : above + below);
+    return both;
+}
+
+}  // namespace irido

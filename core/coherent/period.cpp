@@ -1,0 +1,245 @@
+#include "core/coherent/period.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace irido {
+
+namespace {
+
+/// Where exp(2 |Im K|) passes the digits of a double, only one Bloch wave is left.
+constexpr double kLargestLogTrace = 40;
+
+/// Past N Im K of this the smaller one of the diagonal entries of M^N is summed apart.
+constexpr double kAttenuated = 1;
+
+/// (sign cos(z) - 1) exp(-log_scale); cos_z is cos(z) exp(-Im z), log_scale >= Im z.
+Complex without_identity(double sign, Complex z, Complex cos_z, double log_scale) {
+    if (sign > 0 && z.imag() < 1) {
+        const Complex half = std::sin(z / 2.0);
+        return -2.0 * half * half * std::exp(-log_scale);
+    }
+    return sign * cos_z * std::exp(z.imag() - log_scale) - std::exp(-log_scale);
+}
+
+/// sin K, divided by exp(Im K) as it is given, such that (M - x I)/sin K has determinant 1 to the
+/// last digit where that is possible: then so has the power, and energy balances. From
+/// -det(M - x I) = traceless^2 + off_diagonal, both without exp(2 m.log_scale); ahead is
+/// m.log_scale - Im K. Where those two cancel, the given sine is the better one.
+Complex consistent_sine(Complex sine, Complex traceless, Complex off_diagonal, double ahead) {
+    const Complex square = -(traceless * traceless + off_diagonal);
+    if (std::abs(square) < 0.01 * (std::norm(traceless) + std::abs(off_diagonal))) return sine;
+    const Complex root = std::sqrt(square) * std::exp(ahead);
+    return std::real(root * std::conj(sine)) < 0 ? -root : root;
+}
+
+/// Past this exponent a trace overflows; power() takes another way long before.
+constexpr double kLargestExponent = 700;
+
+/// Bloch phase of a two-layer period in Yeh's factored form. With P the product of the two layers'
+/// halves, sin(K/2)^2 = -P12 P21 and cos(K/2)^2 = P11 P22: the four entries of P are, up to factors
+/// that cancel, F(q), F(1/q), G(q) and G(1/q), whose zeros are the band edges. No digits cancel
+/// beside an edge, and nothing divides where a layer is at its critical angle.
+/// Source: FPB24 (CGF 43(2), 2024), eqs. 5 to 9.
+BlochPhase bloch_phase_of_pair(const Layer& upper, const Layer& lower,
+                               std::span<const Medium> media, double k0,
+                               Polarization polarization) {
+    const Matrix halves =
+        layer_matrix(media[upper.material], k0 * upper.thickness_nm / 2, polarization) *
+        layer_matrix(media[lower.material], k0 * lower.thickness_nm / 2, polarization);
+    const double scale = std::exp(std::min(2 * halves.log_scale, kLargestExponent));
+    const double identity = halves.identity();
+    return {-scale * halves.b * halves.c, scale * (halves.a + identity) * (halves.d + identity)};
+}
+
+/// Bloch phase of any period. Where its matrix is nearly I or -I, sin(K)^2 = -(traceless^2 + b c)
+/// has the digits of K that the trace loses.
+BlochPhase bloch_phase_of_matrix(const Matrix& m) {
+    const double scale = std::exp(std::min(m.log_scale, kLargestExponent));
+    const Complex sin2 = -scale * (m.a + m.d) / 4.0, cos2 = 1.0 - sin2;
+    const Complex traceless = scale * (m.a - m.d) / 2.0, b = scale * m.b, c = scale * m.c;
+    if (!(std::abs(traceless) + std::abs(b) + std::abs(c) < kNearlyIdentity)) return {sin2, cos2};
+    const Complex product = -(traceless * traceless + b * c) / 4.0;
+    if (std::norm(cos2) < std::norm(sin2)) return {sin2, product / sin2};
+    return {product / cos2, cos2};
+}
+
+BlochPhase bloch_phase_of_group(const Group& group, const Matrix& matrix,
+                                std::span<const Medium> media, double k0,
+                                Polarization polarization) {
+    if (group.elements.size() == 2) {
+        const Layer* upper = std::get_if<Layer>(&group.elements[0].value);
+        const Layer* lower = std::get_if<Layer>(&group.elements[1].value);
+        if (upper && lower) return bloch_phase_of_pair(*upper, *lower, media, k0, polarization);
+    }
+    return bloch_phase_of_matrix(matrix);
+}
+
+/// One layer repeated is a thicker layer.
+const Layer* only_layer(const Group& group) {
+    return group.elements.size() == 1 ? std::get_if<Layer>(&group.elements[0].value) : nullptr;
+}
+
+/// Matrices of the fields (B, C), or of the waves in a medium of admittance y0.
+struct Matrices {
+    std::span<const Medium> media;
+    double k0;
+    Polarization polarization;
+    std::optional<Complex> y0 = std::nullopt;
+
+    Matrix of(const Layer& layer, double thickness_nm) const {
+        const Medium& m = media[layer.material];
+        return y0 ? wave_matrix(m, k0 * thickness_nm, polarization, *y0)
+                  : layer_matrix(m, k0 * thickness_nm, polarization);
+    }
+
+    Matrix of(const Group& group) const {
+        if (const Layer* layer = only_layer(group))
+            return of(*layer, layer->thickness_nm * static_cast<double>(group.repeat));
+        const Matrix m = of(group.elements);
+        if (group.repeat == 1) return m;
+        // the Bloch phase is the same in any basis
+        return power(m, bloch_phase_of_group(group, m, media, k0, polarization), group.repeat);
+    }
+
+    Matrix of(std::span<const Element> elements) const {
+        Matrix total;
+        for (std::size_t i = elements.size(); i-- > 0;) {
+            const Layer* layer = std::get_if<Layer>(&elements[i].value);
+            total =
+                (layer ? of(*layer, layer->thickness_nm) : of(std::get<Group>(elements[i].value))) *
+                total;
+        }
+        return total;
+    }
+};
+
+/// The slab with its matrix replaced by an equal one of better digits.
+Slab with_matrix(const Slab& slab, const Matrix& matrix) {
+    Slab result{matrix, slab.absorbed, slab.absorbs};
+    result.absorbed.log_scale += slab.matrix.log_scale - matrix.log_scale;
+    return result;
+}
+
+double log_size(const Matrix& m) {
+    return std::log(std::abs(m.a) + std::abs(m.b) + std::abs(m.c) + std::abs(m.d)) + m.log_scale;
+}
+
+/// A group that absorbs: its absorption is raised by doubling, every step adds terms of one sign.
+/// The matrices on the way are closed powers while light comes through; where it does not, only
+/// doubled matrices balance with the doubled absorption to the last digit.
+Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
+                Polarization polarization) {
+    const Slab period = slab_of(group.elements, media, k0, polarization);
+    if (!period.absorbs) return {Matrices{media, k0, polarization}.of(group), {}, false};
+    const BlochPhase bloch = bloch_phase_of_group(group, period.matrix, media, k0, polarization);
+    const double growth = std::abs((2.0 * std::asin(std::sqrt(bloch.sin2))).imag());
+    const bool closed = growth * static_cast<double>(group.repeat) < kLargestLogTrace;
+    const auto of_periods = [&](const Slab& slab, std::uint64_t count) {
+        return closed ? with_matrix(slab, power(period.matrix, bloch, count)) : slab;
+    };
+    Slab total, doubled = period;
+    std::uint64_t below = 0;
+    for (std::uint64_t step = 1; step <= group.repeat; step *= 2) {
+        if (group.repeat & step) total = of_periods(doubled * total, below += step);
+        if (2 * step <= group.repeat) doubled = of_periods(doubled * doubled, 2 * step);
+    }
+    if (!closed)  // each doubling doubles the error of the logarithm; the closed power does not
+        total.matrix.log_scale +=
+            log_size(power(period.matrix, bloch, group.repeat)) - log_size(total.matrix);
+    return total;
+}
+
+bool absorbs(std::span<const Element> elements, std::span<const Medium> media) {
+    for (const Element& element : elements) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            if (media[layer->material].eps.imag() != 0) return true;
+        } else if (absorbs(std::get<Group>(element.value).elements, media)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
+    const double n = static_cast<double>(repeat);
+    const Complex half_trace = (m.a + m.d) / 2.0 + m.identity();
+    const double log_trace = std::log(std::abs(half_trace)) + m.log_scale;  // -inf for no trace
+    if (log_trace > kLargestLogTrace) {
+        // M^N = (2x)^(N-1) M, the other Bloch wave is below the last digit
+        const Complex turn = std::polar(1.0, (n - 1) * std::arg(half_trace));
+        return {turn * (m.a + m.identity()), turn * m.b, turn * m.c, turn * (m.d + m.identity()),
+                m.log_scale + (n - 1) * (log_trace + std::log(2.0))};
+    }
+    // M -> -M turns K into pi - K: take the smaller half angle
+    const bool flip = std::norm(bloch.cos2) < std::norm(bloch.sin2);
+    Complex k = 2.0 * std::asin(std::sqrt(flip ? bloch.cos2 : bloch.sin2));
+    if (k.imag() < 0) k = -k;
+    const double ahead = m.log_scale - k.imag();
+    const Complex traceless = (m.a - m.d) / 2.0;
+    const Complex sine = consistent_sine(scaled_turn(k).sin, traceless, m.b * m.c, ahead);
+    const ScaledTurn all = scaled_turn(n * k);
+    const Complex ratio = std::norm(n * k) < 1e-18 ? n : all.sin / sine;
+    // cos(N K) I has exp(N Im K), ratio (M - x I) has exp((N - 1) Im K + m.log_scale)
+    const double sign = flip && repeat % 2 == 1 ? -1 : 1;
+    const Complex f = (flip ? -sign : sign) * ratio * std::exp(std::min(0.0, ahead));
+    Matrix result{f * traceless, f * m.b, f * m.c, -f * traceless,
+                  n * k.imag() + std::max(0.0, ahead)};
+    const Complex diagonal = without_identity(sign, n * k, all.cos, result.log_scale);
+    result.a += diagonal;
+    result.d += diagonal;
+    if (n * k.imag() > kAttenuated) {
+        // exp(i N K) + ratio (sigma - |traceless|), sigma = -i sin K: neither of them cancels
+        const Complex sigma = Complex(0, -1) * sine * std::exp(-ahead);
+        const bool below = std::real(traceless * std::conj(sigma)) > 0;  // the smaller entry
+        const Complex rest = m.b * m.c / (sigma + (below ? traceless : -traceless));
+        (below != flip ? result.d : result.a) =
+            sign * std::exp(Complex(0, 1) * (n * k) - result.log_scale) +
+            (flip ? -1.0 : 1.0) * f * rest - result.identity();
+    }
+    normalize(result);
+    return result;
+}
+
+Matrix matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
+                 Polarization polarization) {
+    return Matrices{media, k0, polarization}.of(elements);
+}
+
+Matrix wave_matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
+                      Polarization polarization, Complex y0) {
+    return Matrices{media, k0, polarization, y0}.of(elements);
+}
+
+Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
+             Polarization polarization) {
+    Slab total;
+    for (std::size_t i = elements.size(); i-- > 0;) {
+        if (const Layer* layer = std::get_if<Layer>(&elements[i].value)) {
+            total =
+                layer_slab(media[layer->material], k0 * layer->thickness_nm, polarization) * total;
+            continue;
+        }
+        const Group& group = std::get<Group>(elements[i].value);
+        Slab slab;
+        if (const Layer* layer = only_layer(group)) {
+            const double thickness = layer->thickness_nm * static_cast<double>(group.repeat);
+            slab = layer_slab(media[layer->material], k0 * thickness, polarization);
+        } else {
+            slab = group_slab(group, media, k0, polarization);
+        }
+        total = slab * total;
+    }
+    return total;
+}
+
+Slab coherent_slab(std::span<const Element> elements, std::span<const Medium> media, double k0,
+                   Polarization polarization) {
+    if (absorbs(elements, media)) return slab_of(elements, media, k0, polarization);
+    return {matrix_of(elements, media, k0, polarization), {}, false};
+}
+
+}  // namespace irido

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "core/color/color_request.hpp"
+#include "core/color/fourier/film_color.hpp"
+#include "core/error.hpp"
+#include "core/film/film.hpp"
+#include "core/stack/index_table.hpp"
+
+/// What the two kinds of film_color() have in common.
+namespace irido {
+
+/// Where BB17 takes the indices of X, Y and Z (section 4, Validation).
+inline constexpr std::array<double, 3> kPeaks_nm{600, 560, 450};
+
+inline DomainError no_series(double angle_deg) {
+    return DomainError("there is no Fourier series at " + to_text(angle_deg) +
+                       " degrees, past the film's critical angle or over a base that amplifies");
+}
+
+/// Share of the light in s and in p.
+inline std::array<double, 2> weights(Light light, double cos_theta) {
+    if (light == Light::s || cos_theta == 1) return {1, 0};  // both are one at normal incidence
+    if (light == Light::p) return {0, 1};
+    return {0.5, 0.5};
+}
+
+/// Three indices at one wavelength, the film's thickness to be filled in.
+inline Film film_at(const IndexTable& table, const Stack& stack, std::size_t wavelength) {
+    return {table.n(stack.incident)[wavelength], table.n(only_film(stack).material)[wavelength],
+            table.index(stack.substrate, wavelength), 0};
+}
+
+/// The film's thicknesses, whose spread is that of a Gaussian.
+struct Thickness {
+    static constexpr double kThickest_nm = 1e9;
+
+    double mean_nm, sigma_nm;
+
+    explicit Thickness(const Layer& layer)
+        : mean_nm(layer.thickness_nm), sigma_nm(layer.thickness_sigma_nm) {
+        require_in_range("thickness_nm", mean_nm, 0, kThickest_nm);
+        require_in_range("thickness_sigma_nm", sigma_nm, 0, kThickest_nm);
+        mean_nm = std::max(mean_nm, 1e-9 * sigma_nm);  // the spread is taken in parts of the mean
+    }
+    bool vanishes() const { return mean_nm == 0 && sigma_nm == 0; }
+    /// Of the Gaussian.
+    double part_below_zero() const {
+        return sigma_nm == 0 ? 0 : std::erfc(mean_nm / sigma_nm / std::numbers::sqrt2) / 2;
+    }
+    /// A film of no thickness is none: the incident medium goes on.
+    Film of(Film film) const {
+        if (vanishes()) film.film = film.incident;
+        film.thickness_nm = mean_nm;
+        return film;
+    }
+};
+
+/// What every colour of one call needs.
+struct Lighting {
+    const Triple& white;
+    std::span<const Side> sides;
+    ColorMethod::Kind method;
+    std::size_t evaluations;
+
+    /// The colours of all sides, from the transmitted one.
+    void store(const Triple& transmitted, double error, std::span<StackColor> colors) const {
+        for (std::size_t s = 0; s < sides.size(); ++s) {
+            colors[s] = {transmitted, error, evaluations, method};
+            if (sides[s] == Side::transmitted) continue;
+            for (std::size_t c = 0; c < 3; ++c) colors[s].xyz[c] = white[c] - transmitted[c];
+        }
+    }
+};
+
+std::unique_ptr<ColorAlgorithm> dispersive_film_color(const ColorTables& tables, const Stack& held,
+                                                      const ColorMethod& method,
+                                                      const ColorRequest& request);
+
+}  // namespace irido

@@ -1,0 +1,62 @@
+#include "core/color/fourier/one_film.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/stack/index_table.hpp"
+
+namespace irido {
+
+namespace {
+
+const Layer* only_layer_of(const std::vector<Element>& elements) {
+    if (elements.size() != 1) return nullptr;
+    if (const Layer* layer = std::get_if<Layer>(&elements.front().value)) return layer;
+    const Group& group = std::get<Group>(elements.front().value);
+    return group.repeat == 1 ? only_layer_of(group.elements) : nullptr;
+}
+
+}  // namespace
+
+const Layer* only_layer(const Stack& stack) {
+    return only_layer_of(stack.elements);
+}
+
+void require_film(std::string_view method_name, const Stack& stack, const ColorRequest& request) {
+    const std::string method(method_name);
+    const Layer* film = only_layer(stack);
+    if (!film || !film->coherent || film->thickness_sigma_nm != 0)
+        throw DomainError("method " + method +
+                          " must have one coherent film of one thickness over a substrate");
+    if (std::ranges::count(request.sides, Side::transmitted) > 0)
+        throw DomainError("method " + method + " must have reflected light only");
+}
+
+const Layer& film_of(const Stack& stack) {
+    return *only_layer(stack);
+}
+
+FilmIndex film_index(const Stack& stack, double wavelength_nm) {
+    const IndexTable table(stack, {wavelength_nm});
+    return {table.n(stack.incident)[0], table.index(film_of(stack).material, 0),
+            table.index(stack.substrate, 0)};
+}
+
+Complex face_amplitude(const Medium& above, const Medium& below, Polarization polarization) {
+    const Complex q1 = std::sqrt(above.q2), q2 = std::sqrt(below.q2);
+    const bool is_s = polarization == Polarization::s;
+    const Complex a = is_s ? q1 : above.eps * q2, b = is_s ? q2 : below.eps * q1;
+    return a + b == Complex(0) ? 0 : (a - b) / (a + b);
+}
+
+std::span<const Polarization> polarizations(Light light) {
+    static constexpr std::array both{Polarization::s, Polarization::p};
+    return light == Light::s   ? std::span(both).first(1)
+           : light == Light::p ? std::span(both).last(1)
+                               : std::span(both);
+}
+
+}  // namespace irido

@@ -1,0 +1,479 @@
+#include "core/color/quadrature/integration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/color/quadrature/panel_sums.hpp"
+#include "core/complex.hpp"
+#include "core/error.hpp"
+#include "core/math/transform.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Panels are not cut below this share of their wavelength.
+constexpr double kNarrowest = 1e-7;
+
+/// Degree, as an index, at which the coefficients of a fringe of this half turn are below the
+/// tolerance: those of cos(h x) are Bessel functions J_k(h) < (e h/2k)^k. Twice the turn, because
+/// light that bounces twice has fringes twice as fast.
+std::size_t first_degree(double half_turn, double tolerance) {
+    const double h = 2 * half_turn;
+    std::size_t degree = 0;
+    for (; degree + 1 < kDegrees.size(); ++degree) {
+        const auto k = static_cast<double>(kDegrees[degree]);
+        if (k * std::log(std::numbers::e * h / (2 * k)) < std::log(tolerance)) break;
+    }
+    return degree;
+}
+
+/// A denominator's zero within this many point spacings of a point is not resolved: poles further
+/// off make coefficients that fall steadily, and the tail sees them.
+constexpr double kFarFromZero = 1 / 1.5;
+
+/// Panels with more fringes are halved before they are sampled.
+constexpr double kLargestHalfTurn = 16;
+
+/// A panel is halved where twice the degree promises more than this times the error allowed.
+constexpr double kHopeful = 10;
+
+/// Where the points are dense for a denominator, differences of neighbours are its slope.
+constexpr double kDense = 3.2;
+
+/// The last coefficients of a line that hides between points show its foot on them, which is at
+/// most degree times kFoot times the largest of these: 2/degree of what a single point has, and
+/// less where the feet on both sides cancel.
+constexpr double kFoot = 2;
+
+/// Part of what a line's foot is to first order, against its bound, before that is a coincidence.
+constexpr double kCoincidence = 0.01;
+
+/// One denominator on the points of a panel.
+struct Denominator {
+    std::span<const double> re, im, log_scale;
+};
+
+/// |a| < factor |b|, by squares where these decide it: roots take long.
+bool is_smaller(Complex a, Complex b, double factor) {
+    const double a2 = std::norm(a), b2 = std::norm(b) * factor * factor;
+    constexpr double kSmall = 1e-250, kLarge = 1e250, kClose = 1e-9;
+    if (a2 > kSmall && a2 < kLarge && b2 > kSmall && b2 < kLarge && std::abs(a2 - b2) > kClose * b2)
+        return a2 < b2;
+    return std::abs(a) < factor * std::abs(b);
+}
+
+/// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
+/// step from there, -D/D', is shorter than the way to the next point. D is interpolated after an
+/// exponential trend, which has no zeros, is taken out of it.
+void mark_hidden_zeros(std::span<const double> x, const Denominator& d,
+                       IntegrationMemory::Zeros& memory, std::vector<bool>& marked) {
+    const std::size_t degree = x.size() - 1;
+    const double first = d.log_scale.front(), last = d.log_scale.back();
+    auto& [parts, slopes, coefficients] = memory;
+    for (std::size_t part = 0; part < 2; ++part) {
+        parts[part].resize(degree + 1);
+        slopes[part].resize(degree + 1);
+    }
+    for (std::size_t j = 0; j <= degree; ++j) {
+        const double trend = (first + last) / 2 + (first - last) / 2 * x[j];
+        const double scale = std::exp(std::clamp(d.log_scale[j] - trend, -300.0, 300.0));
+        parts[0][j] = d.re[j] * scale;
+        parts[1][j] = d.im[j] * scale;
+    }
+    const ChebyshevTransform& transform = chebyshev_transform(degree);
+    coefficients.resize(degree + 1);
+    for (std::size_t part = 0; part < 2; ++part) {
+        transform(parts[part], coefficients);
+        transform.values(chebyshev_derivative(coefficients), slopes[part]);
+    }
+    for (std::size_t j = 0; j <= degree; ++j) {
+        const double before = j > 0 ? x[j - 1] - x[j] : 0, after = j < degree ? x[j] - x[j + 1] : 0;
+        const double spacing = std::max(before, after);
+        if (is_smaller({parts[0][j], parts[1][j]}, {slopes[0][j], slopes[1][j]},
+                       kFarFromZero * spacing))
+            marked[j] = true;
+    }
+}
+
+/// How much of a point's weight a line can hide next to it that is not seen on the points. A pole
+/// of the amplitude at the distance d from the point and w from the real axis has a residue of at
+/// most 2 w, or the power would pass 1; it makes a line of an area of up to pi w. Where the
+/// spectrum is near 0 or 1 elsewhere, as in the gap of a lossless mirror, the line leaves (w/d)^2
+/// on the point. Where it is not, the stack absorbs, and the line leaves w/d times value (1 -
+/// value), because it interferes with what there is without it.
+///   foot   largest part of the values on the points that may be the line's
+///   value  of the spectrum on the point
+double hidden_share(double foot, double value) {
+    const double first_order = kCoincidence * std::abs(value * (1 - value));
+    const double width = foot < first_order * first_order ? foot / first_order : std::sqrt(foot);
+    return std::min(1.0, std::numbers::pi * width);
+}
+
+/// Size of the last coefficients among the sums over a rule's rows.
+double last_coefficient(const QuadratureRule& rule, std::span<const double> sums) {
+    double largest = 0;
+    for (const double value : sums.subspan(3 + rule.middle, rule.tail))
+        largest = std::max(largest, std::abs(value));
+    return largest;
+}
+
+class Integration {
+public:
+    Integration(const Sensitivity& sensitivity, std::size_t denominators, const SampleAt& sample,
+                const IntegrationLimits& limits, IntegrationMemory& memory,
+                std::span<ColorIntegral> integrals)
+        : sensitivity_(sensitivity),
+          sample_(sample),
+          limits_(limits),
+          denominators_(denominators),
+          integrals_(integrals),
+          memory_(memory),
+          reference_(memory.reference),
+          errors_(memory.errors),
+          next_(memory.next),
+          spare_(memory.spare) {
+        reference_.resize(integrals.size());
+        memory.panel_errors.resize(integrals.size());
+        errors_.assign(integrals.size(), {});
+        next_.clear();
+    }
+
+    void over(const PanelTree::Start& start) {
+        Samples samples = room();
+        const SpectralPoints* points = &start.points;
+        sample({&points, 1}, samples);
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            reference_[k] = *samples.row(k);
+            for (std::size_t c = 0; c < 3; ++c)
+                integrals_[k].xyz[c] = reference_[k] * sensitivity_.white()[c];
+        }
+        const double share = 1 / static_cast<double>(start.panels.size());
+        for (const PanelTree::Start::Panel& panel : start.panels)
+            settle_or_refine({panel.node, panel.degree, panel.half_turn, share}, samples,
+                             panel.first);
+        while (!next_.empty()) {
+            std::swap(memory_.now, next_);
+            next_.clear();
+            work_on(memory_.now, samples);
+        }
+        leave(std::move(samples));
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            integrals_[k].error = *std::ranges::max_element(errors_[k]);
+            integrals_[k].evaluations = evaluations_;
+        }
+    }
+
+private:
+    using Job = IntegrationMemory::Job;
+
+    /// Memory that is used again.
+    Samples room() {
+        if (spare_.empty()) return {};
+        Samples samples = std::move(spare_.back());
+        spare_.pop_back();
+        return samples;
+    }
+    void leave(Samples samples) { spare_.push_back(std::move(samples)); }
+
+    void sample(std::span<const SpectralPoints* const> parts, Samples& samples) {
+        std::size_t count = 0;
+        for (const SpectralPoints* part : parts) count += part->wavelength_nm.size();
+        samples.resize(integrals_.size(), denominators_, count);
+        sample_(parts, samples);
+        evaluations_ += count;
+    }
+
+    /// All panels that are left, computed together.
+    void work_on(std::vector<Job>& jobs, Samples& samples) {
+        std::vector<const SpectralPoints*>& parts = memory_.parts;
+        parts.clear();
+        for (const Job& job : jobs)
+            parts.push_back(job.coarse ? &job.node->added_points(job.degree)
+                                       : &job.node->all_points(job.degree));
+        sample(parts, samples);
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+            Job& job = jobs[i];
+            const std::size_t count = parts[i]->wavelength_nm.size();
+            if (job.coarse) {
+                Samples merged = room();
+                merge(*job.coarse, samples, first, count, merged);
+                leave(std::move(*job.coarse));
+                settle_or_refine({job.node, job.degree, job.half_turn, job.share}, merged, 0);
+                leave(std::move(merged));
+            } else {
+                settle_or_refine({job.node, job.degree, job.half_turn, job.share}, samples, first);
+            }
+            first += count;
+        }
+    }
+
+    /// The panel's samples begin at the point `first`.
+    void settle_or_refine(Job job, const Samples& samples, std::size_t first) {
+        switch (settle(job, samples, first)) {
+            case Outcome::settled:
+                return;
+            case Outcome::twice_the_degree: {
+                const std::size_t points = kDegrees[job.degree] + 1;
+                job.coarse = room();
+                job.coarse->resize(integrals_.size(), denominators_, points);
+                for (std::size_t row = 0; row < samples.rows(); ++row)
+                    std::copy_n(samples.row(row) + first, points, job.coarse->row(row));
+                ++job.degree;
+                next_.push_back(std::move(job));
+                return;
+            }
+            case Outcome::halves:
+                for (std::size_t half = 0; half < 2; ++half)
+                    next_.push_back(
+                        {&job.node->half(half), job.degree - 1, job.half_turn / 2, job.share / 2});
+        }
+    }
+
+    /// Every second point from each.
+    void merge(const Samples& coarse, const Samples& fresh, std::size_t first, std::size_t count,
+               Samples& merged) const {
+        merged.resize(integrals_.size(), denominators_, coarse.points() + count);
+        for (std::size_t row = 0; row < merged.rows(); ++row) {
+            const double *even = coarse.row(row), *odd = fresh.row(row) + first;
+            double* all = merged.row(row);
+            for (std::size_t j = 0; j < count; ++j) {
+                all[2 * j] = even[j];
+                all[2 * j + 1] = odd[j];
+            }
+            all[2 * count] = even[count];
+        }
+    }
+
+    static bool is_narrow(WavelengthRange range) {
+        return range.last_nm - range.first_nm < kNarrowest * range.first_nm;
+    }
+
+    /// Half of the tolerance is shared out by the light in a panel, half by its rank.
+    Triple budget(const QuadratureRule& rule, double share) const {
+        Triple result{};
+        for (std::size_t c = 0; c < 3; ++c)
+            result[c] = limits_.tolerance / 2 * (rule.light[c] + share);
+        return result;
+    }
+
+    enum class Outcome { settled, twice_the_degree, halves };
+
+    /// Adds the panel's integrals if they meet its budget or it must end here.
+    Outcome settle(const Job& job, const Samples& samples, std::size_t first) {
+        const QuadratureRule& rule = job.rule();
+        const Triple allowed = budget(rule, job.share);
+        const bool last_degree = job.degree + 1 == kDegrees.size();
+        const bool narrow = is_narrow(job.node->range());
+        const bool must_end = evaluations_ >= limits_.evaluations || (last_degree && narrow);
+        const Poles poles = poles_of(job, samples, first);
+        const std::size_t width = rule.row_count();
+        memory_.sums.resize(integrals_.size() * width);
+        std::vector<Triple>& panel_errors = memory_.panel_errors;
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            double* sums = memory_.sums.data() + k * width;
+            row_sums(rule.rows.data(), width, rule.stride, samples.row(k) + first, reference_[k],
+                     sums, limits_.simd);
+            panel_errors[k] = rule.error({sums, width}, poles.rate);
+            if (must_end || is_below(panel_errors[k], allowed)) continue;
+            const bool halves =
+                last_degree ||
+                (!narrow && !doubling_helps(rule, {sums, width}, panel_errors[k], allowed));
+            return halves ? Outcome::halves : Outcome::twice_the_degree;
+        }
+        if (!poles.all_far && denominators_ > 0) {
+            mark_points(rule, samples, first);
+            const bool resolved = static_cast<double>(kDegrees[job.degree]) >= job.half_turn;
+            for (std::size_t k = 0; k < integrals_.size(); ++k) {
+                const double foot =
+                    kFoot * static_cast<double>(kDegrees[job.degree]) *
+                    last_coefficient(rule, {memory_.sums.data() + k * width, width});
+                const Triple hidden =
+                    hidden_weight(rule, samples.row(k) + first, resolved ? foot : 1);
+                for (std::size_t c = 0; c < 3; ++c) panel_errors[k][c] += hidden[c];
+                if (!must_end && !is_below(panel_errors[k], allowed))
+                    return last_degree ? Outcome::halves : Outcome::twice_the_degree;
+            }
+        }
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                integrals_[k].xyz[c] += memory_.sums[k * width + c];
+                errors_[k][c] += panel_errors[k][c];
+            }
+        }
+        return Outcome::settled;
+    }
+
+    static bool is_below(const Triple& error, const Triple& allowed) {
+        return error[0] <= allowed[0] && error[1] <= allowed[1] && error[2] <= allowed[2];
+    }
+
+    /// Whether twice the degree promises an error that is allowed.
+    static bool doubling_helps(const QuadratureRule& rule, std::span<const double> sums,
+                               const Triple& error, const Triple& allowed) {
+        if (rule.middle == 0) return true;
+        // coefficients fall as much again in the next half of the degree, and in the one after it
+        const double fall = std::pow(rule.fall_seen(sums), 2);
+        for (std::size_t c = 0; c < 3; ++c)
+            if (error[c] > kHopeful * fall * allowed[c]) return false;
+        return true;
+    }
+
+    struct Poles {
+        bool all_far;      ///< none is closer to a point than the next one, for certain
+        std::size_t rate;  ///< at which coefficients fall, an index into kFallRates
+    };
+    /// What differences of the denominators say at once.
+    Poles poles_of(const Job& job, const Samples& samples, std::size_t first) const {
+        const QuadratureRule& rule = job.rule();
+        const auto degree = static_cast<double>(kDegrees[job.degree]);
+        if (denominators_ == 0 || degree < kDense * job.half_turn) return {false, 0};
+        double largest = 0;
+        for (std::size_t d = 0; d < denominators_; ++d) {
+            const std::size_t row = integrals_.size() + 3 * d;
+            largest = std::max(largest,
+                               steepness(samples.row(row) + first, samples.row(row + 1) + first,
+                                         samples.row(row + 2) + first, rule.inverse_spacing.data(),
+                                         rule.points, rule.stride, limits_.simd));
+        }
+        if (!(largest < degree / std::numbers::pi)) return {false, 0};
+        std::size_t rate = 0;
+        while (rate + 1 < kFallRates.size() && largest <= rule.steepest[rate + 1]) ++rate;
+        return {true, rate};
+    }
+
+    /// Marks the points that have a zero of a denominator next to them.
+    void mark_points(const QuadratureRule& rule, const Samples& samples, std::size_t first) const {
+        std::vector<bool>& marked = memory_.marked;
+        marked.assign(rule.points, false);
+        for (std::size_t d = 0; d < denominators_; ++d) {
+            const auto row = [&](std::size_t r) {
+                return std::span(samples.row(integrals_.size() + 3 * d + r) + first, rule.points);
+            };
+            mark_hidden_zeros(rule.panel.x, {row(0), row(1), row(2)}, memory_.zeros, marked);
+        }
+    }
+
+    /// Weight that lines next to marked points can hide in one spectrum.
+    Triple hidden_weight(const QuadratureRule& rule, const double* values, double foot) const {
+        Triple weight{};
+        for (std::size_t j = 0; j < rule.points; ++j) {
+            if (!memory_.marked[j]) continue;
+            const double share = hidden_share(foot, values[j]);
+            for (std::size_t c = 0; c < 3; ++c)
+                weight[c] += share * std::abs(rule.panel.weight[c][j]);
+        }
+        return weight;
+    }
+
+    const Sensitivity& sensitivity_;
+    const SampleAt& sample_;
+    IntegrationLimits limits_;
+    std::size_t denominators_;
+    std::span<ColorIntegral> integrals_;
+    IntegrationMemory& memory_;
+    std::vector<double>& reference_;  ///< each spectrum at the short end
+    std::vector<Triple>& errors_;     ///< of each channel
+    std::vector<Job>& next_;          ///< panels that are not settled
+    std::vector<Samples>& spare_;
+    std::size_t evaluations_ = 0;
+};
+
+}  // namespace
+
+void Samples::resize(std::size_t spectra, std::size_t denominators, std::size_t points) {
+    rows_ = spectra + 3 * denominators;
+    points_ = points;
+    stride_ = (points + 2 * kMostLanes) / kMostLanes * kMostLanes;
+    numbers_.resize(std::max(numbers_.size(), rows_ * stride_));
+    for (std::size_t row = 0; row < rows_; ++row)
+        std::fill_n(numbers_.begin() + static_cast<std::ptrdiff_t>(row * stride_ + points),
+                    stride_ - points, 0.0);
+}
+
+const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
+    return *rules_[degree].get(lock_, [&] {
+        return std::make_unique<std::shared_ptr<const QuadratureRule>>(
+            tree_.tables_.rule(range_, kDegrees[degree]));
+    });
+}
+
+const SpectralPoints& PanelTree::Node::all_points(std::size_t degree) {
+    const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    return all_[degree].get(
+        lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points(every)); });
+}
+
+const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
+    const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    return added_[degree].get(lock_, [&] {
+        std::vector<double> odd;
+        for (std::size_t j = 1; j < every.size(); j += 2) odd.push_back(every[j]);
+        return std::make_unique<SpectralPoints>(tree_.make_points(std::move(odd)));
+    });
+}
+
+PanelTree::Node& PanelTree::Node::half(std::size_t which) {
+    return halves_[which].get(lock_, [&] {
+        const double middle = 2 / (1 / range_.first_nm + 1 / range_.last_nm);
+        return std::make_unique<Node>(tree_, which == 0 ? WavelengthRange{range_.first_nm, middle}
+                                                        : WavelengthRange{middle, range_.last_nm});
+    });
+}
+
+PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, double tolerance,
+                                  std::size_t most_panels) {
+    double half_turns = 0;
+    for (const SpectralPanel& panel : panels) half_turns += panel.half_turn;
+    // more panels than can be afforded do not help: the fringes stay unresolved
+    const double largest =
+        std::max(kLargestHalfTurn, 2 * half_turns / static_cast<double>(most_panels));
+    Start start;
+    std::vector<double> wavelengths;
+    for (const SpectralPanel& panel : panels) {
+        Node* root = nullptr;
+        {
+            const std::scoped_lock guard(lock_);
+            const std::pair key{panel.range.first_nm, panel.range.last_nm};
+            root = &roots_.try_emplace(key, *this, panel.range).first->second;
+        }
+        begin_with(*root, panel.half_turn, largest, tolerance, start, wavelengths);
+    }
+    start.points = make_points(std::move(wavelengths));
+    return start;
+}
+
+SpectralPoints PanelTree::make_points(std::vector<double> wavelength_nm) const {
+    SpectralPoints points = make_points_(std::move(wavelength_nm));
+    points.id = points_made_++;
+    return points;
+}
+
+void PanelTree::begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,
+                           Start& start, std::vector<double>& wavelengths) {
+    if (half_turn > largest_half_turn) {
+        for (std::size_t half = 0; half < 2; ++half)
+            begin_with(node.half(half), half_turn / 2, largest_half_turn, tolerance, start,
+                       wavelengths);
+        return;
+    }
+    const std::size_t degree = first_degree(half_turn, tolerance);
+    const std::vector<double>& points = node.rule(degree).panel.wavelength_nm;
+    const std::size_t shared = wavelengths.empty() ? 0 : 1;
+    start.panels.push_back({&node, degree, half_turn, wavelengths.size() - shared});
+    wavelengths.insert(wavelengths.end(), points.begin() + static_cast<std::ptrdiff_t>(shared),
+                       points.end());
+}
+
+void integrate_color(const Sensitivity& sensitivity, const PanelTree::Start& start,
+                     std::size_t denominators, const SampleAt& sample,
+                     const IntegrationLimits& limits, IntegrationMemory& memory,
+                     std::span<ColorIntegral> integrals) {
+    require_in_range("tolerance", limits.tolerance, 1e-12, 1);
+    Integration(sensitivity, denominators, sample, limits, memory, integrals).over(start);
+}
+
+}  // namespace irido

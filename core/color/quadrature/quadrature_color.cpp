@@ -1,0 +1,390 @@
+#include "core/color/quadrature/quadrature_color.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numbers>
+
+#include "core/color/held_stack.hpp"
+#include "core/color/quadrature/fixed_layers_cache.hpp"
+#include "core/color/quadrature/integration.hpp"
+#include "core/error.hpp"
+#include "core/math/pool.hpp"
+#include "core/spectrum/spectrum.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Past this exponent of attenuation, one way and of the power, fringes of what is below are less
+/// than a hundredth of the tolerance.
+double opaque_exponent(double tolerance) {
+    return std::log(100 / tolerance);
+}
+
+/// Periods that light of a group sees at once where it does not see its end: those that make a
+/// band gap. Edges of the gaps are found by halving panels.
+constexpr double kOpaquePeriods = 32;
+
+/// Layers computed for one spectrum before it is given up, about a second's worth of either kernel,
+/// and points that any stack may have.
+constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kFewestPoints = 4096;
+
+/// Points of a panel that is not cut any further.
+constexpr std::size_t kPanelPoints = 129;
+
+/// Optical paths are rounded up to kShortestPath_nm 2^(k/2), k < kPathClasses.
+constexpr double kShortestPath_nm = 125;
+constexpr std::size_t kPathClasses = 128;
+
+std::size_t path_class(double path_nm) {
+    const double k = std::ceil(2 * std::log2(path_nm / kShortestPath_nm));
+    return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(kPathClasses - 1)));
+}
+
+double path_of_class(std::size_t k) {
+    return kShortestPath_nm * std::exp2(static_cast<double>(k) / 2);
+}
+
+/// Twice the optical thickness, nm, of what light passes on its way to faces that it returns from,
+/// and the exponent of its loss.
+struct Path {
+    double length_nm = 0;
+    double exponent = 0;
+};
+
+/// Goes on to what is `opaque`, an exponent.
+///   normal  kz/k0 of every material
+void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
+              double opaque, Path& path) {
+    for (const Element& element : elements) {
+        if (path.exponent >= opaque) return;
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            const Complex kz = normal[layer->material];
+            const double exponent = 2 * k0 * std::abs(kz.imag()) * layer->thickness_nm;
+            if (layer->coherent && exponent < opaque)
+                path.length_nm += 2 * layer->thickness_nm * std::abs(kz.real());
+            path.exponent += exponent;
+        } else {
+            const Group& group = std::get<Group>(element.value);
+            Path period;
+            add_path(group.elements, normal, k0, opaque, period);
+            const auto repeat = static_cast<double>(group.repeat);
+            const bool has_end = repeat * period.exponent < opaque;
+            path.length_nm +=
+                (has_end ? repeat : std::min(repeat, kOpaquePeriods)) * period.length_nm;
+            path.exponent += repeat * period.exponent;
+        }
+    }
+}
+
+/// Layers whose matrices one evaluation takes, a doubling of an absorbing group among them.
+double work_of(std::span<const Element> elements) {
+    double work = 1;
+    for (const Element& element : elements) {
+        const Group* group = std::get_if<Group>(&element.value);
+        const double doublings = group ? std::log2(static_cast<double>(group->repeat)) : 0;
+        work += group ? work_of(group->elements) + 4 * doublings : 1;
+    }
+    return work;
+}
+
+std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double path_nm) {
+    std::vector<SpectralPanel> panels;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        panels.push_back(
+            {{ends[i], ends[i + 1]}, std::numbers::pi * path_nm * (1 / ends[i] - 1 / ends[i + 1])});
+    return panels;
+}
+
+/// Wavelengths at which paths are as long as anywhere, more or less.
+std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
+    if (constant) return {support.first_nm};
+    std::vector<double> wavelengths;
+    for (int i = 0; i <= 4; ++i)
+        wavelengths.push_back(support.first_nm + (support.last_nm - support.first_nm) * i / 4);
+    return wavelengths;
+}
+
+/// Whether a material's k is known between the wavelengths of the survey from what it is there.
+bool is_surveyed(const Material& material) {
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    return index != nullptr && !std::holds_alternative<Formula>(index->k);
+}
+
+/// The elements that hold varied layers, ascending.
+std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const LayerPlace> varied) {
+    std::vector<std::size_t> elements;
+    for (const LayerPlace& place : varied) {
+        if (place.empty() || place[0] >= stack.elements.size())
+            throw DomainError("varied layers must be layers of the stack");
+        elements.push_back(place[0]);
+    }
+    std::ranges::sort(elements);
+    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+    return elements;
+}
+
+class QuadratureColor : public ColorAlgorithm {
+public:
+    QuadratureColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request)
+        : sensitivity_(tables.sensitivity()),
+          request_(request),
+          held_(held_stack(stack, sensitivity_)),
+          pieces_(smooth_pieces(held_, sensitivity_.support())),
+          constant_(std::ranges::all_of(held_.materials,
+                                        [](const Material& m) { return is_constant(m); })),
+          on_path_(held_, path_wavelengths(constant_, sensitivity_.support())),
+          needs_(needs_of(request)),
+          varied_(varied_elements(held_, request.varied)),
+          fixed_layers_(request.kept_numbers),
+          tree_(tables, [this](std::vector<double> wavelength_nm) {
+              SpectralPoints points{std::move(wavelength_nm), nullptr};
+              if (!constant_)
+                  points.indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
+              return points;
+          }) {
+        const IndexTable survey(held_, pieces_);
+        absorbs_ = survey.absorbs();
+        amplifies_ = survey.amplifies();
+        for (std::size_t m = 0; m < held_.materials.size(); ++m) {
+            if (is_surveyed(held_.materials[m])) continue;
+            absorbs_[m] = true;
+            amplifies_[m] = true;
+        }
+        needs_.denominators = true;
+    }
+
+    void operator()(const Stack& stack, std::span<const double> angles_deg,
+                    std::span<StackColor> colors) const override {
+        const Pool<Scratch>::Loan scratch = scratch_.borrow();
+        const SpectrumKernel& kernel = kernel_of(stack, *scratch);
+        const std::size_t sides = request_.sides.size();
+        const double most = kernel.is_vectorized() ? kMostVectorWork : kMostPlainWork;
+        const auto affordable =
+            static_cast<std::size_t>(std::max(kFewestPoints, most / work_of(stack.elements)));
+        const IntegrationLimits limits{request_.tolerance,
+                                       std::min(request_.evaluations, affordable), request_.simd};
+        for (std::size_t i = 0; i < angles_deg.size(); ++i)
+            integrate(kernel, stack, incident_angle(angles_deg[i]), limits,
+                      colors.subspan(i * sides, sides), *scratch);
+    }
+
+private:
+    struct Scratch {
+        std::optional<StackPower> power;
+        std::optional<SpectrumKernel> kernel;
+        FixedLayers fixed;
+        std::vector<const FixedLayers*> fixed_parts;
+        Spectra spectra;
+        SpectrumMemory memory;
+        std::vector<Complex> normal;
+        std::vector<const IndexTable*> parts;
+        std::vector<const std::vector<double>*> wavelengths;
+        std::optional<IndexTable> indices;  ///< of several parts
+        IntegrationMemory integration;
+        std::vector<ColorIntegral> integrals;
+    };
+
+    const SpectrumKernel& kernel_of(const Stack& stack, Scratch& scratch) const {
+        if (!scratch.kernel) {
+            scratch.power.emplace(held_);
+            scratch.kernel.emplace(*scratch.power, absorbs_, amplifies_, needs_, request_.simd,
+                                   varied_);
+        }
+        if (scratch.kernel->shares_layers() && !differs_in_varied_only(stack))
+            throw DomainError("only varied layers may differ from stack to stack");
+        scratch.power->assign(stack);
+        scratch.kernel->update();
+        return *scratch.kernel;
+    }
+
+    bool differs_in_varied_only(const Stack& stack) const {
+        if (stack.elements.size() != held_.elements.size()) return false;
+        auto varied = varied_.begin();
+        for (std::size_t i = 0; i < stack.elements.size(); ++i) {
+            if (varied != varied_.end() && *varied == i) {
+                ++varied;
+            } else if (stack.elements[i] != held_.elements[i]) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    double optical_path_nm(const Stack& stack, IncidentAngle incidence,
+                           std::vector<Complex>& normal) const {
+        double longest = 0;
+        normal.resize(on_path_.materials());
+        for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
+            const double n0 = on_path_.n(on_path_.incident())[w];
+            for (std::size_t m = 0; m < normal.size(); ++m)
+                normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, incidence).q2);
+            Path path;
+            add_path(stack.elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance),
+                     path);
+            longest = std::max(longest, path.length_nm);
+        }
+        return longest;
+    }
+
+    void integrate(const SpectrumKernel& kernel, const Stack& stack, IncidentAngle incidence,
+                   const IntegrationLimits& limits, std::span<StackColor> colors,
+                   Scratch& scratch) const {
+        if (incidence.cos == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
+        const std::size_t path = path_class(optical_path_nm(stack, incidence, scratch.normal));
+        const PanelTree::Start& start = start_of(path);
+        // at normal incidence one polarization stands for both
+        const bool with_s = needs_.s;
+        const bool with_p = needs_.p && !(with_s && incidence.cos == 1);
+        std::shared_ptr<FixedLayersCache::Angle> angle;
+        if (kernel.shares_layers()) angle = fixed_layers_.at(incidence);
+        const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
+                                    Samples& samples) {
+            const bool is_fixed = angle && fix_layers(kernel, parts, incidence, *angle, scratch);
+            const IndexTable& indices = indices_at(parts, scratch);
+            if (is_fixed) {
+                kernel(indices, {&incidence, 1}, scratch.fixed_parts, scratch.spectra,
+                       scratch.memory);
+            } else {
+                kernel(indices, {&incidence, 1}, scratch.spectra, scratch.memory);
+            }
+            const Spectra& at = scratch.spectra;
+            fill(with_s ? at.s : at.p, with_s && with_p ? &at.p : nullptr, samples);
+        };
+        scratch.integrals.resize(colors.size());
+        integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, limits,
+                        scratch.integration, scratch.integrals);
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = {scratch.integrals[i].xyz, scratch.integrals[i].error,
+                         scratch.integrals[i].evaluations, ColorMethod::Kind::quadrature};
+    }
+
+    /// Whether nothing enters the stack at 90 degrees, at any wavelength, as is so unless nothing
+    /// reflects at any angle.
+    bool reflects_all(const SpectrumKernel& kernel, Scratch& scratch) const {
+        if (std::ranges::find(amplifies_, true) != amplifies_.end()) return false;
+        const IncidentAngle grazing(0);
+        kernel(on_path_, {&grazing, 1}, scratch.spectra, scratch.memory);
+        const auto is_one = [](double R) { return R == 1; };
+        const auto is_zero = [](double T) { return T == 0; };
+        return std::ranges::all_of(
+            std::array{&scratch.spectra.s, &scratch.spectra.p}, [&](const Spectrum* of) {
+                return std::ranges::all_of(of->R, is_one) && std::ranges::all_of(of->T, is_zero);
+            });
+    }
+
+    void fill_with_white(std::span<StackColor> colors) const {
+        constexpr double rounding = 1e-15;
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            colors[i] = {request_.sides[i] == Side::reflected ? sensitivity_.white() : Triple{},
+                         rounding, on_path_.wavelength_nm().size(), ColorMethod::Kind::quadrature};
+    }
+
+    const PanelTree::Start& start_of(std::size_t path) const {
+        const std::scoped_lock guard(lock_);
+        std::unique_ptr<PanelTree::Start>& start = starts_[path];
+        if (start) return *start;
+        start = std::make_unique<PanelTree::Start>(
+            tree_.start(panels_of(pieces_, path_of_class(path)), request_.tolerance,
+                        request_.evaluations / kPanelPoints / 4));
+        if (constant_)
+            start->points.indices =
+                std::make_unique<IndexTable>(held_, start->points.wavelength_nm);
+        return *start;
+    }
+
+    const IndexTable& indices_at(std::span<const SpectralPoints* const> parts,
+                                 Scratch& scratch) const {
+        if (parts.size() == 1 && parts[0]->indices) return *parts[0]->indices;
+        if (!scratch.indices) scratch.indices = on_path_;
+        if (constant_) {
+            scratch.wavelengths.clear();
+            for (const SpectralPoints* part : parts)
+                scratch.wavelengths.push_back(&part->wavelength_nm);
+            scratch.indices->assign(on_path_, scratch.wavelengths);
+        } else {
+            scratch.parts.clear();
+            for (const SpectralPoints* part : parts) scratch.parts.push_back(part->indices.get());
+            scratch.indices->assign(scratch.parts);
+        }
+        return *scratch.indices;
+    }
+
+    /// Gathers what does not vary; false if there is no room for it.
+    bool fix_layers(const SpectrumKernel& kernel, std::span<const SpectralPoints* const> parts,
+                    IncidentAngle incidence, FixedLayersCache::Angle& angle,
+                    Scratch& scratch) const {
+        fixed_layers_.find(angle, parts, scratch.fixed_parts);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (scratch.fixed_parts[i]) continue;
+            kernel.fix_layers(indices_at(parts.subspan(i, 1), scratch), incidence, scratch.fixed,
+                              scratch.memory);
+            scratch.fixed_parts[i] = fixed_layers_.add(angle, *parts[i], scratch.fixed);
+            if (!scratch.fixed_parts[i]) return false;
+        }
+        return true;
+    }
+
+    /// Rows from one polarization, or the mean of two.
+    void fill(const Spectrum& first, const Spectrum* second, Samples& samples) const {
+        const std::size_t points = samples.points(), sides = request_.sides.size();
+        for (std::size_t side = 0; side < sides; ++side) {
+            const auto values =
+                request_.sides[side] == Side::reflected ? &Spectrum::R : &Spectrum::T;
+            const double* a = (first.*values).data();
+            double* row = samples.row(side);
+            std::copy_n(a, points, row);
+            if (!second) continue;
+            const double* b = (second->*values).data();
+            for (std::size_t j = 0; j < points; ++j) row[j] = (a[j] + b[j]) / 2;
+        }
+        std::size_t row = sides;
+        for (const Spectrum* spectrum : {&first, second}) {
+            if (!spectrum) break;
+            for (const auto values :
+                 {&Spectrum::denominator_re, &Spectrum::denominator_im, &Spectrum::log_scale})
+                std::copy_n((spectrum->*values).data(), points, samples.row(row++));
+        }
+    }
+
+    const Sensitivity& sensitivity_;
+    ColorRequest request_;
+    Stack held_;
+    std::vector<double> pieces_;  ///< ends of what is smooth
+    bool constant_;               ///< all indices
+    IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
+    Needs needs_;
+    std::vector<bool> absorbs_, amplifies_;
+    std::vector<std::size_t> varied_;  ///< elements, if only these differ
+    mutable FixedLayersCache fixed_layers_;
+    mutable PanelTree tree_;
+    mutable Pool<Scratch> scratch_;
+    mutable std::mutex lock_;
+    mutable std::map<std::size_t, std::unique_ptr<PanelTree::Start>> starts_;  ///< by path class
+};
+
+}  // namespace
+
+std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
+                                                 const ColorRequest& request) {
+    return std::make_unique<QuadratureColor>(tables, stack, request);
+}
+
+double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
+                       IncidentAngle incidence) {
+    constexpr double kPointsOfPiece = 20, kPointsPerPath = 0.032;  // of nm; as --stats says
+    constexpr double kUsualTolerance = 1e-6;
+    std::vector<Complex> normal(indices.materials());
+    for (std::size_t m = 0; m < normal.size(); ++m)
+        normal[m] =
+            std::sqrt(medium(indices.index(m, 0), indices.n(indices.incident())[0], incidence).q2);
+    Path path;
+    add_path(stack.elements, normal, indices.k0()[0], opaque_exponent(kUsualTolerance), path);
+    return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *
+           work_of(stack.elements);
+}
+
+}  // namespace irido

@@ -1,0 +1,95 @@
+#include "core/color/quadrature/quadrature_rule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/math/simd_level.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Error of an integral per unit of the last coefficient. The coefficient c_(n+j) that is left out
+/// misses its own moment and comes back on the points as T_(n-j).
+double error_per_coefficient(const std::vector<double>& moment, double fall) {
+    const std::size_t degree = moment.size() - 1;
+    double high = 0;  // what the moments past the last one are taken to be
+    for (std::size_t k = 3 * degree / 4; k <= degree; ++k)
+        high = std::max(high, std::abs(moment[k]));
+    double sum = 0, size = 1;
+    for (std::size_t j = 1; j <= degree; ++j) {
+        size *= fall;
+        sum += size * (std::abs(moment[degree - j]) + high);
+    }
+    return 2 * sum;  // c_(3n - j) and later ones come back there too
+}
+
+}  // namespace
+
+QuadratureRule::QuadratureRule(const Sensitivity& sensitivity, WavelengthRange range,
+                               std::size_t degree)
+    : panel(panel_rule(sensitivity, range, degree)),
+      points(degree + 1),
+      stride(whole_vectors(points)),
+      middle(degree < 16 ? 0 : std::max<std::size_t>(3, degree / 16)),
+      tail(std::max<std::size_t>(3, degree / 8)),
+      rows(row_count() * stride),
+      inverse_spacing(stride) {
+    for (std::size_t c = 0; c < 3; ++c)
+        std::ranges::copy(panel.weight[c], rows.begin() + static_cast<std::ptrdiff_t>(c * stride));
+    const auto n = static_cast<double>(degree);
+    for (std::size_t t = 0; t < middle + tail; ++t) {
+        const std::size_t k =
+            t < middle ? degree / 2 + 1 - middle + t : degree + 1 - tail + (t - middle);
+        double* row = rows.data() + (3 + t) * stride;
+        for (std::size_t j = 0; j < points; ++j) {
+            const double ends = (j == 0 || j == degree ? 0.5 : 1) * (k == degree ? 0.5 : 1);
+            row[j] = 2 / n * ends *
+                     std::cos(std::numbers::pi * static_cast<double>(j * k % (2 * degree)) / n);
+        }
+    }
+    for (std::size_t j = 0; j < degree; ++j) inverse_spacing[j] = 1 / (panel.x[j] - panel.x[j + 1]);
+    for (std::size_t rate = 0; rate < kFallRates.size(); ++rate) {
+        step[rate] = std::exp(-kFallRates[rate] / n);
+        steepest[rate] = 1 / (2 * std::sinh(kFallRates[rate] / n));
+    }
+    for (std::size_t c = 0; c < 3; ++c) light[c] = panel.moment[c][0] / sensitivity.white()[c];
+    for (std::size_t rate = 0; rate < kFallRates.size(); ++rate)
+        for (std::size_t c = 0; c < 3; ++c)
+            per_coefficient[rate][c] = error_per_coefficient(panel.moment[c], step[rate]);
+}
+
+namespace {
+
+double largest_of(std::span<const double> values) {
+    double largest = 0;
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+    return largest;
+}
+
+}  // namespace
+
+double QuadratureRule::fall_seen(std::span<const double> sums) const {
+    const double last = largest_of(sums.subspan(3 + middle, tail));
+    return largest_of(sums.subspan(3, middle)) / std::max(last, 1e-300);
+}
+
+Triple QuadratureRule::error(std::span<const double> sums, std::size_t rate) const {
+    const std::span<const double> last = sums.subspan(3 + middle, tail);
+    if (middle > 0) {
+        // over half of the way, with a factor e to spare: twice as fast as the rate claims
+        const double fall = std::log(fall_seen(sums)) - 1;
+        while (rate + 1 < kFallRates.size() && fall >= kFallRates[rate + 1]) ++rate;
+    }
+    double size = 0, factor = 1;
+    for (std::size_t k = tail; k-- > 0;) {
+        size = std::max(size, factor * std::abs(last[k]));
+        factor *= step[rate];
+    }
+    Triple result = per_coefficient[rate];
+    for (double& value : result) value *= size;
+    return result;
+}
+
+}  // namespace irido

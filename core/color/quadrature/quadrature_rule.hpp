@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/colorimetry/sensitivity.hpp"
+
+namespace irido {
+
+/// Degrees of the rules that colours are integrated with, each double the one before.
+inline constexpr std::array<std::size_t, 6> kDegrees{4, 8, 16, 32, 64, 128};
+
+/// How fast Chebyshev coefficients are taken to fall past the last one: as exp(-rate k/degree). The
+/// first rate holds for every spectrum whose poles are further off than the points are from each
+/// other.
+inline constexpr std::array<double, 6> kFallRates{2, 4, 8, 12, 16, 24};
+
+/// A panel's rule with what judges its error.
+struct QuadratureRule {
+    QuadratureRule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree);
+
+    PanelRule panel;
+    std::size_t points;  ///< degree + 1
+    std::size_t stride;  ///< of rows: points, rounded up to kMostLanes
+    std::size_t middle;  ///< number of coefficients up to the one of half the degree,
+    std::size_t tail;    ///< and of the last ones, that tell how large those left out are
+    /// Weights for X, Y, Z, then what makes the middle and the last Chebyshev coefficients; zero
+    /// past the points.
+    std::vector<double> rows;
+    std::vector<double> inverse_spacing;  ///< of each point to the next in x; 0 from the last on
+    /// Error of the integrals per unit of the last coefficient, for each of kFallRates.
+    std::array<Triple, kFallRates.size()> per_coefficient;
+    std::array<double, kFallRates.size()> step;  ///< from one coefficient to the next
+    /// Largest |D'|/|D| of a denominator whose zeros are as far as each rate takes: twice as far as
+    /// the ellipse around the panel on which coefficients fall by that.
+    std::array<double, kFallRates.size()> steepest;
+    Triple light;  ///< part of the white that is in the panel
+
+    std::size_t row_count() const { return 3 + middle + tail; }
+    /// Size of the middle coefficients over that of the last ones; for degrees from 16 on.
+    double fall_seen(std::span<const double> sums) const;
+    /// Of the integrals, `sums` being those over all rows. `rate` is an index into kFallRates that
+    /// is known to hold; half of the fall from the middle to the last coefficients counts as well.
+    Triple error(std::span<const double> sums, std::size_t rate) const;
+};
+
+}  // namespace irido

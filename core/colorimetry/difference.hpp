@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/colorimetry/space.hpp"
+
+namespace irido {
+
+/// Largest difference of a component.
+double largest_difference(const Triple& a, const Triple& b);
+
+/// CIE 1976 L*, a*, b* of XYZ under the white `white` (XYZ on the same scale, each in [1e-6, 1e6],
+/// else DomainError). The white is exactly {100, 0, 0}, black {0, 0, 0} up to rounding.
+/// Source: CIE 15, Colorimetry, section 8.2; ISO/CIE 11664-4.
+Triple lab(const Triple& xyz, const Triple& white);
+
+/// CIEDE2000 colour difference of two CIELAB colours, kL = kC = kH = 1; symmetric. About 1 is just
+/// noticeable. Hues within 1e-10 degrees of opposite count as opposite.
+/// Source: G. Sharma, W. Wu, E. N. Dalal, Color Res. Appl. 30, 21 (2005).
+double ciede2000(const Triple& lab1, const Triple& lab2);
+
+}  // namespace irido

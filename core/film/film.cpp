@@ -1,0 +1,86 @@
+#include "core/film/film.hpp"
+
+#include <cmath>
+
+#include "core/coherent/layer.hpp"
+
+namespace irido {
+
+namespace {
+
+/// One medium: permittivity and normal index, kz / k0, of the wave that goes on or dies away.
+template <class Number>
+struct Ray {
+    Number eps, kz;
+};
+
+Ray<double> real_ray(double index, const Medium& medium) {
+    return {index * index, std::sqrt(medium.q2.real())};
+}
+
+Ray<Complex> outgoing_ray(const Medium& medium) {
+    const Complex kz = square_root(medium.q2);
+    return {medium.eps, kz.imag() < 0 ? -kz : kz};
+}
+
+/// Fresnel's amplitude of the tangential electric field and the power that passes. The differences
+/// of admittances, s: kz, p: eps/kz, are written as what is left after their cancellation:
+///     r_s = (eps1 - eps2) / (kz1 + kz2)^2
+///     r_p = (eps1 - eps2) (eps1 eps2 - S^2 (eps1 + eps2)) / (eps1 kz2 + eps2 kz1)^2
+template <class Number>
+struct Interface {
+    Number r;
+    double T;
+};
+
+template <class Number>
+Interface<Number> interface_s(const Ray<double>& a, const Ray<Number>& b, Number difference) {
+    const Number sum = a.kz + b.kz;
+    return {difference / (sum * sum), 4 * a.kz * std::real(b.kz) / std::norm(sum)};
+}
+
+template <class Number>
+Interface<Number> interface_p(const Ray<double>& a, const Ray<Number>& b, Number difference,
+                              double s2) {
+    const Number sum = a.eps * b.kz + b.eps * a.kz;
+    return {difference * (a.eps * b.eps - s2 * (a.eps + b.eps)) / (sum * sum),
+            4 * a.eps * a.kz * std::real(b.eps * std::conj(b.kz)) / std::norm(sum)};
+}
+
+}  // namespace
+
+std::optional<FilmSeries> film_series(const Film& film, IncidentAngle incidence,
+                                      Polarization polarization) {
+    const double n1 = film.incident, n2 = film.film;
+    const Complex n3 = film.base;
+    FilmSeries series{1, 0, 0, 0};
+    if (incidence.cos == 0 && n1 == n2 && n3 == n1) return FilmSeries{0, 1, 0, 0};
+    if (incidence.cos == 0 && n1 == n2) return series;
+    const Medium in_film = medium(n2, n1, incidence);
+    if (in_film.q2.real() <= 0) return std::nullopt;
+    const Ray<double> a{n1 * n1, n1 * incidence.cos}, b = real_ray(n2, in_film);
+    const Ray<Complex> c = outgoing_ray(medium(n3, n1, incidence));
+    const double from_a = (n1 - n2) * (n1 + n2);
+    const Complex from_b = (n2 - n3) * (n2 + n3);
+    const double s2 = a.eps * incidence.sin * incidence.sin;
+    const bool s = polarization == Polarization::s;
+    const auto upper = s ? interface_s(a, b, from_a) : interface_p(a, b, from_a, s2);
+    const auto lower = s ? interface_s(b, c, from_b) : interface_p(b, c, from_b, s2);
+    series.bounce = Complex(0) - upper.r * lower.r;  // without negative zeros
+    series.opd_nm = 2 * film.thickness_nm * b.kz;
+    if (upper.T == 0 || lower.T == 0) return series;
+    if (!(series.ratio() < 1)) return std::nullopt;
+    const double R12 = upper.r * upper.r;
+    const double lost = upper.T + R12 * lower.T;  // 1 - R12 R23
+    series.R = R12 + upper.T * upper.T * std::norm(lower.r) / lost;
+    series.T = upper.T * lower.T / lost;
+    return series;
+}
+
+double FilmSeries::coefficient(bool transmitted, double order) const {
+    if (order == 0) return transmitted ? T : R;
+    const double size = T * std::pow(ratio(), order);
+    return transmitted ? size : 0 - size;
+}
+
+}  // namespace irido

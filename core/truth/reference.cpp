@@ -1,0 +1,82 @@
+#include "core/truth/reference.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/truth/textbook.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Largest double below 90.
+constexpr double kLargestReferenceAngle_deg = 0x1.67fffffffffffp+6;
+
+/// How far from the given inputs conditions are taken, in 2^-53: a kernel rounds a few times.
+constexpr double kShift = 4;
+
+template <class R>
+Power as_power(const std::array<R, 2>& rt) {
+    return {static_cast<double>(rt[0]), static_cast<double>(rt[1]),
+            static_cast<double>(R(1 - rt[0] - rt[1]))};
+}
+
+void check(double wavelength_nm, double angle_deg) {
+    require_in_range("wavelength_nm", wavelength_nm, kAllWavelengths.first_nm,
+                     kAllWavelengths.last_nm);
+    require_in_range("angle_deg", angle_deg, 0, kLargestReferenceAngle_deg);
+}
+
+Condition larger(const Condition& a, const Condition& b) {
+    return {std::max(a.R, b.R), std::max(a.T, b.T), std::max(a.log_T, b.log_T), std::max(a.A, b.A)};
+}
+
+template <class R>
+Power evaluated(const Stack& stack, double wavelength_nm, double angle_deg,
+                Polarization polarization) {
+    textbook::Transfer<R> transfer(stack, wavelength_nm, angle_deg);
+    transfer.set_layers(stack.elements);
+    return as_power(transfer.powers(polarization));
+}
+
+}  // namespace
+
+Power reference_power(const Stack& stack, double wavelength_nm, double angle_deg,
+                      Polarization polarization, Precision precision) {
+    check(wavelength_nm, angle_deg);
+    switch (precision) {
+        case Precision::double_:
+            return evaluated<double>(stack, wavelength_nm, angle_deg, polarization);
+        case Precision::extended:
+            return evaluated<long double>(stack, wavelength_nm, angle_deg, polarization);
+        case Precision::digits50:
+            return evaluated<textbook::Digits<50>>(stack, wavelength_nm, angle_deg, polarization);
+        case Precision::digits100:
+            break;
+    }
+    return evaluated<textbook::Digits<100>>(stack, wavelength_nm, angle_deg, polarization);
+}
+
+std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wavelength_nm,
+                                                  double angle_deg) {
+    using Transfer = textbook::Transfer<textbook::Digits<50>>;
+    constexpr std::array kPolarizations{Polarization::s, Polarization::p};
+    check(wavelength_nm, angle_deg);
+    std::array<ConditionedPower, 2> result;
+    const auto take_condition = [&](const Transfer& at) {
+        for (std::size_t i = 0; i < 2; ++i)
+            result[i].condition = larger(result[i].condition, at.condition(kPolarizations[i]));
+    };
+    Transfer exact(stack, wavelength_nm, angle_deg);
+    exact.set_layers(stack.elements);
+    for (std::size_t i = 0; i < 2; ++i) result[i].power = as_power(exact.powers(kPolarizations[i]));
+    if (!exact.is_near_branch_point(2 * kShift)) take_condition(exact);
+    for (const double roundings : {kShift, -kShift}) {
+        Transfer shifted(stack, wavelength_nm, angle_deg, textbook::Shift::along(roundings));
+        shifted.set_layers(stack.elements);
+        take_condition(shifted);
+    }
+    return result;
+}
+
+}  // namespace irido

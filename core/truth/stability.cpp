@@ -1,0 +1,216 @@
+#include "core/truth/stability.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/math/parallel.hpp"
+#include "core/spectrum/spectrum.hpp"
+#include "core/truth/reference.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Below these, too few digits are left to compare: of subnormal T, and of A = 1 - R - T.
+constexpr double kSmallestT = 1e-290, kSmallestA = 1e-30;
+
+/// Past this, what first derivatives say of a relative error of T is no bound: T may be 0.
+constexpr double kLargestRelativeBound = 0.5;
+
+/// Wavelengths that the vector kernel gets with the one that is compared.
+constexpr std::size_t kCompany = 11;
+
+using Powers = std::array<Power, 2>;  // s, p
+
+/// The vector kernel gets the question among wavelengths that ask for different care, at a place
+/// that varies; the plain one computes point by point.
+Powers powers_of(const StackCase& c, Random& random, SimdLevel simd) {
+    const std::size_t count = simd == SimdLevel::plain ? 1 : kCompany;
+    const std::size_t place = random.below(count);
+    std::vector<double> wavelengths_nm(count);
+    for (double& nm : wavelengths_nm)
+        nm = std::clamp(c.wavelength_nm * random.log_uniform(0.5, 2), kAllWavelengths.first_nm,
+                        kAllWavelengths.last_nm);
+    wavelengths_nm[place] = c.wavelength_nm;
+    const IndexTable table(c.stack, std::move(wavelengths_nm));
+    const IncidentAngle direction = incident_angle(c.angle_deg);
+    const Spectra at = spectra(StackPower(c.stack), table, std::span(&direction, 1), {}, {1, simd});
+    return {at.s.power(place), at.p.power(place)};
+}
+
+/// An error with the condition that it has to be seen with; nothing to compare if absent.
+struct Error {
+    double error = 0, condition = 0;
+};
+
+/// One polarization of one case.
+struct Answer {
+    Error R, T, A;
+    std::optional<Error> T_relative, A_relative;
+    bool finite = true, negative = false, excess = false, refused = false;
+    double beyond = 0;       ///< largest error / bound
+    std::string_view which;  ///< quantity of that error
+};
+
+Error absolute_error(double value, double exact, double condition) {
+    const double scale = std::max(1.0, std::abs(exact));
+    return {std::abs(value - exact) / scale, condition / scale};
+}
+
+/// Relative, or of the logarithm where that is less: what an exponent is off by is what tells.
+Error relative_error(double value, double exact, double condition) {
+    const double relative = std::abs(value - exact) / std::abs(exact), ratio = value / exact;
+    return {ratio > 1 ? std::min(relative, std::log(ratio)) : relative, condition};
+}
+
+void judge(Answer& answer, std::string_view which, const std::optional<Error>& e,
+           double well_posed = kWellPosedError, double roundings = kAllowedRoundings) {
+    if (!e) return;
+    const double share = e->error / error_bound(e->condition, well_posed, roundings);
+    if (share <= answer.beyond) return;
+    answer.beyond = share;
+    answer.which = which;
+}
+
+bool is_finite(const Power& power) {
+    return std::isfinite(power.R) && std::isfinite(power.T) && std::isfinite(power.A);
+}
+
+Answer compared(const Power& power, const ConditionedPower& exact, bool passive) {
+    const auto& [reference, condition] = exact;
+    Answer answer;
+    answer.finite = is_finite(power) && is_finite(reference);
+    if (!answer.finite) return answer;
+    answer.negative = passive && (power.R < 0 || power.T < 0 || power.A < 0);
+    answer.excess = passive && power.R + power.T > 1 + kAllowedExcess;
+    answer.R = absolute_error(power.R, reference.R, condition.R);
+    answer.T = absolute_error(power.T, reference.T, condition.T);
+    answer.A = absolute_error(power.A, reference.A, condition.A);
+    if (reference.T > kSmallestT)
+        answer.T_relative = relative_error(power.T, reference.T, condition.log_T);
+    if (std::abs(reference.A) > kSmallestA)
+        answer.A_relative =
+            relative_error(power.A, reference.A, condition.A / std::abs(reference.A));
+    judge(answer, "R", answer.R);
+    judge(answer, "T", answer.T);
+    judge(answer, "A", answer.A);
+    if (answer.T_relative && error_bound(answer.T_relative->condition) < kLargestRelativeBound)
+        judge(answer, "T (relative)", answer.T_relative, kWellPosedError,
+              kAllowedRelativeRoundings);
+    judge(answer, "A (relative)", answer.A_relative, kWellPosedRelativeA,
+          kAllowedRelativeRoundings);
+    return answer;
+}
+
+/// Different numbers for every regime and every seed.
+Random random_of(const Regime& regime, std::uint64_t seed) {
+    std::uint64_t key = 0xcbf29ce484222325U;  // FNV-1a of the name
+    for (const char letter : regime.name)
+        key = (key ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+    return Random(key ^ Random(seed).bits());
+}
+
+/// Both polarizations; random is for what surrounds the question.
+std::array<Answer, 2> answers(const StackCase& c, bool passive, Random random, SimdLevel simd) {
+    const auto exact = conditioned_power(c.stack, c.wavelength_nm, c.angle_deg);
+    std::array<Answer, 2> result;
+    try {
+        const Powers powers = powers_of(c, random, simd);
+        for (std::size_t i = 0; i < 2; ++i) result[i] = compared(powers[i], exact[i], passive);
+    } catch (const DomainError&) {
+        result[0].refused = result[1].refused = true;
+    }
+    return result;
+}
+
+ErrorSummary summary_of(std::vector<Error> errors) {
+    ErrorSummary summary;
+    if (errors.empty()) return summary;
+    for (const Error& e : errors)
+        summary.roundings =
+            std::max(summary.roundings, e.error / (kUnitRoundoff * (1 + e.condition)));
+    std::ranges::sort(errors, {}, &Error::error);
+    summary.worst = errors.back().error;
+    summary.condition = errors.back().condition;
+    const double rank = std::ceil(0.99 * static_cast<double>(errors.size()));
+    summary.p99 = errors[static_cast<std::size_t>(rank) - 1].error;
+    return summary;
+}
+
+/// What is wrong with an answer, "" for nothing.
+std::string violation_of(const Answer& answer, bool passive) {
+    if (answer.refused) return passive ? "refused though nothing amplifies" : "";
+    if (!answer.finite) return "not a finite number";
+    if (answer.negative) return "a negative power";
+    if (answer.excess) return "R + T above 1";
+    if (answer.beyond > 1)
+        return "an error of " + std::string(answer.which) + " " + to_text(answer.beyond) +
+               " times its bound";
+    return "";
+}
+
+void count(RegimeReport& report, const Answer& answer, bool passive, std::uint64_t seed) {
+    report.thresholds += answer.refused;
+    report.count += !answer.refused;
+    report.not_finite += !answer.finite;
+    report.negative += answer.negative;
+    report.excess += answer.excess;
+    report.beyond += answer.beyond > 1 || (passive && answer.refused);
+    if (!report.passed()) return;
+    report.first_violation = violation_of(answer, passive);
+    report.first_seed = seed;
+}
+
+}  // namespace
+
+double error_bound(double condition, double well_posed, double roundings) {
+    return std::max(well_posed, roundings * condition * kUnitRoundoff);
+}
+
+StackCase stability_case(const Regime& regime, std::uint64_t seed) {
+    Random random = random_of(regime, seed);
+    return regime.make(random);
+}
+
+std::string stability_violation(const StackCase& question, bool passive, SimdLevel simd) {
+    const auto [s, p] = answers(question, passive, Random(1), simd);
+    if (const std::string wrong = violation_of(s, passive); !wrong.empty()) return "s: " + wrong;
+    const std::string wrong = violation_of(p, passive);
+    return wrong.empty() ? "" : "p: " + wrong;
+}
+
+RegimeReport measure_stability(const Regime& regime, std::uint64_t cases, std::uint64_t seed,
+                               const Execution& execution) {
+    require_in_range("count", static_cast<double>(cases), 1, kLargestStabilityCount);
+    std::vector<std::array<Answer, 2>> all(cases);
+    parallel_for(cases, execution.threads, [&](std::size_t i) {
+        Random random = random_of(regime, seed + i);
+        const StackCase c = regime.make(random);
+        all[i] = answers(c, regime.passive, random, execution.simd);
+    });
+    RegimeReport report;
+    report.regime = regime.name;
+    std::vector<Error> r, t, a, t_relative, a_relative;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (const Answer& answer : all[i]) {
+            count(report, answer, regime.passive, seed + i);
+            if (answer.refused || !answer.finite) continue;
+            r.push_back(answer.R);
+            t.push_back(answer.T);
+            a.push_back(answer.A);
+            if (answer.T_relative) t_relative.push_back(*answer.T_relative);
+            if (answer.A_relative) a_relative.push_back(*answer.A_relative);
+        }
+    }
+    report.R = summary_of(std::move(r));
+    report.T = summary_of(std::move(t));
+    report.A = summary_of(std::move(a));
+    report.T_relative = summary_of(std::move(t_relative));
+    report.A_relative = summary_of(std::move(a_relative));
+    return report;
+}
+
+}  // namespace irido

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/complex.hpp"
+#include "core/math/simd_level.hpp"
+#include "core/vector/program.hpp"
+
+namespace irido {
+
+/// A number of every point of a run, or one for all.
+struct Stream {
+    const double* values = nullptr;  ///< a run that varies can be read kMostLanes past its end
+    bool varies = false;
+};
+
+/// Stored rows of all FixedRuns of a program at some points: [vector of kMostLanes points][row],
+/// each row kMostLanes numbers.
+struct FixedPoints {
+    const double* numbers = nullptr;
+    std::size_t count = 0;  ///< of points
+};
+
+/// Points that the vector kernel takes together.
+struct PointRun {
+    std::size_t count = 0;
+    Stream k0;         ///< 2 pi / wavelength, 1/nm
+    Stream incident;   ///< real index n0
+    Stream cos_theta;  ///< in (0, 1]
+    Stream sin_theta;
+    std::vector<Stream> n, k;  ///< one per material
+    /// Index into them of the medium above the layers; nothing for the incident medium. Its wave is
+    /// the one that travels or decays downwards, and k >= 0.
+    std::optional<std::size_t> above;
+    /// All points, one part after the other, if the program has FixedRuns, and their rows.
+    std::span<const FixedPoints> fixed;
+    std::size_t fixed_rows = 0;
+};
+
+/// Where the quantities of one polarization go, each nullptr if it is not needed; the value of
+/// point i is stored at i * stride.
+struct RunOutput {
+    double *R = nullptr, *T = nullptr, *A = nullptr;
+    Complex *r = nullptr, *t = nullptr;
+    double *denominator_re = nullptr, *denominator_im = nullptr, *log_scale = nullptr;
+    std::size_t stride = 1;
+};
+
+/// Memory that runs use one after another; what is in it means nothing between them.
+struct RunMemory {
+    std::vector<double> records;
+    std::vector<char> evanescent;
+    std::vector<std::size_t> varying;
+};
+
+/// What coherent_response() computes, for many points at once.
+///   s, p  nullptr for a polarization that is not needed
+///   redo  receives the points that need the plain kernel (no finite result, or exponents too
+///         large for this one)
+/// A lane's result does not depend on what is in the other lanes. R, T and A agree with
+/// coherent_response() to the last digits that the question determines.
+void run_program(const Program& program, const PointRun& run, const RunOutput* s,
+                 const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
+                 SimdLevel level);
+
+/// Stores the rows of a FixedRun at all points.
+///   s, p  the polarizations to be stored
+///   rows  of all runs of the program that it belongs to
+///   to    room for FixedPoints::numbers
+/// Points that need the plain kernel get NaN.
+void store_fixed(const FixedRun& fixed, const PointRun& run, bool s, bool p, std::size_t rows,
+                 double* to, RunMemory& memory, SimdLevel level);
+
+}  // namespace irido

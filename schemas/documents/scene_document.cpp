@@ -1,0 +1,221 @@
+#include "schemas/documents/scene_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include "core/error.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/documents/schema_check.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/text_file.hpp"
+
+namespace irido {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::pair<Shading, std::string_view>, 5> kShadings{
+    {{Shading::color, "color"},
+     {Shading::fourier, "fourier"},
+     {Shading::bragg, "bragg"},
+     {Shading::rough_layers, "rough-layers"},
+     {Shading::albedo, "albedo"}}};
+
+Shading shading_of(std::string_view name) {
+    return std::ranges::find(kShadings, name, &std::pair<Shading, std::string_view>::second)->first;
+}
+
+ValueRange range_of(const json& value) {
+    if (value.is_number()) return {value.get<double>(), value.get<double>()};
+    return {value[0].get<double>(), value[1].get<double>()};
+}
+
+/// Those of the schema; of a document that breaks none, names that are there twice.
+std::vector<Problem> broken_rules(const json& document) {
+    static const Schema schema(json::parse(scene_schema_text()));
+    std::vector<Problem> problems = check(schema, document);
+    if (!problems.empty()) return problems;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < document["materials"].size(); ++i) {
+        const std::string name = document["materials"][i]["name"].get<std::string>();
+        if (!names.insert(name).second)
+            problems.push_back({"/materials/" + std::to_string(i) + "/name",
+                                "must be unique (got \"" + name + "\")"});
+    }
+    return problems;
+}
+
+class Reader {
+public:
+    Reader(const json& document, std::string file, std::string folder)
+        : document_(document), file_(std::move(file)), folder_(std::move(folder)) {}
+
+    Scene read() {
+        for (const Problem& problem : broken_rules(document_))
+            throw InputError(file_, problem.pointer, problem.message);
+        scene_.file = file_;
+        scene_.name = document_.value("name", "");
+        scene_.space = document_.value("space", scene_.space);
+        scene_.illuminant = document_.value("illuminant", scene_.illuminant);
+        scene_.adaptation = document_.value("adaptation", scene_.adaptation);
+        scene_.observer_deg = static_cast<int>(document_.value("observer", 2.0));
+        scene_.format = document_.value("format", scene_.format);
+        scene_.type = document_.value("dtype", scene_.type);
+        if (const auto tolerance = document_.find("tolerance"); tolerance != document_.end()) {
+            scene_.delta_e = tolerance->value("delta_e", scene_.delta_e);
+            scene_.relative = tolerance->value("relative", scene_.relative);
+        }
+        for (std::size_t i = 0; i < document_["materials"].size(); ++i)
+            scene_.materials.push_back(
+                material(document_["materials"][i], "/materials/" + std::to_string(i)));
+        return std::move(scene_);
+    }
+
+private:
+    SceneMaterial material(const json& object, const std::string& pointer) {
+        SceneMaterial result;
+        result.name = object["name"].get<std::string>();
+        result.pointer = pointer;
+        result.shading = shading_of(object["shading"].get<std::string>());
+        result.has_angles = object.contains("angles_deg");
+        if (result.has_angles) result.angles_deg = range(result, object, "angles_deg");
+        result.is_rough = object.contains("roughness");
+        if (result.is_rough) result.alpha = range(result, object, "roughness");
+        result.transmission = object.value("transmission", false);
+        result.thickness_spread_nm = object.value("thickness_spread_nm", 0.0);
+        if (object.contains("vary"))
+            for (const auto& [path, value] : object["vary"].items())
+                result.vary.push_back({path, ascending(result, range_of(value),
+                                                       pointer + "/vary" + pointer_step(path))});
+        try {
+            result.source = source(object["stack"], pointer + "/stack");
+            // the stack at both ends of what varies
+            if (read_at(result, &ValueRange::last)) read_at(result, &ValueRange::first);
+        } catch (const std::exception& error) {
+            result.faults.push_back(fault_of(result, error));
+        }
+        for (const std::string& note : result.document.notes) scene_.notes.push_back(note);
+        return result;
+    }
+
+    /// An inline stack is called by its pointer, a file as the scene calls it.
+    StackSource source(const json& stack, const std::string& pointer) const {
+        if (stack.is_object()) return {stack, pointer, folder_};
+        const std::string text = stack.get<std::string>();
+        if (text.empty() || text == "-")
+            throw InputError("", pointer,
+                             "must be a stack, a file or an expression (got \"" + text + "\")");
+        const bool is_expression = text.find('|') != std::string::npos;
+        const std::string path =
+            is_expression ? text : (std::filesystem::path(folder_) / text).string();
+        try {
+            StackSource loaded = load_stack({path, {}});
+            if (!is_expression) loaded.file = text;
+            if (is_expression) loaded.folder = folder_;  // of the material files that it names
+            return loaded;
+        } catch (const InputError& error) {
+            const std::string file = error.file == path ? text : error.file;
+            throw InputError("", pointer, InputError(file, error.where, error.message).what());
+        }
+    }
+
+    /// Reads the stack with one end of what varies; false if it has faults there.
+    bool read_at(SceneMaterial& material, double ValueRange::*end) const {
+        StackSource& source = material.source;
+        const std::size_t faults = material.faults.size();
+        for (const VariedRange& vary : material.vary) {
+            try {
+                set_value(source.document, vary.path, vary.range.*end);
+            } catch (const InputError& error) {
+                material.faults.push_back(
+                    {material.pointer + "/vary" + pointer_step(vary.path),
+                     "names no number of the stack (" + std::string(error.what()) + ")"});
+            }
+        }
+        if (material.faults.size() > faults) return false;
+        try {
+            material.document = read_stack(source.document, source.file, source.folder);
+        } catch (const InputError&) {
+            for (const std::string& line :
+                 stack_problems(source.document, source.file, source.folder))
+                material.faults.push_back(fault_of_line(material, line));
+        }
+        return material.faults.size() == faults;
+    }
+
+    /// A line of stack_problems(), "FILE: POINTER: message".
+    static SceneFault fault_of_line(const SceneMaterial& material, const std::string& line) {
+        const std::string pointer = material.pointer + "/stack", prefix = pointer + ": ";
+        if (!line.starts_with(prefix)) return {pointer, line};
+        const std::string rest = line.substr(prefix.size());
+        const std::size_t end = rest.starts_with('/') ? rest.find(": ") : std::string::npos;
+        if (end == std::string::npos) return {pointer, rest};
+        return {pointer + rest.substr(0, end), rest.substr(end + 2)};
+    }
+
+    static ValueRange range(SceneMaterial& material, const json& object, const std::string& key) {
+        return ascending(material, range_of(object[key]), material.pointer + "/" + key);
+    }
+
+    static ValueRange ascending(SceneMaterial& material, ValueRange range,
+                                const std::string& pointer) {
+        if (range.first > range.last)
+            material.faults.push_back({pointer, "must ascend (got [" + to_text(range.first) + ", " +
+                                                    to_text(range.last) + "])"});
+        return range;
+    }
+
+    const json& document_;
+    std::string file_, folder_;
+    Scene scene_;
+};
+
+}  // namespace
+
+std::string_view name_of(Shading shading) {
+    return std::ranges::find(kShadings, shading, &std::pair<Shading, std::string_view>::first)
+        ->second;
+}
+
+const char* scene_schema_text() {
+    return
+#include "scene_schema.inc"
+        ;
+}
+
+std::vector<std::string> scene_problems(const json& document, const std::string& file) {
+    std::vector<std::string> lines;
+    for (const Problem& problem : broken_rules(document))
+        lines.emplace_back(InputError(file, problem.pointer, problem.message).what());
+    return lines;
+}
+
+Scene read_scene(const json& document, const std::string& file, const std::string& folder) {
+    return Reader(document, file, folder).read();
+}
+
+Scene read_scene(const std::string& path) {
+    return read_scene(parse_json(read_text(path), shown_path(path)), shown_path(path),
+                      std::filesystem::path(path).parent_path().string());
+}
+
+SceneFault fault_of(const SceneMaterial& material, const std::exception& error) {
+    const auto* input = dynamic_cast<const InputError*>(&error);
+    if (!input) return {material.pointer, error.what()};
+    if (input->file.empty() && input->where.starts_with(material.pointer))
+        return {input->where, input->message};
+    const std::string stack = material.pointer + "/stack";
+    const bool is_pointer = input->where.empty() || input->where.starts_with('/');
+    if (input->file == stack && is_pointer) return {stack + input->where, input->message};
+    return {stack, input->what()};
+}
+
+std::string fault_text(const Scene& scene, const std::string& material, const SceneFault& fault) {
+    return InputError(scene.file, fault.pointer, "material " + material + ": " + fault.reason)
+        .what();
+}
+
+}  // namespace irido

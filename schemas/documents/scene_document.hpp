@@ -1,0 +1,91 @@
+#pragma once
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "schemas/documents/stack_document.hpp"
+
+namespace irido {
+
+/// How an engine shades a material.
+enum class Shading {
+    color,         ///< RGB from a table
+    fourier,       ///< C_m in the shader, with a table of the sensitivity
+    bragg,         ///< Yeh's reflectance in the shader
+    rough_layers,  ///< tables falpha and transmissivity
+    albedo,        ///< table of the directional albedo
+};
+
+std::string_view name_of(Shading shading);
+
+/// From one value to another, first <= last.
+struct ValueRange {
+    double first = 0, last = 0;
+    bool is_one() const { return first == last; }
+};
+
+struct VariedRange {
+    std::string path;
+    ValueRange range;
+};
+
+/// Why something of a scene cannot be.
+struct SceneFault {
+    std::string pointer;  ///< where in the scene: /materials/3/roughness
+    std::string reason;   ///< in words
+    bool operator==(const SceneFault&) const = default;
+};
+
+/// A material of a scene. Angles in degrees, alpha in [1e-4, 1].
+struct SceneMaterial {
+    std::string name;
+    std::string pointer;             ///< in the scene: /materials/3
+    std::vector<SceneFault> faults;  ///< why it cannot be; then its stack may be missing
+    StackSource source;
+    StackDocument document;
+    std::vector<VariedRange> vary;  ///< at most two
+    ValueRange angles_deg{0, 90};
+    bool has_angles = false;  ///< the scene gives them
+    bool is_rough = false;
+    ValueRange alpha;
+    bool transmission = false;
+    double thickness_spread_nm = 0;
+    Shading shading = Shading::color;
+};
+
+/// A scene document as plain values. Names of spaces, illuminants, formats and types are known
+/// ones.
+struct Scene {
+    std::string file;  ///< its name in messages
+    std::string name;
+    std::string space = "srgb", illuminant = "D65", adaptation = "bradford";
+    int observer_deg = 2;
+    double delta_e = 0.5, relative = 1e-3;  ///< tolerances of colours and of filters
+    std::string format = "ktx2", type = "f16";
+    std::vector<SceneMaterial> materials;
+    std::vector<std::string> notes;  ///< what the readers of stacks say
+};
+
+/// Reads a scene file ("-" for standard input). Throws InputError if it breaks the schema or two
+/// materials have one name. What else is wrong with a material is among its faults.
+Scene read_scene(const std::string& path);
+
+/// The same of a document.
+Scene read_scene(const nlohmann::json& document, const std::string& file,
+                 const std::string& folder);
+
+/// For what read_scene() throws, one line each.
+std::vector<std::string> scene_problems(const nlohmann::json& document, const std::string& file);
+
+/// What an error means that came up while a material was read or computed: an error inside of an
+/// inline stack gets its pointer into the scene.
+SceneFault fault_of(const SceneMaterial& material, const std::exception& error);
+
+/// "FILE: POINTER: material NAME: reason".
+std::string fault_text(const Scene& scene, const std::string& material, const SceneFault& fault);
+
+/// The text of scene.schema.json.
+const char* scene_schema_text();
+
+}  // namespace irido

@@ -1,0 +1,542 @@
+#include "schemas/documents/stack_document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/material/library.hpp"
+#include "core/stack/index_table.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/documents/schema_check.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/index_rows.hpp"
+#include "schemas/readers/nearest.hpp"
+#include "schemas/readers/stack_expression.hpp"
+#include "schemas/readers/text_file.hpp"
+#include "schemas/readers/utf8.hpp"
+
+namespace irido {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostLayers = 1'000'000;
+
+// --- materials as numbers -------------------------------------------------------------------
+
+double number_or(const json& object, const char* key, double otherwise) {
+    const auto found = object.find(key);
+    return found == object.end() ? otherwise : found->get<double>();
+}
+
+/// n = A + B/L^2 + C/L^4 + ... is formula 5, whose coefficients are A and (B, -2), (C, -4), ...
+Formula read_cauchy(const json& series) {
+    Formula formula{5, {series[0].get<double>()}, kAllWavelengths};
+    for (std::size_t i = 1; i < series.size(); ++i) {
+        formula.coefficients.push_back(series[i].get<double>());
+        formula.coefficients.push_back(-2 * static_cast<double>(i));
+    }
+    return formula;
+}
+
+/// n^2 = 1 + sum B L^2/(L^2 - C) is formula 2 with a first coefficient of 0.
+Formula read_sellmeier(const json& terms) {
+    Formula formula{2, {0}, kAllWavelengths};
+    for (const json& term : terms) {
+        formula.coefficients.push_back(term[0].get<double>());
+        formula.coefficients.push_back(term[1].get<double>());
+    }
+    return formula;
+}
+
+LorentzDrude read_lorentz_drude(const json& object) {
+    LorentzDrude model;
+    model.eps_infinity = number_or(object, "eps_infinity", 1);
+    model.plasma_ev = object["plasma_ev"].get<double>();
+    model.range = kAllWavelengths;
+    for (const json& term : object["oscillators"]) {
+        model.oscillators.push_back(
+            {term[0].get<double>(), term[1].get<double>(), term[2].get<double>()});
+    }
+    return model;
+}
+
+/// Rows [nm, n] or [nm, n, k]: k is known in the rows that give it, and 0 if none does.
+MaterialFile read_table(const json& rows, const std::string& name) {
+    Table n;
+    Table k;
+    for (const json& row : rows) {
+        n.wavelength_nm.push_back(row[0].get<double>());
+        n.value.push_back(row[1].get<double>());
+        if (row.size() < 3) continue;
+        k.wavelength_nm.push_back(row[0].get<double>());
+        k.value.push_back(row[2].get<double>());
+    }
+    const bool is_real =
+        std::all_of(k.value.begin(), k.value.end(), [](double v) { return v == 0; });
+    return material_of(name, std::move(n), is_real ? std::nullopt : std::optional(std::move(k)),
+                       {});
+}
+
+std::string index_text(double n, double k) {
+    if (k == 0) return to_text(n);
+    return to_text(n) + (k > 0 ? "+" : "") + to_text(k) + "i";
+}
+
+// --- equal materials ------------------------------------------------------------------------
+
+void mix(std::uint64_t& hash, double value) {
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value + 0.0);  // -0 equals 0
+    hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
+    hash ^= hash >> 32U;
+}
+
+struct HashOf {
+    std::uint64_t hash = 0;
+
+    void operator()(const Constant& constant) { mix(hash, constant.value); }
+    void operator()(const Formula& formula) {
+        for (const double c : formula.coefficients) mix(hash, c);
+    }
+    void operator()(const Table& table) {
+        constexpr std::size_t enough = 16;  // of long tables only some, as all are compared later
+        const std::size_t step = std::max<std::size_t>(table.value.size() / enough, 1);
+        for (std::size_t i = 0; i < table.value.size(); i += step) mix(hash, table.value[i]);
+    }
+    void operator()(const RefractiveIndex& index) {
+        std::visit(*this, index.n);
+        std::visit(*this, index.k);
+    }
+    void operator()(const LorentzDrude& model) {
+        mix(hash, model.plasma_ev);
+        for (const auto& oscillator : model.oscillators) mix(hash, oscillator.strength);
+    }
+};
+
+std::uint64_t hash_of(const Material& material) {
+    HashOf hash;
+    std::visit(std::ref(hash), material.model);
+    return hash.hash;
+}
+
+/// Values of a document by what they are, not by where.
+struct JsonHash {
+    std::size_t operator()(const json* value) const { return std::hash<json>{}(*value); }
+};
+struct JsonEqual {
+    bool operator()(const json* a, const json* b) const { return *a == *b; }
+};
+
+bool same_physics(const Material& a, const Material& b) {
+    return a.model == b.model && a.outside == b.outside;
+}
+
+// --- the reader -----------------------------------------------------------------------------
+
+/// Builds a stack from a document. Reports everything that is wrong instead of stopping there, and
+/// steps over the parts that break the schema.
+class Reader {
+public:
+    Reader(const json& document, const std::string& file, const std::string& folder,
+           MaterialFiles& files)
+        : document_(document), file_(file), folder_(folder), files_(files) {
+        static const Schema schema(json::parse(stack_schema_text()));
+        for (const Problem& problem : check(schema, document)) {
+            broken_.insert(problem.pointer);
+            problems.emplace_back(file_, problem.pointer, problem.message);
+        }
+    }
+
+    std::vector<InputError> problems;
+
+    StackDocument read() {
+        if (!document_.is_object()) return {};
+        Stack& stack = result_.stack;
+        read_named();
+        if (document_.contains("incident")) {
+            stack.incident = material(document_["incident"], "/incident");
+            require_real(stack.incident);
+        }
+        if (document_.contains("layers")) stack.elements = elements(document_["layers"], "/layers");
+        if (document_.contains("substrate")) {
+            stack.substrate = material(document_["substrate"], "/substrate");
+        }
+        if (layers_ > kMostLayers) {
+            report("/layers", "must hold at most 1e6 layers (got " + std::to_string(layers_) + ")");
+        }
+        if (!is_broken("/name")) result_.name = document_.value("name", "");
+        return std::move(result_);
+    }
+
+private:
+    void report(const std::string& pointer, const std::string& message) {
+        problems.emplace_back(file_, pointer, message);
+    }
+
+    /// True if the value at the pointer, or anything inside it, breaks the schema.
+    bool is_broken(const std::string& pointer) const {
+        if (broken_.empty()) return false;
+        if (broken_.contains(pointer)) return true;
+        const auto inside = broken_.lower_bound(pointer + "/");
+        return inside != broken_.end() && inside->starts_with(pointer + "/");
+    }
+
+    /// The document's own materials, whether they are used or not.
+    void read_named() {
+        const auto found = document_.find("materials");
+        if (found == document_.end() || !found->is_object()) return;
+        std::map<std::string, Material> named;
+        for (const auto& [name, value] : found->items()) {
+            const std::string pointer = "/materials" + pointer_step(name);
+            named.emplace(name, is_broken(pointer) ? Material{name, RefractiveIndex{}}
+                                                   : build(value, pointer));
+        }
+        named_ = std::move(named);  // only now, as they do not name each other
+    }
+
+    std::vector<Element> elements(const json& array, const std::string& pointer) {
+        std::vector<Element> result;
+        if (!array.is_array()) return result;
+        result.reserve(array.size());
+        for (std::size_t i = 0; i < array.size(); ++i) {
+            const std::string place = pointer + "/" + std::to_string(i);
+            if (!array[i].is_object()) continue;
+            const auto layers = array[i].find("layers");
+            if (layers != array[i].end()) {
+                result.push_back({group(array[i], *layers, place)});
+            } else {
+                result.push_back({layer(array[i], place)});
+            }
+        }
+        return result;
+    }
+
+    Group group(const json& object, const json& layers, const std::string& pointer) {
+        Group result;
+        if (!is_broken(pointer)) {
+            result.repeat = static_cast<std::uint64_t>(object["repeat"].get<double>());
+        }
+        result.elements = elements(layers, pointer + "/layers");
+        return result;
+    }
+
+    Layer layer(const json& object, const std::string& pointer) {
+        ++layers_;
+        Layer result;
+        if (const auto found = object.find("material"); found != object.end()) {
+            result.material = material(*found, pointer + "/material");
+        }
+        if (is_broken(pointer)) return result;
+        result.thickness_nm = object["thickness_nm"].get<double>();
+        result.thickness_sigma_nm = number_or(object, "thickness_sigma_nm", 0);
+        result.coherent = object.value("coherent", true);
+        return result;
+    }
+
+    /// The place of a material in the stack's list, where it is put if it is new.
+    std::size_t material(const json& value, const std::string& pointer) {
+        if (is_broken(pointer)) return 0;
+        const auto [known, is_new] = by_text_.try_emplace(&value, 0);
+        if (is_new) known->second = add(build(value, pointer), pointer);
+        return known->second;
+    }
+
+    std::size_t add(Material built, const std::string& pointer) {
+        std::vector<Material>& all = result_.stack.materials;
+        const std::uint64_t hash = hash_of(built);
+        const auto [first, last] = by_hash_.equal_range(hash);
+        const auto same = std::find_if(
+            first, last, [&](const auto& entry) { return same_physics(all[entry.second], built); });
+        if (same != last) return same->second;
+        by_hash_.emplace(hash, all.size());
+        all.push_back(std::move(built));
+        result_.material_pointers.push_back(pointer);
+        return all.size() - 1;
+    }
+
+    Material build(const json& value, const std::string& pointer) {
+        if (value.is_number()) return constant(value.get<double>(), 0, pointer);
+        if (value.is_string()) return named(value.get<std::string>(), pointer);
+        Material result = from_object(value, pointer);
+        if (value.contains("extrapolate")) result.outside = Outside::clamp;
+        return result;
+    }
+
+    /// A material of the document, of a file or of the library.
+    Material named(const std::string& name, const std::string& pointer) {
+        if (const auto own = named_.find(name); own != named_.end()) return own->second;
+        return is_material_file(name) ? from_file(name, pointer) : built_in(name, pointer);
+    }
+
+    Material from_object(const json& object, const std::string& pointer) {
+        constexpr std::array kModels{"n", "file", "table", "cauchy", "sellmeier", "lorentz_drude"};
+        const bool has_model = std::any_of(kModels.begin(), kModels.end(), [&](const char* model) {
+            return object.contains(model);
+        });
+        if (!has_model) return named(object["name"].get<std::string>(), pointer + "/name");
+        Material result = from_model(object, pointer);
+        if (object.contains("name")) result.name = object["name"].get<std::string>();
+        return result;
+    }
+
+    Material from_model(const json& object, const std::string& pointer) {
+        if (object.contains("n")) {
+            return constant(object["n"].get<double>(), number_or(object, "k", 0), pointer);
+        }
+        if (object.contains("file")) {
+            return from_file(object["file"].get<std::string>(), pointer + "/file");
+        }
+        if (object.contains("table")) {
+            require_increasing(object["table"], pointer + "/table");
+            MaterialFile read = read_table(object["table"], pointer);
+            for (const std::string& note : read.notes)
+                result_.notes.push_back(file_ + ": " + pointer + ": " + note);
+            note_gain(std::get<RefractiveIndex>(read.material.model), pointer);
+            return std::move(read.material);
+        }
+        if (object.contains("cauchy")) {
+            return {pointer, RefractiveIndex{read_cauchy(object["cauchy"])}};
+        }
+        if (object.contains("sellmeier")) {
+            return {pointer, RefractiveIndex{read_sellmeier(object["sellmeier"])}};
+        }
+        return {pointer, read_lorentz_drude(object["lorentz_drude"])};
+    }
+
+    Material constant(double n, double k, const std::string& pointer) {
+        if (k < 0) result_.notes.push_back(file_ + ": " + pointer + ": k < 0 amplifies");
+        Material result{index_text(n, k), {}};
+        auto& index = std::get<RefractiveIndex>(result.model);
+        index.n = Constant{n};
+        index.k = Constant{k};
+        return result;
+    }
+
+    Material built_in(const std::string& name, const std::string& pointer) {
+        if (auto found = find_material(name)) return std::move(found->material);
+        std::vector<std::string> known = library_names_and_aliases();
+        for (const auto& [own, material] : named_) known.push_back(own);
+        report(pointer, "there is no material " + short_text(name) + did_you_mean(name, known));
+        return {name, RefractiveIndex{}};
+    }
+
+    Material from_file(const std::string& path, const std::string& pointer) {
+        const std::filesystem::path place = std::filesystem::path(folder_) / path;
+        if (!is_material_file(place.string())) {
+            report(pointer, "must end in .csv, .txt, .tsv, .dat, .nk, .mat, .yml or .yaml (got \"" +
+                                path + "\")");
+            return {path, RefractiveIndex{}};
+        }
+        try {
+            const MaterialFile& read = files_.read(place.string());
+            for (const std::string& note : read.notes) {
+                result_.notes.push_back(place.string() + ": " + note);
+            }
+            note_gain(std::get<RefractiveIndex>(read.material.model), pointer);
+            return read.material;
+        } catch (const InputError& error) {
+            report(pointer, error.what());
+            return {path, RefractiveIndex{}};
+        }
+    }
+
+    /// A k below 0 is often a table of n - ik.
+    void note_gain(const RefractiveIndex& index, const std::string& pointer) {
+        const auto* k = std::get_if<Table>(&index.k);
+        if (k != nullptr && *std::min_element(k->value.begin(), k->value.end()) < 0)
+            result_.notes.push_back(file_ + ": " + pointer + ": k < 0 amplifies");
+    }
+
+    void require_increasing(const json& rows, const std::string& pointer) {
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            const double before = rows[i - 1][0].get<double>();
+            const double here = rows[i][0].get<double>();
+            if (here > before) continue;
+            report(pointer + "/" + std::to_string(i) + "/0", "must be above the row before it, " +
+                                                                 to_text(before) + " (got " +
+                                                                 to_text(here) + ")");
+        }
+    }
+
+    /// An incident medium whose k is one number is judged here, others at the wavelengths asked
+    /// for.
+    void require_real(std::size_t incident) {
+        if (is_broken("/incident") || result_.stack.materials.empty()) return;
+        const Material& medium = result_.stack.materials[incident];
+        if (!is_constant(medium)) return;
+        const double k = std::get<Constant>(std::get<RefractiveIndex>(medium.model).k).value;
+        if (std::abs(k) >= kTransparentBelow_k)
+            report("/incident", "must neither absorb nor amplify: its k must be below 1e-3 (got " +
+                                    to_text(k) + ")");
+        else if (k != 0)
+            result_.notes.push_back(file_ + ": /incident: " + incident_note(k));
+    }
+
+    const json& document_;
+    const std::string& file_;
+    const std::string& folder_;
+    MaterialFiles& files_;
+    std::set<std::string> broken_;
+    StackDocument result_;
+    std::size_t layers_ = 0;
+    std::map<std::string, Material> named_;
+    std::unordered_map<const json*, std::size_t, JsonHash, JsonEqual> by_text_;
+    std::unordered_multimap<std::uint64_t, std::size_t> by_hash_;
+};
+
+std::string folder_of(const std::string& path) {
+    return std::filesystem::path(path).parent_path().string();
+}
+
+/// Adds NAME=MATERIAL to the document's materials.
+void add_medium(StackSource& source, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw InputError("--material", "",
+                         "must be NAME=MATERIAL, as in H=2.35 (got " + short_text(text) + ")");
+    if (!source.document.is_object()) return;  // said where it is read
+    json& media = source.document["materials"];
+    if (media.is_null()) media = json::object();
+    if (!media.is_object()) return;
+    try {
+        media[text.substr(0, equals)] = value_from_text("material", text.substr(equals + 1));
+    } catch (const InputError& error) {
+        throw InputError("--material " + text, error.where, error.message);
+    }
+}
+
+}  // namespace
+
+std::string incident_note(double k) {
+    return "the incident medium is taken as transparent, its k of up to " + to_text(k) +
+           " left out";
+}
+
+const char* stack_schema_text() {
+    return
+#include "stack_schema.inc"
+        ;
+}
+
+StackSource load_stack(const StackRequest& request) {
+    StackSource source;
+    if (request.stack.find('|') != std::string::npos) {
+        source.file = "\"" + request.stack + "\"";
+        if (!is_well_formed(request.stack)) throw InputError(well_formed(source.file), "", kNoText);
+        source.document = parse_stack_expression(request.stack);
+    } else {
+        std::error_code ignored;
+        if (request.stack != "-" && request.stack.find('.') == std::string::npos &&
+            !std::filesystem::exists(request.stack, ignored))
+            throw InputError("", "",
+                             "there is no file '" + request.stack +
+                                 "', and an expression has a '|' (see --help)");
+        source.file = shown_path(request.stack);
+        source.folder = folder_of(request.stack);
+        source.document = parse_json(read_text(request.stack), source.file);
+    }
+    for (const std::string& text : request.media) add_medium(source, text);
+    for (const std::string& text : request.set) {
+        try {
+            set_value(source.document, text);
+        } catch (const InputError& error) {
+            throw InputError("--set " + error.file, error.where, error.message);
+        }
+    }
+    return source;
+}
+
+namespace {
+
+/// Calls visit(material) for every material of a list of layers and groups.
+void for_each_material(json& layers, const std::function<void(json&)>& visit) {
+    if (!layers.is_array()) return;
+    for (json& element : layers) {
+        if (!element.is_object()) continue;
+        if (element.contains("material")) visit(element["material"]);
+        if (element.contains("layers")) for_each_material(element["layers"], visit);
+    }
+}
+
+}  // namespace
+
+void move_files(json& document, const std::string& from, const std::string& to) {
+    const json own = document.value("materials", json::object());
+    const auto move = [&](json& name) {
+        const std::string path = name.is_string() ? name.get<std::string>() : "";
+        if (!is_material_file(path) || std::filesystem::path(path).is_absolute()) return;
+        const auto place = std::filesystem::absolute(std::filesystem::path(from) / path);
+        name = place.lexically_normal()
+                   .lexically_relative(
+                       std::filesystem::absolute(to.empty() ? "." : to).lexically_normal())
+                   .string();
+    };
+    const auto visit = [&](json& material) {
+        if (material.is_string() && !own.contains(material.get<std::string>())) move(material);
+        if (material.is_object() && material.contains("file")) move(material["file"]);
+    };
+    for (const char* key : {"incident", "substrate"})
+        if (document.contains(key)) visit(document[key]);
+    if (document.contains("layers")) for_each_material(document["layers"], visit);
+    if (own.is_object() && !own.empty())
+        for (json& material : document["materials"]) visit(material);
+}
+
+StackDocument read_stack(const json& document, const std::string& file, const std::string& folder) {
+    MaterialFiles files;
+    return read_stack(document, file, folder, files);
+}
+
+StackDocument read_stack(const json& document, const std::string& file, const std::string& folder,
+                         MaterialFiles& files) {
+    Reader reader(document, file, folder, files);
+    if (!reader.problems.empty()) throw InputError(reader.problems.front());
+    StackDocument result = reader.read();
+    if (!reader.problems.empty()) throw InputError(reader.problems.front());
+    result.file = file;
+    return result;
+}
+
+StackDocument read_stack(const StackRequest& request) {
+    const StackSource source = load_stack(request);
+    return read_stack(source.document, source.file, source.folder);
+}
+
+std::vector<std::string> stack_problems(const json& document, const std::string& file,
+                                        const std::string& folder) {
+    std::vector<std::string> lines;
+    MaterialFiles files;
+    try {
+        Reader reader(document, file, folder, files);
+        reader.read();
+        for (const InputError& problem : reader.problems) lines.emplace_back(problem.what());
+    } catch (const InputError& error) {
+        lines.emplace_back(error.what());
+    }
+    return lines;
+}
+
+std::vector<std::string> validate_stack_file(const std::string& path) {
+    const std::string text = read_text(path);
+    json document;
+    try {
+        document = parse_json(text, shown_path(path));
+    } catch (const InputError& error) {
+        return {error.what()};
+    }
+    return stack_problems(document, shown_path(path), folder_of(path));
+}
+
+}  // namespace irido

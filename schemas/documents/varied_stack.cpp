@@ -1,0 +1,140 @@
+#include "schemas/documents/varied_stack.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <mutex>
+#include <optional>
+
+#include "core/error.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/input_error.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr std::string_view kThickness = "thickness_nm";
+constexpr double kLargestThickness_nm = 1e9;
+
+/// I of "layers.I.rest", of which "rest" stays; nothing for a path of another shape.
+std::optional<std::size_t> take_layer(std::string_view& path) {
+    constexpr std::string_view kLayers = "layers.";
+    if (!path.starts_with(kLayers)) return std::nullopt;
+    const std::string_view rest = path.substr(kLayers.size());
+    const char* const end = rest.data() + rest.size();
+    std::size_t index = 0;
+    const auto [stop, error] = std::from_chars(rest.data(), end, index);
+    if (error != std::errc() || stop == end || *stop != '.') return std::nullopt;
+    path.remove_prefix(static_cast<std::size_t>(stop + 1 - path.data()));
+    return index;
+}
+
+/// A value of which another one is a part would take it away, or put it back.
+void require_apart(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        for (const std::string& other : paths) {
+            if (&path == &other || !is_part_of(path, other)) continue;
+            if (is_part_of(other, path)) throw InputError(path, "", "varies twice");
+            throw InputError(path, "", "is inside of \"" + other + "\", which varies, too");
+        }
+}
+
+}  // namespace
+
+/// What the readings share: to copy a document takes about as long as to check it.
+struct VariedStack::Shared {
+    MaterialFiles files;
+    std::mutex lock;
+    std::vector<nlohmann::json> documents;  ///< with values of the varied paths, not in use
+
+    nlohmann::json take(const nlohmann::json& otherwise) {
+        const std::scoped_lock guard(lock);
+        if (documents.empty()) return otherwise;
+        nlohmann::json document = std::move(documents.back());
+        documents.pop_back();
+        return document;
+    }
+    void give_back(nlohmann::json document) {
+        const std::scoped_lock guard(lock);
+        documents.push_back(std::move(document));
+    }
+};
+
+VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
+    : source_(std::move(source)),
+      paths_(std::move(paths)),
+      shared_(std::make_shared<Shared>()),
+      own_(read_stack(source_.document, source_.file, source_.folder, shared_->files)) {
+    require_apart(paths_);
+    nlohmann::json document = source_.document;
+    for (const std::string& path : paths_) set_value(document, path, nullptr);
+    varies_thickness_only_ = std::ranges::all_of(
+        paths_, [&](const std::string& path) { return layer_at(own_.stack, path) != nullptr; });
+}
+
+StackDocument VariedStack::document(std::span<const nlohmann::json> values) const {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        if (!values[i].is_number()) continue;
+        numbers.push_back(values[i].get<double>());
+        if (is_thickness(paths_[i])) require_thickness(source_.file, paths_[i], numbers.back());
+    }
+    if (!varies_thickness_only_ || numbers.size() < values.size()) return read(values);
+    StackDocument document = own_;
+    set_thicknesses(document.stack, numbers);
+    return document;
+}
+
+Stack VariedStack::at(std::span<const double> values) const {
+    if (!varies_thickness_only_) return read(values).stack;
+    Stack stack = own_.stack;
+    set_thicknesses(stack, values);
+    return stack;
+}
+
+template <class Value>
+StackDocument VariedStack::read(std::span<const Value> values) const {
+    nlohmann::json document = shared_->take(source_.document);
+    for (std::size_t i = 0; i < paths_.size(); ++i) set_value(document, paths_[i], values[i]);
+    StackDocument result = read_stack(document, source_.file, source_.folder, shared_->files);
+    shared_->give_back(std::move(document));  // the next values replace these ones
+    return result;
+}
+
+void VariedStack::set_thicknesses(Stack& stack, std::span<const double> values) const {
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        require_thickness(source_.file, paths_[i], values[i]);
+        layer_at(stack, paths_[i])->thickness_nm = values[i];
+    }
+}
+
+LayerPlace VariedStack::place_of(std::string_view path) {
+    LayerPlace place;
+    while (const auto index = take_layer(path)) place.push_back(*index);
+    return path == kThickness ? place : LayerPlace{};
+}
+
+bool VariedStack::is_thickness(std::string_view path) {
+    return !place_of(path).empty();
+}
+
+Layer* VariedStack::layer_at(Stack& stack, std::string_view path) {
+    std::vector<Element>* elements = &stack.elements;
+    Layer* layer = nullptr;
+    while (const auto index = take_layer(path)) {
+        if (elements == nullptr || *index >= elements->size()) return nullptr;
+        auto& value = (*elements)[*index].value;
+        layer = std::get_if<Layer>(&value);
+        auto* const group = std::get_if<Group>(&value);
+        elements = group == nullptr ? nullptr : &group->elements;
+    }
+    return path == kThickness ? layer : nullptr;
+}
+
+void VariedStack::require_thickness(const std::string& file, const std::string& path,
+                                    double thickness_nm) {
+    if (!(thickness_nm >= 0 && thickness_nm <= kLargestThickness_nm))
+        throw InputError(file, path, "must be in [0, 1e9] (got " + to_text(thickness_nm) + ")");
+}
+
+}  // namespace irido

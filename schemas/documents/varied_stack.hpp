@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "schemas/documents/stack_document.hpp"
+
+namespace irido {
+
+/// A stack some of whose values vary, each named by its dotted path in the document
+/// ("layers.0.thickness_nm").
+class VariedStack {
+public:
+    /// Throws InputError if a path leads nowhere: a last key that is missing is added, as by
+    /// set_value. No path may be there twice or lie inside of another.
+    VariedStack(StackSource source, std::vector<std::string> paths);
+
+    /// The document with those values, one for each path, read and checked. Throws InputError.
+    /// Safe from many threads.
+    StackDocument document(std::span<const nlohmann::json> values) const;
+
+    /// Its stack where all values are numbers.
+    Stack at(std::span<const double> values) const;
+
+    /// True if all paths are thicknesses: materials and structure are then always the same.
+    bool varies_thickness_only() const { return varies_thickness_only_; }
+
+    /// Whether a path has the shape layers.I.thickness_nm or layers.I.layers.J.thickness_nm, to
+    /// any depth.
+    static bool is_thickness(std::string_view path);
+
+    /// The indices I, J, ... of such a path; nothing for one of another shape.
+    static LayerPlace place_of(std::string_view path);
+
+    /// The layer whose thickness a path names; nullptr if the stack has none there.
+    static Layer* layer_at(Stack& stack, std::string_view path);
+
+    /// Throws InputError(file, path, "must be in [0, 1e9] (got X)").
+    static void require_thickness(const std::string& file, const std::string& path,
+                                  double thickness_nm);
+
+private:
+    struct Shared;
+
+    template <class Value>
+    StackDocument read(std::span<const Value> values) const;
+    void set_thicknesses(Stack& stack, std::span<const double> values) const;
+
+    StackSource source_;
+    std::vector<std::string> paths_;
+    std::shared_ptr<Shared> shared_;
+    StackDocument own_;  ///< with the source's own values
+    bool varies_thickness_only_ = false;
+};
+
+}  // namespace irido

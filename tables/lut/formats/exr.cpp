@@ -1,0 +1,365 @@
+// OpenEXR: pictures for renderers and compositors (Mitsuba, pbrt, Blender, oiiotool).
+// - f16 (half) or f32 (float), one part of scan lines, ZIP compression.
+// - 1 channel is Y; 2 are R, G and a B of zeros (three's EXRLoader refuses R and G alone); 3 are R,
+// G,
+//   B, whatever they mean: XYZ too, because readers take channels named X, Y, Z for grey, and the
+//   metadata says what they are; 4 are R, G, B, A. More are blocks of three, R, G, B side by side
+//   along x; the metadata's key `blocks` tells how many.
+// - The last axis is x, the one before y. The first sample is the leftmost column of the topmost
+// row,
+//   which is the file's first line. (three's EXRLoader turns the rows round: its data begin with
+//   the bottom row and flipY is false, so that v = 1 is the first sample.)
+// - A third axis is stacked: its slices lie below each other; the key `stacked` tells how many, if
+//   there are several.
+// - There are no mip levels: a table that has them is refused.
+// - Attributes: `irido.metadata` (JSON), `irido.kind`, `irido.error` (if measured), and
+//   `chromaticities` if the values are colours of an RGB space.
+// - Nothing depends on the time, threads or the machine.
+// Read back are only files as they are written here.
+// Source: OpenEXR 3.1, its C library (the "core" API).
+
+#include <openexr.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "core/colorimetry/space.hpp"
+#include "tables/lut/lut_metadata.hpp"
+#include "tables/lut/lut_texels.hpp"
+#include "tables/lut/lut_values.hpp"
+#include "tables/records/records.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr const char* kMetadata = "irido.metadata";
+constexpr int kZipLevel = 6;
+/// Deflate's, rounded up.
+constexpr std::size_t kZipLargestRatio = 1100;
+
+/// Width, height and the names of the texels' components, in their order.
+struct Picture {
+    std::int32_t width = 0, height = 0;
+    std::vector<const char*> channels;
+};
+
+std::int32_t checked_size(std::size_t size) {
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 64;  // bytes of a row
+    if (size > most) throw LutError("a picture cannot be " + std::to_string(size) + " texels wide");
+    return static_cast<std::int32_t>(size);
+}
+
+/// Throws LutError naming what a picture cannot hold.
+Picture picture_of(const Lut& lut) {
+    if (lut.type == LutType::f64) throw LutError("exr holds f16 and f32, not f64");
+    if (lut.mips) throw LutError("exr has no mip levels, only ktx2, bin and csv have");
+    const auto [blocks, channels] = texel_blocks(lut);
+    Picture picture;
+    picture.width = checked_size(blocks * lut.axes.back().count());
+    std::size_t height = 1;
+    for (std::size_t a = 0; a + 1 < lut.axes.size(); ++a) height *= lut.axes[a].count();
+    picture.height = checked_size(height);
+    if (channels == 1)
+        picture.channels = {"Y"};
+    else
+        picture.channels = {"R", "G", "B"};
+    if (channels == 4) picture.channels.push_back("A");
+    return picture;
+}
+
+std::string metadata_for(const Lut& lut) {
+    nlohmann::json metadata = metadata_of(lut);
+    if (texel_blocks(lut).count > 1) metadata["blocks"] = texel_blocks(lut).count;
+    if (lut.axes.size() == 3 && lut.axes.front().count() > 1)
+        metadata["stacked"] = lut.axes.front().count();
+    return metadata_text(metadata);
+}
+
+// --- the library, on memory -----------------------------------------------------------------
+
+/// An open file in memory, and what the library said last about it.
+struct Stream {
+    std::string_view input;
+    std::string output;
+    std::string message;
+};
+
+Stream& stream_of(exr_const_context_t context) {
+    void* stream = nullptr;
+    exr_get_user_data(context, &stream);
+    return *static_cast<Stream*>(stream);
+}
+
+void keep_message(exr_const_context_t context, exr_result_t /*code*/, const char* text) {
+    if (context) stream_of(context).message = text;
+}
+
+std::int64_t size_of_input(exr_const_context_t /*context*/, void* stream) {
+    return static_cast<std::int64_t>(static_cast<Stream*>(stream)->input.size());
+}
+
+std::int64_t read_input(exr_const_context_t /*context*/, void* stream, void* to, std::uint64_t size,
+                        std::uint64_t offset, exr_stream_error_func_ptr_t /*error*/) {
+    const std::string_view input = static_cast<Stream*>(stream)->input;
+    if (offset > input.size()) return -1;
+    const std::size_t count = std::min<std::uint64_t>(size, input.size() - offset);
+    std::memcpy(to, input.data() + offset, count);
+    return static_cast<std::int64_t>(count);
+}
+
+std::int64_t write_output(exr_const_context_t /*context*/, void* stream, const void* from,
+                          std::uint64_t size, std::uint64_t offset,
+                          exr_stream_error_func_ptr_t /*error*/) {
+    std::string& output = static_cast<Stream*>(stream)->output;
+    output.resize(std::max<std::uint64_t>(output.size(), offset + size));
+    std::memcpy(output.data() + offset, from, size);
+    return static_cast<std::int64_t>(size);
+}
+
+/// A file of the library's; calls throw LutError with its words when they fail.
+class File {
+public:
+    explicit File(std::string_view input) : is_reading_(true) {
+        stream_.input = input;
+        exr_context_initializer_t setup = common_setup();
+        setup.read_fn = read_input;
+        setup.size_fn = size_of_input;
+        setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+        check(exr_start_read(&context_, "table.exr", &setup));
+    }
+    File() {
+        exr_context_initializer_t setup = common_setup();
+        setup.write_fn = write_output;
+        check(exr_start_write(&context_, "table.exr", EXR_WRITE_FILE_DIRECTLY, &setup));
+    }
+    ~File() {
+        if (context_) exr_finish(&context_);
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+
+    operator exr_context_t() const { return context_; }
+    void check(exr_result_t result) const {
+        if (result == EXR_ERR_SUCCESS) return;
+        std::string words = stream_.message;
+        if (words.empty()) words = exr_get_default_error_message(result);
+        throw LutError((is_reading_ ? "this OpenEXR file cannot be read: " : "OpenEXR: ") + words);
+    }
+    /// Closes a file that was written.
+    std::string finish() {
+        check(exr_finish(&context_));
+        return std::move(stream_.output);
+    }
+
+private:
+    exr_context_initializer_t common_setup() {
+        exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+        setup.error_handler_fn = keep_message;
+        setup.user_data = &stream_;
+        return setup;
+    }
+
+    Stream stream_;
+    exr_context_t context_ = nullptr;
+    bool is_reading_ = false;
+};
+
+/// Tells an encoder or a decoder where each channel's numbers are in `rows`, the texels of a chunk.
+template <class Pipeline, class Bytes>
+void aim_channels(Pipeline& pipeline, const Picture& picture, LutType type, Bytes* rows) {
+    const auto component = static_cast<int>(bytes_of(type));
+    const auto texel = component * static_cast<int>(picture.channels.size());
+    for (int c = 0; c < pipeline.channel_count; ++c) {
+        exr_coding_channel_info_t& channel = pipeline.channels[c];
+        const auto name =
+            std::ranges::find(picture.channels, std::string_view(channel.channel_name),
+                              [](const char* n) { return std::string_view(n); });
+        Bytes* first = rows + component * (name - picture.channels.begin());
+        if constexpr (std::is_const_v<Bytes>)
+            channel.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(first);
+        else
+            channel.decode_to_ptr = reinterpret_cast<std::uint8_t*>(first);
+        channel.user_pixel_stride = texel;
+        channel.user_line_stride = texel * picture.width;
+        channel.user_bytes_per_element = static_cast<std::int16_t>(component);
+        channel.user_data_type = channel.data_type;
+    }
+}
+
+struct Encoder {
+    explicit Encoder(const File& file) : context(file) {}
+    ~Encoder() { exr_encoding_destroy(context, &pipeline); }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+
+    exr_context_t context;
+    exr_encode_pipeline_t pipeline{};
+};
+
+struct Decoder {
+    explicit Decoder(const File& file) : context(file) {}
+    ~Decoder() { exr_decoding_destroy(context, &pipeline); }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+
+    exr_context_t context;
+    exr_decode_pipeline_t pipeline{};
+};
+
+std::ptrdiff_t row_bytes(const Picture& picture, LutType type) {
+    return static_cast<std::ptrdiff_t>(bytes_of(type) * picture.channels.size()) * picture.width;
+}
+
+// --- writing --------------------------------------------------------------------------------
+
+void set_text(const File& file, const char* name, const std::string& text) {
+    file.check(exr_attr_set_string(file, 0, name, text.c_str()));
+}
+
+void set_chromaticities(const File& file, const Lut& lut) {
+    const auto found = lut.facts.find("color_space");
+    if (found == lut.facts.end() || *found == "xyz") return;
+    const std::string name = *found;
+    if (std::ranges::find(rgb_space_names(), name) == rgb_space_names().end()) return;
+    const RgbSpace& space = rgb_space(name);
+    const auto& [red, green, blue] = space.primaries;
+    const double sum = space.white[0] + space.white[1] + space.white[2];
+    const auto single = [](double value) { return static_cast<float>(value); };
+    const exr_attr_chromaticities_t chromaticities{single(red.x),
+                                                   single(red.y),
+                                                   single(green.x),
+                                                   single(green.y),
+                                                   single(blue.x),
+                                                   single(blue.y),
+                                                   single(space.white[0] / sum),
+                                                   single(space.white[1] / sum)};
+    file.check(exr_attr_set_chromaticities(file, 0, "chromaticities", &chromaticities));
+}
+
+void set_header(const File& file, const Picture& picture, const Lut& lut) {
+    const std::string metadata = metadata_for(lut);  // checked before any of it is used
+    int part = 0;
+    file.check(exr_add_part(file, "table", EXR_STORAGE_SCANLINE, &part));
+    file.check(exr_initialize_required_attr_simple(file, part, picture.width, picture.height,
+                                                   EXR_COMPRESSION_ZIP));
+    file.check(exr_set_zip_compression_level(file, part, kZipLevel));
+    const exr_pixel_type_t type = lut.type == LutType::f16 ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+    for (const char* channel : picture.channels)
+        file.check(exr_add_channel(file, part, channel, type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+    set_chromaticities(file, lut);
+    set_text(file, "irido.kind", lut.kind);
+    const auto error = lut.facts.find("error");
+    if (error != lut.facts.end() && error->is_object())
+        set_text(file, "irido.error", error->dump());
+    set_text(file, kMetadata, metadata);
+}
+
+std::vector<LutFile> write(const Lut& lut, const LutLayout& layout) {
+    check_plain(layout, "exr");
+    const Picture picture = picture_of(lut);
+    check_values(lut);
+    const std::string texels = texels_of(lut, 0, picture.channels.size());
+    File file;
+    set_header(file, picture, lut);
+    file.check(exr_write_header(file));
+    std::int32_t rows = 0;
+    file.check(exr_get_scanlines_per_chunk(file, 0, &rows));
+    {
+        Encoder encoder(file);
+        for (std::int32_t y = 0; y < picture.height; y += rows) {
+            exr_chunk_info_t chunk{};
+            file.check(exr_write_scanline_chunk_info(file, 0, y, &chunk));
+            file.check(y == 0 ? exr_encoding_initialize(file, 0, &chunk, &encoder.pipeline)
+                              : exr_encoding_update(file, 0, &chunk, &encoder.pipeline));
+            aim_channels(encoder.pipeline, picture, lut.type,
+                         texels.data() + y * row_bytes(picture, lut.type));
+            if (y == 0)
+                file.check(exr_encoding_choose_default_routines(file, 0, &encoder.pipeline));
+            file.check(exr_encoding_run(file, 0, &encoder.pipeline));
+        }
+    }
+    std::vector<LutFile> files;
+    std::string bytes = file.finish();
+    files.push_back({"", std::move(bytes)});
+    return files;
+}
+
+// --- reading --------------------------------------------------------------------------------
+
+std::string metadata_in(const File& file) {
+    std::int32_t length = 0;
+    const char* text = nullptr;
+    if (exr_attr_get_string(file, 0, kMetadata, &length, &text) != EXR_ERR_SUCCESS)
+        throw LutError(std::string("this picture was not made by irido: it has no ") + kMetadata);
+    return {text, static_cast<std::size_t>(length)};
+}
+
+/// Throws LutError if the header is not that of the table's picture.
+void check_header(const File& file, const Picture& picture, LutType type) {
+    int parts = 0;
+    exr_storage_t storage{};
+    exr_compression_t compression{};
+    exr_attr_box2i_t window{};
+    const exr_attr_chlist_t* channels = nullptr;
+    file.check(exr_get_count(file, &parts));
+    file.check(exr_get_storage(file, 0, &storage));
+    file.check(exr_get_compression(file, 0, &compression));
+    file.check(exr_get_data_window(file, 0, &window));
+    file.check(exr_get_channels(file, 0, &channels));
+    bool is_ours = parts == 1 && storage == EXR_STORAGE_SCANLINE &&
+                   compression == EXR_COMPRESSION_ZIP && window.min.x == 0 && window.min.y == 0 &&
+                   window.max.x == picture.width - 1 && window.max.y == picture.height - 1 &&
+                   channels->num_channels == static_cast<int>(picture.channels.size());
+    std::vector<std::string_view> names(picture.channels.begin(), picture.channels.end());
+    std::ranges::sort(names);
+    for (std::size_t c = 0; is_ours && c < names.size(); ++c) {
+        const exr_attr_chlist_entry_t& channel = channels->entries[c];
+        is_ours = std::string_view(channel.name.str) == names[c] && channel.x_sampling == 1 &&
+                  channel.y_sampling == 1 &&
+                  channel.pixel_type == (type == LutType::f16 ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT);
+    }
+    if (!is_ours) throw LutError("the header is not that of a picture of its metadata");
+}
+
+Lut read(std::string_view bytes, std::string_view /*companion*/) {
+    const File file(bytes);
+    Lut lut = lut_from_metadata(metadata_in(file));
+    const Picture picture = picture_of(lut);
+    check_header(file, picture, lut.type);
+    const auto size = static_cast<std::size_t>(row_bytes(picture, lut.type)) *
+                      static_cast<std::size_t>(picture.height);
+    if (size / kZipLargestRatio > bytes.size())
+        throw LutError("the file is truncated: " + std::to_string(bytes.size()) +
+                       " bytes cannot hold " + std::to_string(size));
+    std::string texels(size, '\0');
+    std::int32_t rows = 0;
+    file.check(exr_get_scanlines_per_chunk(file, 0, &rows));
+    Decoder decoder(file);
+    for (std::int32_t y = 0; y < picture.height; y += rows) {
+        exr_chunk_info_t chunk{};
+        file.check(exr_read_scanline_chunk_info(file, 0, y, &chunk));
+        file.check(y == 0 ? exr_decoding_initialize(file, 0, &chunk, &decoder.pipeline)
+                          : exr_decoding_update(file, 0, &chunk, &decoder.pipeline));
+        aim_channels(decoder.pipeline, picture, lut.type,
+                     texels.data() + y * row_bytes(picture, lut.type));
+        if (y == 0) file.check(exr_decoding_choose_default_routines(file, 0, &decoder.pipeline));
+        file.check(exr_decoding_run(file, 0, &decoder.pipeline));
+    }
+    append_values(lut, 0, picture.channels.size(), texels);
+    return lut;
+}
+
+}  // namespace
+
+extern const LutFormat lut_format_exr{
+    .name = "exr",
+    .summary = "OpenEXR picture for renderers and compositors, f16 or f32",
+    .write = write,
+    .read = read,
+};
+
+}  // namespace irido

@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "core/coherent/coherent.hpp"
+#include "core/color/stack_color.hpp"
+#include "core/error.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/documents/varied_stack.hpp"
+#include "tables/lut/color_values.hpp"
+#include "tables/lut/lut_kind.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Every combination of one sample of each axis, the last axis fastest.
+void for_each_combination(std::span<const LutAxis> axes,
+                          const std::function<void(const std::vector<double>&)>& visit) {
+    std::vector<std::size_t> place(axes.size());
+    std::vector<double> values(axes.size());
+    for (bool more = true; more;) {
+        for (std::size_t a = 0; a < axes.size(); ++a) values[a] = axes[a].values[place[a]];
+        visit(values);
+        more = false;
+        for (std::size_t a = axes.size(); a-- > 0 && !more;) {
+            more = ++place[a] < axes[a].count();
+            if (!more) place[a] = 0;
+        }
+    }
+}
+
+std::string path_of_spread(const LutRequest& request) {
+    const std::string thickness = "thickness_nm";
+    std::string path = request.vary.empty() ? std::string() : request.vary.front().path;
+    if (!path.ends_with(thickness))
+        throw DomainError("a spread needs a thickness as the first value that varies");
+    return path.replace(path.size() - thickness.size(), thickness.size(), "thickness_sigma_nm");
+}
+
+/// The colours of a stack with some values free, at angles given by their cosine or in degrees.
+/// Axes: the spread of the first value if asked for, the angle, the values.
+class ColorFunction {
+public:
+    ColorFunction(const LutRequest& request, std::size_t colors, bool by_cosine)
+        : tables_(std::make_shared<ColorTables>(*request.sensitivity)),
+          color_(request.color),
+          values_(request),
+          by_cosine_(by_cosine) {
+        color_.colors = colors;
+        const std::vector<double> sigmas =
+            request.has("sigma") ? request.list("sigma") : std::vector{0.0};
+        for (const double sigma : sigmas) add_level(request, sigma);
+    }
+
+    std::vector<double> operator()(const std::vector<LutAxis>& axes) const {
+        const bool has_spread = levels_.size() > 1;
+        if (!has_spread) return level_colors(levels_.front(), axes);
+        std::vector<double> all;
+        for (const double sigma : axes.front().values) {
+            const Level& level = *std::ranges::find(levels_, sigma, &Level::sigma);
+            const std::vector<double> values = level_colors(level, std::span(axes).subspan(1));
+            all.insert(all.end(), values.begin(), values.end());
+        }
+        return all;
+    }
+
+private:
+    struct Level {
+        double sigma = 0;
+        std::shared_ptr<const VariedStack> stack;
+        std::shared_ptr<const ColorAlgorithm> algorithm;  ///< none if materials or structure vary
+    };
+
+    void add_level(const LutRequest& request, double sigma) {
+        StackSource source = request.source;
+        if (sigma != 0) set_value(source.document, path_of_spread(request), sigma);
+        std::vector<double> first, last;
+        for (const VariedValue& vary : request.vary) {
+            first.push_back(vary.values.front());
+            last.push_back(vary.values.back());
+        }
+        Level level{sigma, std::make_shared<VariedStack>(std::move(source), paths_of(request.vary)),
+                    nullptr};
+        level.stack->at(last);  // or it throws, and not later
+        const Stack stack = level.stack->at(first);
+        if (level.stack->varies_thickness_only())
+            level.algorithm = color_algorithm(*tables_, stack, {}, color_);
+        levels_.push_back(std::move(level));
+    }
+
+    /// A colour that is not known well enough for any table has no place in one.
+    static void require_known(const StackColor& color, double angle_deg) {
+        constexpr double worst = 1e-4;
+        if (!(color.error <= worst))
+            throw DomainError("the colour at " + to_text(angle_deg) + " degrees is known to " +
+                              to_text(color.error) + " only, a table needs " + to_text(worst));
+    }
+
+    /// [angle][values][channel]
+    std::vector<double> level_colors(const Level& level, std::span<const LutAxis> axes) const {
+        std::vector<double> angles_deg;
+        for (const double x : axes.front().values)
+            angles_deg.push_back(by_cosine_ ? angle_of_cosine(x) : x);
+        std::size_t combinations = 1, combination = 0;
+        for (const LutAxis& axis : axes.subspan(1)) combinations *= axis.count();
+        std::vector<double> values(angles_deg.size() * combinations * 3);
+        std::vector<StackColor> colors(angles_deg.size());
+        for_each_combination(axes.subspan(1), [&](const std::vector<double>& varied) {
+            const Stack stack = level.stack->at(varied);
+            if (level.algorithm)
+                (*level.algorithm)(stack, angles_deg, colors);
+            else
+                (*color_algorithm(*tables_, stack, {}, color_))(stack, angles_deg, colors);
+            for (std::size_t i = 0; i < colors.size(); ++i) {
+                require_known(colors[i], angles_deg[i]);
+                const Triple value = values_(colors[i].xyz);
+                const std::size_t to = (i * combinations + combination) * 3;
+                std::ranges::copy(value, values.begin() + static_cast<std::ptrdiff_t>(to));
+            }
+            ++combination;
+        });
+        return values;
+    }
+
+    std::shared_ptr<const ColorTables> tables_;
+    std::vector<Level> levels_;
+    ColorRequest color_;
+    ColorValues values_;
+    bool by_cosine_;
+};
+
+LutPlan plan(const LutRequest& request) {
+    const bool by_cosine = !request.has("theta");
+    LutPlan result;
+    if (request.has("sigma") &&
+        !std::ranges::is_sorted(request.list("sigma"), std::ranges::less_equal()))
+        throw DomainError("the spreads must ascend");
+    if (request.has("sigma") && request.list("sigma").size() > 1) {
+        if (request.vary.size() > 1)
+            throw DomainError("a table has a spread or a second value that varies, not both");
+        result.axes.push_back({{"thickness_sigma_nm", "nm", request.list("sigma")}, true});
+        result.mips = true;
+    }
+    result.axes.push_back(by_cosine ? AxisPlan{{"cos_theta", "", request.list("cos")}}
+                                    : AxisPlan{{"theta_deg", "deg", request.list("theta")}});
+    for (const VariedValue& vary : request.vary) {
+        result.axes.push_back({{vary.path, unit_of_path(vary.path), vary.values}});
+        result.axes.back().may_end_early = vary.path.ends_with("thickness_nm");
+        result.axes.back().end_reason = "no fringes are left";
+    }
+    result.split_axis = result.axes.size() - 1;
+    std::size_t colors = 1;
+    for (AxisPlan& axis : result.axes) {
+        axis.fixed = axis.fixed || !axis.axis.is_linear();
+        colors *= axis.axis.count();
+    }
+    result.channels = color_channels(request);
+    result.evaluate = ColorFunction(request, colors, by_cosine);
+    result.measure = color_measure(request);
+    result.facts = color_facts(request);
+    return result;
+}
+
+}  // namespace
+
+extern const LutKind lut_kind_color = {
+    .name = "color",
+    .summary = "Colour of a stack over the angle and up to two values of it.",
+    .axes = "cos_theta or theta_deg, the varied values",
+    .notes =
+        "Linear RGB of --space, unclamped, or X, Y, Z with --space xyz. Without --vary the\n"
+        "table has the angle alone. The error is CIEDE2000 under the white.",
+    .examples = {"color \"air | 1.33@400 | 1.9+1.5i\" --vary layers.0.thickness_nm=0:1000/512 "
+                 "-o film.ktx2 --dtype f16",
+                 "color mirror.json --vary layers.0.layers.0.thickness_nm=80:120/64 "
+                 "--tolerance 0.1 -o m.exr"},
+    .stack = true,
+    .light = true,
+    .color = true,
+    .vary = true,
+    .options = {{.name = "cos",
+                 .type = LutOption::Type::list,
+                 .help = "cosines of the angles of incidence, [0, 1] [0:1/64]",
+                 .fallback = "0:1/64",
+                 .lowest = 0,
+                 .highest = 1},
+                {.name = "theta",
+                 .type = LutOption::Type::list,
+                 .help = "the angles themselves instead, degrees, [0, 90]",
+                 .lowest = 0,
+                 .highest = kLargestAngle_deg},
+                {.name = "sigma",
+                 .type = LutOption::Type::list,
+                 .help = "standard deviations of the first value that varies, a thickness, nm,\n"
+                         "ascending: a first axis, in KTX2 files mip levels",
+                 .lowest = 0,
+                 .highest = 1e9}},
+    .plan = plan,
+    .problems = color_problems,
+};
+
+}  // namespace irido

@@ -1,0 +1,164 @@
+#include "tables/lut/lut_metadata.hpp"
+
+#include <array>
+
+#include "schemas/documents/json_document.hpp"
+#include "schemas/documents/schema_check.hpp"
+#include "schemas/input_error.hpp"
+#include "tables/files/hash.hpp"
+#include "tables/lut/lut_values.hpp"
+#include "tables/version.hpp"
+
+namespace irido {
+
+namespace {
+
+using nlohmann::json;
+
+/// Keys that follow from the table or from a file's layout, not from the facts.
+constexpr std::array kDerivedKeys{"kind", "axes", "channels", "dtype", "mips", "blocks", "stacked"};
+
+constexpr const char* kMetadataChecksum = "metadata_checksum";
+
+/// One line, keys sorted.
+std::string dumped(const json& metadata) {
+    return metadata.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+LutAxis axis_from(const json& metadata) {
+    LutAxis axis;
+    axis.name = metadata["name"];
+    axis.unit = metadata["unit"];
+    const double first = metadata["first"], last = metadata["last"];
+    const std::size_t count = metadata["count"];
+    const bool has_values = metadata.contains("values");
+    if (has_values != (metadata["mapping"] == "list"))
+        throw LutError("metadata: axis " + axis.name +
+                       " has values if it is a list, and only then");
+    if (has_values)
+        axis.values = metadata["values"].get<std::vector<double>>();
+    else
+        axis.values = equally_spaced(first, last, count);
+    if (axis.count() != count || axis.values.front() != first || axis.values.back() != last)
+        throw LutError("metadata: first, last and count of axis " + axis.name +
+                       " are not those of its values");
+    return axis;
+}
+
+LutType type_from(const std::string& name) {
+    return name == "f16" ? LutType::f16 : name == "f32" ? LutType::f32 : LutType::f64;
+}
+
+void check_metadata(const json& metadata) {
+    static const Schema schema(json::parse(lut_schema_text()));
+    const std::vector<Problem> problems = check(schema, metadata);
+    if (problems.empty()) return;
+    const Problem& first = problems.front();
+    throw LutError("metadata: " + first.pointer + (first.pointer.empty() ? "" : ": ") +
+                   first.message);
+}
+
+json parsed_metadata(std::string_view text) {
+    json metadata;
+    try {
+        metadata = parse_json(text, "metadata");
+    } catch (const InputError& error) {
+        throw LutError(error.what());
+    }
+    check_metadata(metadata);
+    return metadata;
+}
+
+}  // namespace
+
+const char* lut_schema_text() {
+    return
+#include "lut_schema.inc"
+        ;
+}
+
+json axis_metadata(const LutAxis& axis) {
+    json metadata{{"name", axis.name},
+                  {"unit", axis.unit},
+                  {"first", axis.values.front()},
+                  {"last", axis.values.back()},
+                  {"count", axis.count()},
+                  {"mapping", axis.is_linear() ? "linear" : "list"}};
+    if (!axis.is_linear()) metadata["values"] = axis.values;
+    return metadata;
+}
+
+json metadata_of(const Lut& lut) {
+    check_shape(lut);
+    json metadata = lut.facts.is_object() ? lut.facts : json::object();
+    const Build& build = this_build();
+    if (metadata.emplace("irido", build.version).second && !build.commit.empty())
+        metadata["commit"] = build.commit;
+    metadata.emplace("error", nullptr);
+    metadata.emplace("notes", json::array());
+    metadata["kind"] = lut.kind;
+    metadata["axes"] = json::array();
+    for (const LutAxis& axis : lut.axes) metadata["axes"].push_back(axis_metadata(axis));
+    metadata["channels"] = lut.channels;
+    metadata["dtype"] = name_of(lut.type);
+    if (lut.mips) metadata["mips"] = true;
+    metadata["checksum"] = checksum_of(lut);
+    metadata.erase(kMetadataChecksum);
+    metadata[kMetadataChecksum] = "sha256:" + sha256_of(dumped(metadata));
+    return metadata;
+}
+
+std::string metadata_text(const json& metadata) {
+    std::string text = dumped(metadata);
+    parsed_metadata(text);  // what is written can be read
+    return text;
+}
+
+std::string metadata_text(const Lut& lut) {
+    return metadata_text(metadata_of(lut));
+}
+
+Lut lut_from_metadata(std::string_view text) {
+    json metadata = parsed_metadata(text);
+    Lut lut;
+    lut.kind = metadata["kind"];
+    for (const json& axis : metadata["axes"]) {
+        LutAxis read = axis_from(axis);
+        lut.axes.push_back(std::move(read));
+    }
+    lut.channels = metadata["channels"].get<std::vector<std::string>>();
+    lut.mips = metadata.value("mips", false);
+    lut.type = type_from(metadata["dtype"]);
+    for (const char* key : kDerivedKeys) metadata.erase(key);
+    lut.facts = std::move(metadata);
+    try {
+        check_shape(lut);
+    } catch (const LutError& error) {
+        throw LutError(std::string("metadata: ") + error.what());
+    }
+    return lut;
+}
+
+std::string checksum_of(const Lut& lut) {
+    return "sha256:" + sha256_of(value_bytes(lut));
+}
+
+LutFile companion_of(const Lut& lut) {
+    std::string text = metadata_text(lut) + "\n";
+    return {".json", std::move(text)};
+}
+
+Lut lut_from_companion(std::string_view bytes) {
+    if (bytes.empty())
+        throw LutError(
+            "its companion with the metadata, the same name with .json added, is missing");
+    return lut_from_metadata(bytes);
+}
+
+void check_plain(const LutLayout& layout, std::string_view format) {
+    if (layout.zstd)
+        throw LutError(std::string(format) + " has no Zstandard compression, only ktx2 has");
+    if (layout.layers) throw LutError(std::string(format) + " has no array layers, only ktx2 has");
+}
+
+}  // namespace irido

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "tables/lut/lut_format.hpp"
+
+namespace irido {
+
+/// schemas/lut.schema.json.
+const char* lut_schema_text();
+
+/// name, unit, first, last, count, mapping, and the values of a list.
+nlohmann::json axis_metadata(const LutAxis& axis);
+
+/// Metadata as text: one line, keys sorted. Throws LutError if lut.schema.json forbids it.
+std::string metadata_text(const nlohmann::json& metadata);
+
+/// FILE.json beside FILE: the metadata and a line feed.
+LutFile companion_of(const Lut& lut);
+
+/// A table without values from a companion's bytes. Throws LutError, also if they are missing.
+Lut lut_from_companion(std::string_view bytes);
+
+/// Throws LutError if a format other than ktx2 is asked for a layout that only ktx2 has.
+void check_plain(const LutLayout& layout, std::string_view format);
+
+}  // namespace irido

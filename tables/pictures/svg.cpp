@@ -1,0 +1,37 @@
+#include "tables/pictures/svg.hpp"
+
+#include "schemas/readers/utf8.hpp"
+#include "tables/records/records.hpp"
+
+namespace irido {
+
+std::string svg_number(double value) {
+    std::string text;
+    append_number(text, value);
+    return text;
+}
+
+std::string svg_escaped(const std::string& text) {
+    std::string out;
+    for (const char c : well_formed(text)) {
+        if (c == '&') {
+            out += "&amp;";
+        } else if (c == '<') {
+            out += "&lt;";
+        } else if (c == '>') {  // "]]>" is no text of XML
+            out += "&gt;";
+        } else if (c == '"') {
+            out += "&quot;";
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
+std::string svg_text(double x, double y, const std::string& anchor, const std::string& text) {
+    return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" text-anchor=\"" + anchor +
+           "\">" + svg_escaped(text) + "</text>\n";
+}
+
+}  // namespace irido

@@ -1,0 +1,93 @@
+#include "tables/records/records.hpp"
+
+#include <array>
+#include <charconv>
+
+#include "tables/records/csv.hpp"
+#include "tables/records/json.hpp"
+#include "tables/records/npy.hpp"
+
+namespace irido {
+
+std::size_t Records::rows() const {
+    if (columns.empty()) return 0;
+    return std::visit([](const auto& values) { return values.size(); }, columns.front().values);
+}
+
+namespace {
+
+template <class Value>
+void append_values(std::vector<Value>& to, const std::vector<Value>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+}
+
+template <class Value>
+void append_values(Column::Coded<Value>& to, const Column::Coded<Value>& more) {
+    const auto offset = static_cast<std::uint32_t>(to.values.size());
+    append_values(to.values, more.values);
+    for (const std::uint32_t code : more.codes) to.codes.push_back(offset + code);
+}
+
+}  // namespace
+
+void Records::append(Records more) {
+    if (columns.empty()) {
+        *this = std::move(more);
+        return;
+    }
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        std::visit(
+            [&](auto& values) {
+                using Values = std::remove_cvref_t<decltype(values)>;
+                append_values(values, std::get<Values>(more.columns[c].values));
+            },
+            columns[c].values);
+}
+
+const RecordFormat* find_record_format(std::string_view name) {
+    static constexpr std::array formats{
+        RecordFormat{"csv", "one line a record, names in the first", write_csv},
+        RecordFormat{"json", "array of objects with the CSV's names", write_json},
+        RecordFormat{"npy", "NumPy structured array with the CSV's names", write_npy},
+    };
+    for (const RecordFormat& format : formats)
+        if (format.name == name) return &format;
+    return nullptr;
+}
+
+void append_number(std::string& out, double value) {
+    std::array<char, 32> buffer;
+    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    out.append(buffer.data(), result.ptr);
+}
+
+RowWriter::RowWriter(const Records& records, AppendText append_text) : append_text_(append_text) {
+    for (const Column& column : records.columns) {
+        Source source{&column, {}, nullptr};
+        if (const auto* numbers = std::get_if<Column::CodedNumbers>(&column.values)) {
+            for (const double value : numbers->values)
+                append_number(source.coded.emplace_back(), value);
+            source.codes = &numbers->codes;
+        } else if (const auto* texts = std::get_if<Column::CodedTexts>(&column.values)) {
+            for (const std::string& value : texts->values)
+                append_text(source.coded.emplace_back(), value);
+            source.codes = &texts->codes;
+        }
+        sources_.push_back(std::move(source));
+    }
+}
+
+void RowWriter::append(std::string& out, std::size_t column, std::size_t row) const {
+    const Source& source = sources_[column];
+    if (source.codes) {
+        out += source.coded[(*source.codes)[row]];
+    } else if (const auto* numbers = std::get_if<Column::Numbers>(&source.column->values)) {
+        append_number(out, (*numbers)[row]);
+    } else if (const auto* texts = std::get_if<Column::Texts>(&source.column->values)) {
+        append_text_(out, (*texts)[row]);
+    } else {
+        out += std::get<Column::Flags>(source.column->values)[row] ? "true" : "false";
+    }
+}
+
+}  // namespace irido

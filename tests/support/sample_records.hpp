@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tables/records/stream_format.hpp"
+
+namespace irido::test {
+
+/// Columns of every kind, and names and texts of which no format can do without quoting.
+RecordLayout sample_layout();
+
+/// Rows first, first + 1, ... of an endless sample.
+Records sample_rows(std::uint64_t first, std::uint64_t count);
+
+/// The formats of a stream.
+const std::vector<const StreamFormat*>& stream_formats();
+
+/// One dataset of an HDF5 file: its values as texts.
+struct H5Column {
+    std::string name, type;
+    std::vector<std::string> values;
+};
+
+/// The datasets in the order in which they were made, and what is odd about the file: a time, a
+/// dataset that is not contiguous.
+struct H5Content {
+    std::vector<H5Column> columns;
+    std::vector<std::string> faults;
+};
+H5Content read_h5(const std::string& path);
+
+}  // namespace irido::test

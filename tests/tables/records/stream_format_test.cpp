@@ -1,0 +1,183 @@
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <random>
+#include <stdexcept>
+
+#include "tables/files/atomic_file.hpp"
+#include "tables/records/csv.hpp"
+#include "tables/records/json.hpp"
+#include "tables/records/npy.hpp"
+#include "tables/records/packed_rows.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/sample_records.hpp"
+
+using namespace irido;
+using namespace irido::test;
+using Catch::Contains;
+using Catch::StartsWith;
+
+namespace {
+
+/// A stream of that many rows, cut at random.
+std::string streamed(const StreamFormat& format, std::uint64_t rows, unsigned seed) {
+    std::mt19937 random(seed);
+    const RecordLayout layout = sample_layout();
+    std::string out = format.head(layout, rows);
+    bool has_rows = false;
+    for (std::uint64_t done = 0; done < rows;) {
+        const std::uint64_t count = std::min<std::uint64_t>(random() % 9, rows - done);
+        const std::string block = format.rows(layout, sample_rows(done, count));
+        if (has_rows && !block.empty()) out += format.separator;
+        has_rows |= !block.empty();
+        out += block;
+        done += count;
+    }
+    return out.append(format.tail);
+}
+
+std::string as_h5(const TemporaryFolder& folder, const std::string& packed, std::uint64_t rows) {
+    const StreamFormat& h5 = *find_stream_format("h5");
+    write_text(folder / "part", packed);
+    h5.finish(sample_layout(), rows, folder / "part", folder / "out.h5");
+    return folder / "out.h5";
+}
+
+}  // namespace
+
+TEST_CASE("blocks of a stream make the file that is written at once", "[tables][stream]") {
+    for (const std::uint64_t rows : {0, 1, 2, 7, 100})
+        for (const unsigned seed : {1U, 2U, 3U}) {
+            const Records all = sample_rows(0, rows);
+            CHECK(streamed(*find_stream_format("csv"), rows, seed) == write_csv(all));
+            CHECK(streamed(*find_stream_format("json"), rows, seed) == write_json(all));
+            for (const char* const name : {"npy", "h5"}) {
+                const StreamFormat& format = *find_stream_format(name);
+                CHECK(streamed(format, rows, seed) ==
+                      format.head(sample_layout(), rows) + format.rows(sample_layout(), all));
+            }
+        }
+    CHECK(find_stream_format("svg") == nullptr);
+}
+
+TEST_CASE("the head of an npy stream has one length for any number of rows", "[tables][stream]") {
+    const StreamFormat& npy = *find_stream_format("npy");
+    const std::size_t length = npy.head(sample_layout(), 0).size();
+    CHECK(length % 64 == 0);
+    for (const std::uint64_t rows : {1ULL, 99999ULL, 100000000ULL, ~0ULL}) {
+        const std::string head = npy.head(sample_layout(), rows);
+        CHECK(head.size() == length);
+        CHECK(head.substr(0, 8) == std::string("\x93NUMPY\x01\x00", 8));
+        CHECK(static_cast<unsigned char>(head[8]) + 256U * static_cast<unsigned char>(head[9]) ==
+              length - 10);
+        CHECK_THAT(head, Contains("'shape': (" + std::to_string(rows) + ",), }"));
+        CHECK(head.back() == '\n');
+    }
+    CHECK_THAT(npy.head(sample_layout(), 5),
+               Contains(R"([('angle, degrees', '<f8'), ('it\'s', '<U12'), ('is_good', '|b1'), )"
+                        R"(('\U000003bb_nm', '<f8'), ('kind', '<U11'), ('layers.0.n', '<f8'), ])"));
+}
+
+TEST_CASE("NumPy reads an npy stream, and one of very many columns", "[tables][stream]") {
+    const TemporaryFolder folder;
+    write_text(folder / "rows.npy", streamed(*find_stream_format("npy"), 50, 1));
+    write_text(folder / "rows.json", streamed(*find_stream_format("json"), 50, 2));
+    const Outcome read = run_shell(
+        "/usr/bin/python3 -c 'import numpy, json\n"
+        "a = numpy.load(\"rows.npy\")\n"
+        "b = json.load(open(\"rows.json\", encoding=\"utf-8\"))\n"
+        "print([dict(zip(a.dtype.names, row.tolist())) for row in a] == b, len(b))'",
+        folder.path());
+    INFO(read.err);
+    CHECK(read.out == "True 50\n");
+    RecordLayout wide;
+    for (int i = 0; i < 3000; ++i)
+        wide.push_back({"column-" + std::to_string(i), RecordField::Type::number, 0});
+    const std::string head = find_stream_format("npy")->head(wide, 0);
+    CHECK(head.size() > 0xFFFF);
+    write_text(folder / "wide.npy", head);
+    const Outcome many = run_shell(
+        "/usr/bin/python3 -c 'import numpy\n"
+        "a = numpy.load(\"wide.npy\", max_header_size=10**6)\n"
+        "print(a.shape, len(a.dtype.names))' 2> /dev/null",
+        folder.path());
+    CHECK(many.out == "(0,) 3000\n");
+}
+
+TEST_CASE("records that their layout does not allow are refused", "[tables][stream]") {
+    const RecordLayout layout = sample_layout();
+    for (const StreamFormat* const format : stream_formats()) {
+        INFO(format->name);
+        Records records = sample_rows(0, 20);
+        std::get<Column::Texts>(records.columns[1].values)[3] = "thirteen char";
+        CHECK_THROWS_AS(format->rows(layout, records), std::logic_error);
+        std::get<Column::Texts>(records.columns[1].values)[3] = "twelve chars";
+        CHECK_NOTHROW(format->rows(layout, records));
+        std::get<Column::CodedTexts>(records.columns[4].values).values[0] = "twelve chars";
+        CHECK_THROWS_AS(format->rows(layout, records), std::logic_error);
+        records = sample_rows(0, 20);
+        std::swap(records.columns[0].values, records.columns[2].values);
+        CHECK_THROWS_AS(format->rows(layout, records), std::logic_error);
+        records = sample_rows(0, 20);
+        records.columns[0].name = "angle";
+        CHECK_THROWS_AS(format->rows(layout, records), std::logic_error);
+        records.columns.pop_back();
+        CHECK_THROWS_AS(format->rows(layout, records), std::logic_error);
+    }
+}
+
+TEST_CASE("texts of UTF-8 become code points, others are refused", "[tables][stream]") {
+    CHECK(code_points("a\xc3\xa9\xe6\xb3\xa1\xf0\x9f\xab\xa7") == U"a\u00e9\u6ce1\U0001FAE7");
+    CHECK(code_points("\xf4\x8f\xbf\xbf\xed\x9f\xbf") == U"\U0010FFFF\ud7ff");
+    // torn, overlong, a surrogate, too large, a lone continuation
+    for (const char* const text : {"\xc3", "\xe6\xb3", "\xf0\x9f\xab", "\xc3(", "\xc0\xaf",
+                                   "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\x80"})
+        CHECK_THROWS_AS(code_points(text), std::invalid_argument);
+}
+
+TEST_CASE("an HDF5 stream has one dataset a column with the CSV's values", "[tables][stream]") {
+    const TemporaryFolder folder;
+    for (const std::uint64_t rows : {0, 1, 50}) {
+        INFO(rows);
+        const H5Content content =
+            read_h5(as_h5(folder, streamed(*find_stream_format("h5"), rows, 5), rows));
+        CHECK(content.faults.empty());
+        const Records all = sample_rows(0, rows);
+        const RowWriter writer(all, [](std::string& out, const std::string& text) { out += text; });
+        REQUIRE(content.columns.size() == all.columns.size());
+        for (std::size_t c = 0; c < all.columns.size(); ++c) {
+            CHECK(content.columns[c].name == all.columns[c].name);
+            REQUIRE(content.columns[c].values.size() == rows);
+            for (std::size_t row = 0; row < rows; ++row) {
+                std::string wanted;
+                writer.append(wanted, c, row);
+                if (content.columns[c].type == "enum of 2, bytes 1")
+                    wanted = wanted == "true" ? "TRUE" : "FALSE";
+                CHECK(content.columns[c].values[row] == wanted);
+            }
+        }
+        std::vector<std::string> types;
+        for (const H5Column& column : content.columns) types.push_back(column.type);
+        CHECK(types == std::vector<std::string>{"float64", "UTF-8 in 12", "enum of 2, bytes 1",
+                                                "float64", "UTF-8 in 11", "float64"});
+    }
+}
+
+TEST_CASE("an HDF5 stream of more rows than a buffer holds", "[tables][stream]") {
+    const TemporaryFolder folder;
+    const StreamFormat& h5 = *find_stream_format("h5");
+    constexpr std::uint64_t rows = 120000;  // 48 bytes each: more than 4 MiB
+    const Records all = sample_rows(0, rows);
+    const H5Content content = read_h5(as_h5(folder, h5.rows(sample_layout(), all), rows));
+    const auto& sines = std::get<Column::Numbers>(all.columns[5].values);
+    std::size_t wrong = 0;
+    for (std::size_t row = 0; row < rows; ++row)
+        if (std::stod(content.columns[5].values[row]) != sines[row]) ++wrong;
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("HDF5 refuses names that it cannot have, before the first row", "[tables][stream]") {
+    const StreamFormat& h5 = *find_stream_format("h5");
+    for (const char* const name : {"", ".", "R/T"})
+        CHECK_THROWS_WITH(h5.head({{name, RecordField::Type::number, 0}}, 0),
+                          StartsWith("h5: a column cannot be named"));
+}
