@@ -1,9 +1,9 @@
 #include <new>
 
-#include "cli/command.hpp"
-#include "cli/command_line.hpp"
+#include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/queries/question.hpp"
+#include "cli/options/command.hpp"
+#include "cli/options/command_line.hpp"
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/files/atomic_file.hpp"
@@ -13,14 +13,12 @@ namespace {
 
 using namespace irido;
 
-constexpr int kCheckFailed = 1, kUsageOrInput = 2;
-
 std::string version_text() {
     return "irido " + to_text(this_build()) + ", " + IRIDO_COMPILER + ", SIMD " +
            std::string(name_of(execution_of().simd));
 }
 
-int fail(const std::string& text, int status = kUsageOrInput) {
+int fail(const std::string& text, int status = kBadInput) {
     print_error(text);
     return status;
 }

@@ -86,6 +86,15 @@ std::string message_line(std::string_view text) {
     return line.substr(0, head).append(gap).append(line, tail);
 }
 
+std::string joined(const std::vector<std::string>& words, std::string_view separator) {
+    std::string text;
+    for (const std::string& word : words) {
+        if (!text.empty()) text += separator;
+        text += word;
+    }
+    return text;
+}
+
 void print_error(std::string_view text) {
     std::cerr << "irido: error: " << message_line(text) << '\n';
 }

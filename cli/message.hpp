@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace irido {
 
@@ -11,6 +12,9 @@ std::string escaped(std::string_view text);
 
 /// The same for a message: of a long text only the beginning and the end, 400 bytes in all.
 std::string message_line(std::string_view text);
+
+/// "a, b, c".
+std::string joined(const std::vector<std::string>& words, std::string_view separator);
 
 /// "irido: error: TEXT" on standard error.
 void print_error(std::string_view text);

@@ -7,11 +7,30 @@
 
 namespace irido {
 
+/// Whatever irido refuses or cannot do, as one line for the user: what catches errors of one room
+/// cannot miss those of another.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What was asked for cannot be had, though nothing is wrong with the input: exit status 1.
+class CheckFailed : public Error {
+public:
+    using Error::Error;
+};
+
+/// A tolerance that cannot be met.
+class ToleranceError : public CheckFailed {
+public:
+    using CheckFailed::CheckFailed;
+};
+
 /// An argument outside the closed range that a function of core states. The text names the
 /// argument, the rule and the value: "thickness_nm must be in [0, 1e9] (got -5)".
-class DomainError : public std::domain_error {
+class DomainError : public Error {
 public:
-    using std::domain_error::domain_error;
+    using Error::Error;
 };
 
 /// Shortest decimal text that reads back to the same double.

@@ -1,17 +1,18 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "core/error.hpp"
 
 namespace irido {
 
 /// Bad input: one line for the user. `where` is a JSON pointer, "line:column" or empty.
 /// what() is "FILE: WHERE: message" with empty parts left out.
-struct InputError : std::runtime_error {
+struct InputError : Error {
     InputError(std::string file_name, std::string place, const std::string& text)
-        : std::runtime_error((file_name.empty() ? "" : file_name + ": ") +
-                             (place.empty() ? "" : place + ": ") + text),
+        : Error((file_name.empty() ? "" : file_name + ": ") + (place.empty() ? "" : place + ": ") +
+                text),
           file(std::move(file_name)),
           where(std::move(place)),
           message(text) {}

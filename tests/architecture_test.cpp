@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -37,6 +39,26 @@ std::string room_of(const std::string& target) {
     return target.substr(0, target.find('/'));
 }
 
+/// The room inside a room, "coherent" of core/coherent/layer.hpp, "" of core/error.hpp.
+std::string inner_room_of(const std::string& target) {
+    const std::size_t begin = target.find('/') + 1, end = target.find('/', begin);
+    return end == std::string::npos ? "" : target.substr(begin, end - begin);
+}
+
+/// Every source below a folder of the project, relative to the project.
+std::vector<std::string> sources_below(const std::string& room) {
+    std::vector<std::string> found;
+    const fs::path root = IRIDO_SOURCE_DIR;
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+        const std::string file = fs::relative(entry.path(), root).string();
+        const bool is_source = file.ends_with(".cpp") || file.ends_with(".hpp");
+        if (is_source && file.find("node_modules") == std::string::npos) found.push_back(file);
+    }
+    return found;
+}
+
+const std::vector<std::string> kRooms{"core", "schemas", "tables", "cli"};
+
 }  // namespace
 
 TEST_CASE("includes run one way: cli -> tables -> schemas -> core", "[architecture]") {
@@ -58,6 +80,58 @@ TEST_CASE("includes run one way: cli -> tables -> schemas -> core", "[architectu
     }
 }
 
+// Each may include those that stand before it, and itself. Only the main program includes all.
+TEST_CASE("includes run one way between the rooms inside a room", "[architecture]") {
+    const std::map<std::string, std::vector<std::string>> order{
+        {"core",
+         {"", "math", "material", "stack", "coherent", "incoherent", "thickness", "film", "vector",
+          "spectrum", "periodic", "colorimetry", "color", "rough", "truth"}},
+        {"schemas", {"", "readers", "documents"}},
+        {"tables", {"", "files", "records", "resume", "pictures", "lut", "shaders"}},
+        {"cli", {"", "options", "queries", "sweep", "commands", "bench"}},
+    };
+    for (const auto& [room, inner] : order) {
+        const auto place = [&names = inner](const std::string& name) {
+            const auto found = std::ranges::find(names, name);
+            INFO("the room '" << name << "' has no place in the order");
+            REQUIRE(found != names.end());
+            return found - names.begin();
+        };
+        for (const auto& [file, target] : includes_below(room)) {
+            if (room_of(target) != room || target.find('/') == std::string::npos) continue;
+            if (file == "cli/main.cpp") continue;
+            INFO(file << " includes " << target);
+            CHECK(place(inner_room_of(target)) <= place(inner_room_of(file)));
+        }
+    }
+}
+
+TEST_CASE("no folder is crowded and no source is long", "[architecture]") {
+    constexpr std::size_t kMostUnits = 24, kMostLines = 600;  // a .cpp and its .hpp are one unit
+    std::map<fs::path, std::set<std::string>> units;
+    for (const std::string& room : kRooms)
+        for (const std::string& file : sources_below(room))
+            units[fs::path(file).parent_path()].insert(fs::path(file).stem().string());
+    for (const auto& [folder, names] : units) {
+        INFO(folder << " holds " << names.size() << " units");
+        CHECK(names.size() <= kMostUnits);
+    }
+    for (const std::string room : {"core", "schemas", "tables", "cli", "tests"})
+        for (const std::string& file : sources_below(room)) {
+            std::ifstream stream(fs::path(IRIDO_SOURCE_DIR) / file);
+            const auto lines = std::count(std::istreambuf_iterator<char>(stream), {}, '\n');
+            INFO(file << " has " << lines << " lines");
+            CHECK(static_cast<std::size_t>(lines) <= kMostLines);
+        }
+}
+
+TEST_CASE("few headers read the whole of CLI11", "[architecture]") {
+    std::set<std::string> headers;
+    for (const auto& [file, target] : includes_below("cli"))
+        if (target == "CLI/CLI.hpp" && file.ends_with(".hpp")) headers.insert(file);
+    CHECK(headers.size() <= 3);
+}
+
 TEST_CASE("core knows no files, streams, documents or clocks", "[architecture]") {
     const std::set<std::string> foreign{"fstream", "iostream", "ostream",    "istream", "sstream",
                                         "cstdio",  "chrono",   "filesystem", "ctime",   "stdio.h"};
@@ -73,7 +147,7 @@ TEST_CASE("core knows no files, streams, documents or clocks", "[architecture]")
 TEST_CASE("one file includes FFTW, one HDF5, one room each knows JSON schemas and YAML",
           "[architecture]") {
     std::map<std::string, std::set<std::string>> users;
-    for (const std::string room : {"core", "schemas", "tables", "cli"})
+    for (const std::string& room : kRooms)
         for (const auto& [file, target] : includes_below(room)) {
             if (target == "fftw3.h") users["fftw"].insert(file);
             if (target == "hdf5.h") users["hdf5"].insert(file);

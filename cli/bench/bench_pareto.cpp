@@ -2,8 +2,8 @@
 #include <memory>
 #include <optional>
 
+#include "cli/bench/bench.hpp"
 #include "cli/bench/color_comparison.hpp"
-#include "cli/commands/bench.hpp"
 #include "cli/options/color_options.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "tables/pictures/plot.hpp"
@@ -12,7 +12,7 @@ namespace irido {
 
 namespace {
 
-constexpr double kLargestSeed = 0x1p53, kLargestCount = 1e5;
+constexpr double kMostStacks = 1e5;
 
 /// To which the average of Bloch waves is integrated: it is further off itself.
 constexpr double kAverageTolerance = 1e-4;
@@ -54,7 +54,7 @@ const std::vector<Candidate>& candidates() {
     return all;
 }
 
-struct Row {
+struct ParetoRow {
     std::string_view of;  ///< the case
     std::size_t candidate = 0;
     double parameter = 0, tolerance = 0;
@@ -62,14 +62,15 @@ struct Row {
     EqualMatch equal;
 };
 
-std::vector<Row> rows_of(const ColorCase& one, ColorComparison comparison) {
-    std::vector<Row> rows;
+std::vector<ParetoRow> rows_of(const ColorCase& one, ColorComparison comparison) {
+    std::vector<ParetoRow> rows;
     const auto add = [&](std::size_t index, std::size_t count, double tolerance) {
         const Candidate& candidate = candidates()[index];
         const auto report = comparison.measure({candidate.kind, count}, tolerance);
         if (!report) return;
         const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch && count > 0;
-        Row row{one.name, index, static_cast<double>(is_bloch ? count - 1 : count), 0, *report, {}};
+        ParetoRow row{one.name, index,   static_cast<double>(is_bloch ? count - 1 : count),
+                      0,        *report, {}};
         if (count == 0 && candidate.last_power > 0) {
             row.tolerance = tolerance;
             if (candidate.is_exact) row.equal = comparison.equal_match(report->max_error);
@@ -87,9 +88,9 @@ std::vector<Row> rows_of(const ColorCase& one, ColorComparison comparison) {
     return rows;
 }
 
-Records to_records(const std::vector<Row>& rows) {
+Records to_records(const std::vector<ParetoRow>& rows) {
     Column::Texts cases, methods, stacks, hexes, exact;
-    for (const Row& row : rows) {
+    for (const ParetoRow& row : rows) {
         cases.emplace_back(row.of);
         methods.push_back(candidates()[row.candidate].name());
         stacks.push_back(row.report.worst_stack);
@@ -100,33 +101,34 @@ Records to_records(const std::vector<Row>& rows) {
     const auto add = [&](std::string name, auto value) {
         add_numbers(records, std::move(name), rows, value);
     };
-    add("parameter", [](const Row& r) { return r.parameter; });
-    add("tolerance", [](const Row& r) { return r.tolerance; });
-    add("colors", [](const Row& r) { return r.report.colors; });
-    add("evaluations", [](const Row& r) { return r.report.evaluations; });
-    add("ns_per_color", [](const Row& r) { return r.report.ns_per_color; });
-    add("max_dXYZ", [](const Row& r) { return r.report.max_error; });
-    add("dE2000_mean", [](const Row& r) { return r.report.mean_de; });
-    add("dE2000_p95", [](const Row& r) { return r.report.p95_de; });
-    add("dE2000_max", [](const Row& r) { return r.report.max_de; });
-    add("equal_wavelengths", [](const Row& r) { return r.equal.wavelengths; });
-    add("equal_ns_per_color", [](const Row& r) { return r.equal.ns_per_color; });
-    add("times_faster", [](const Row& r) { return r.equal.ns_per_color / r.report.ns_per_color; });
+    add("parameter", [](const ParetoRow& r) { return r.parameter; });
+    add("tolerance", [](const ParetoRow& r) { return r.tolerance; });
+    add("colors", [](const ParetoRow& r) { return r.report.colors; });
+    add("evaluations", [](const ParetoRow& r) { return r.report.evaluations; });
+    add("ns_per_color", [](const ParetoRow& r) { return r.report.ns_per_color; });
+    add("max_dXYZ", [](const ParetoRow& r) { return r.report.max_error; });
+    add("dE2000_mean", [](const ParetoRow& r) { return r.report.mean_de; });
+    add("dE2000_p95", [](const ParetoRow& r) { return r.report.p95_de; });
+    add("dE2000_max", [](const ParetoRow& r) { return r.report.max_de; });
+    add("equal_wavelengths", [](const ParetoRow& r) { return r.equal.wavelengths; });
+    add("equal_ns_per_color", [](const ParetoRow& r) { return r.equal.ns_per_color; });
+    add("times_faster",
+        [](const ParetoRow& r) { return r.equal.ns_per_color / r.report.ns_per_color; });
     records.columns.push_back({"worst_stack", std::move(stacks)});
-    add("worst_angle_deg", [](const Row& r) { return r.report.worst_angle_deg; });
+    add("worst_angle_deg", [](const ParetoRow& r) { return r.report.worst_angle_deg; });
     records.columns.push_back({"worst_hex", std::move(hexes)});
     records.columns.push_back({"exact_hex", std::move(exact)});
     return records;
 }
 
-Plot::Point point_of(const Row& row) {
+Plot::Point point_of(const ParetoRow& row) {
     return {row.report.ns_per_color, row.report.max_error};
 }
 
 /// The steps along which nothing is both faster and more exact.
-std::vector<Plot::Point> front(const std::vector<Row>& rows) {
+std::vector<Plot::Point> front(const std::vector<ParetoRow>& rows) {
     std::vector<Plot::Point> points, steps;
-    for (const Row& row : rows) points.push_back(point_of(row));
+    for (const ParetoRow& row : rows) points.push_back(point_of(row));
     std::ranges::sort(points, {}, &Plot::Point::x);
     for (const Plot::Point& point : points) {
         if (!steps.empty() && point.y >= steps.back().y) continue;
@@ -137,9 +139,9 @@ std::vector<Plot::Point> front(const std::vector<Row>& rows) {
 }
 
 /// `names` of the methods so far; those that are new are added.
-Plot::Panel panel_of(const std::vector<Row>& rows, std::vector<std::string>& names) {
+Plot::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::string>& names) {
     Plot::Panel panel{std::string(rows.front().of), front(rows), {}};
-    for (const Row& row : rows) {
+    for (const ParetoRow& row : rows) {
         const std::string name = candidates()[row.candidate].name();
         const auto known = std::ranges::find(names, name);
         const auto kind = static_cast<std::size_t>(known - names.begin());
@@ -154,13 +156,13 @@ Plot::Panel panel_of(const std::vector<Row>& rows, std::vector<std::string>& nam
 /// Errors below are roundings, and those of the reference.
 constexpr int kSmallestErrorPower = -13;
 
-std::string picture(const std::vector<std::vector<Row>>& cases) {
+std::string picture(const std::vector<std::vector<ParetoRow>>& cases) {
     Plot plot;
     plot.title = "Colours of thin films: run time against error";
     double fastest = 1e9, slowest = 1;
-    for (const std::vector<Row>& rows : cases) {
+    for (const std::vector<ParetoRow>& rows : cases) {
         plot.panels.push_back(panel_of(rows, plot.legend));
-        for (const Row& row : rows) {
+        for (const ParetoRow& row : rows) {
             fastest = std::min(fastest, row.report.ns_per_color);
             slowest = std::max(slowest, row.report.ns_per_color);
         }
@@ -176,13 +178,13 @@ int run_pareto(const ParetoOptions& options) {
     resolved_record_format(options.output);
     check_writable(options.output);
     check_plot(options.plot, options.output);
-    const std::uint64_t count = parse_whole_number("--count", options.count, 1, kLargestCount);
+    const std::uint64_t count = parse_whole_number("--count", options.count, 1, kMostStacks);
     const std::uint64_t seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
     const double seconds = parse_one_number("--time", options.time, 0.0001, 60);
     const SimdLevel simd = execution_of(1).simd;
     const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    std::vector<std::vector<Row>> cases;
-    std::vector<Row> rows;
+    std::vector<std::vector<ParetoRow>> cases;
+    std::vector<ParetoRow> rows;
     for (const ColorCase& one : chosen_cases<ColorCase>(options.cases, color_cases(), "pareto")) {
         cases.push_back(
             rows_of(one, {tables, color_families(one, count, seed), one.is_set, seconds, simd}));
@@ -217,7 +219,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         ->add_option("--plot", options->plot,
                      "draw every case's rows into FILE too, an SVG picture")
         ->type_name("FILE");
-    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_output_options(*command, options->output, record_formats_text());
     set_examples(
         *command,
         {"irido bench pareto -o pareto.csv --plot pareto.svg",

@@ -3,7 +3,7 @@
 #include <limits>
 #include <memory>
 
-#include "cli/commands/bench.hpp"
+#include "cli/bench/bench.hpp"
 #include "cli/stopwatch.hpp"
 #include "core/error.hpp"
 #include "schemas/documents/scene_document.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLargestSeed = 0x1p53, kLargestCount = 1e6;
+constexpr double kMostScenePoints = 1e6;
 constexpr std::size_t kFixedSize = 256;
 
 struct SceneBenchOptions {
@@ -84,7 +84,7 @@ private:
     std::string path_;
 };
 
-struct Row {
+struct SceneRow {
     std::string scene, method;
     std::size_t tables = 0, bytes = 0;
     double seconds = 0, worst = 0, worst_of_levels = 0;
@@ -96,9 +96,9 @@ bool is_in_delta_e(const LutPlan& plan) {
 }
 
 /// Bakes into `folder`; the worst Delta E is left out.
-Row baked(const std::string& name, const Scene& scene, const std::string& folder,
-          const SceneBenchOptions& options) {
-    Row row{name, "irido", 0, 0, 0, 0, 0, 0};
+SceneRow baked(const std::string& name, const Scene& scene, const std::string& folder,
+               const SceneBenchOptions& options) {
+    SceneRow row{name, "irido", 0, 0, 0, 0, 0, 0};
     BakeResult result;
     row.seconds = seconds_of([&] {
         const Scene again = read_scene(scene.file);
@@ -152,9 +152,9 @@ double worst_of_bake(const Scene& scene, const std::string& folder, const Execut
 
 /// Tables of all colours of every material, of both polarizations and both sides, 256 samples
 /// along the angle from 0 to 90 degrees and along the first value that varies.
-Row fixed(const std::string& name, const Scene& scene, const SceneBenchOptions& options,
-          const RandomPoints& points) {
-    Row row{name, "fixed 256", 0, 0, 0, 0, 0, 0};
+SceneRow fixed(const std::string& name, const Scene& scene, const SceneBenchOptions& options,
+               const RandomPoints& points) {
+    SceneRow row{name, "fixed 256", 0, 0, 0, 0, 0, 0};
     const Execution execution = execution_of(options.threads);
     const LutKind& kind = *find_lut_kind("color");
     for (const SceneMaterial& material : scene.materials) {
@@ -187,9 +187,9 @@ Row fixed(const std::string& name, const Scene& scene, const SceneBenchOptions& 
     return row;
 }
 
-Records to_records(const std::vector<Row>& rows) {
+Records to_records(const std::vector<SceneRow>& rows) {
     Column::Texts cases, methods;
-    for (const Row& row : rows) {
+    for (const SceneRow& row : rows) {
         cases.push_back(row.scene);
         methods.push_back(row.method);
     }
@@ -197,12 +197,12 @@ Records to_records(const std::vector<Row>& rows) {
     const auto add = [&](std::string name, auto value) {
         add_numbers(records, std::move(name), rows, value);
     };
-    add("tables", [](const Row& r) { return static_cast<double>(r.tables); });
-    add("bytes", [](const Row& r) { return static_cast<double>(r.bytes); });
-    add("seconds", [](const Row& r) { return r.seconds; });
-    add("worst_delta_e", [](const Row& r) { return r.worst; });
-    add("files_written", [](const Row& r) { return static_cast<double>(r.written); });
-    add("worst_delta_e_levels", [](const Row& r) { return r.worst_of_levels; });
+    add("tables", [](const SceneRow& r) { return static_cast<double>(r.tables); });
+    add("bytes", [](const SceneRow& r) { return static_cast<double>(r.bytes); });
+    add("seconds", [](const SceneRow& r) { return r.seconds; });
+    add("worst_delta_e", [](const SceneRow& r) { return r.worst; });
+    add("files_written", [](const SceneRow& r) { return static_cast<double>(r.written); });
+    add("worst_delta_e_levels", [](const SceneRow& r) { return r.worst_of_levels; });
     return records;
 }
 
@@ -227,21 +227,21 @@ int run_scene(const SceneBenchOptions& options) {
     resolved_record_format(options.output);
     check_writable(options.output);
     RandomPoints points;
-    points.count = parse_whole_number("--count", options.count, 1, kLargestCount);
+    points.count = parse_whole_number("--count", options.count, 1, kMostScenePoints);
     points.seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
     points.threads = options.threads;
     const Workplace place;
-    std::vector<Row> rows;
+    std::vector<SceneRow> rows;
     for (const auto& [name, file] : scenes_of(options, place)) {
         if (file == "-") throw UsageError("a scene that is baked twice must be a file");
         const Scene scene = read_scene(file);
         const std::string folder = place / ("tables-" + std::to_string(rows.size()));
-        Row first = baked(name, scene, folder, options);
+        SceneRow first = baked(name, scene, folder, options);
         points.all_levels = false;
         first.worst = worst_of_bake(scene, folder, execution_of(options.threads), points);
         points.all_levels = true;
         first.worst_of_levels = worst_of_bake(scene, folder, execution_of(options.threads), points);
-        Row second = baked(name, scene, folder, options);
+        SceneRow second = baked(name, scene, folder, options);
         second.method = "irido again";
         second.worst = first.worst;
         second.worst_of_levels = first.worst_of_levels;
@@ -267,7 +267,7 @@ void add_bench_scene(CLI::App& bench, Run& run) {
     command
         ->add_option("-s,--seed", options->seed, "point i depends on seed + i only, [0, 2^53] [1]")
         ->type_name("S");
-    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
     set_examples(
         *command, {"irido bench scene", "irido bench scene vehicle.json --count 10000 -f json"},

@@ -6,8 +6,8 @@
 #include <optional>
 #include <thread>
 
+#include "cli/bench/bench.hpp"
 #include "cli/bench/bench_speed.hpp"
-#include "cli/commands/bench.hpp"
 #include "cli/stopwatch.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/vector_math.hpp"
@@ -425,7 +425,7 @@ void add_bench_speed(CLI::App& bench, Run& run) {
         ->type_name("S");
     command->add_option("-c,--cases", options->cases, cases_help<SpeedCase>(kCases))
         ->type_name("NAMES");
-    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
     set_examples(
         *command,

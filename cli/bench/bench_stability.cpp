@@ -2,7 +2,8 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/commands/bench.hpp"
+#include "cli/bench/bench.hpp"
+#include "cli/exit_status.hpp"
 #include "core/error.hpp"
 #include "core/truth/stability.hpp"
 #include "schemas/readers/nearest.hpp"
@@ -10,8 +11,6 @@
 namespace irido {
 
 namespace {
-
-constexpr double kLargestSeed = 0x1p53;
 
 struct StabilityOptions {
     std::string count = "80";
@@ -91,7 +90,7 @@ int run_stability(const StabilityOptions& options) {
     const std::string wrong = violations(reports);
     if (wrong.empty()) return 0;
     std::cerr << "irido: error: " << wrong << '\n';
-    return 1;
+    return kCheckFailed;
 }
 
 std::string regimes_help() {
@@ -117,7 +116,7 @@ void add_bench_stability(CLI::App& bench, Run& run) {
                      "stack i of a regime depends on seed + i only, [0, 2^53] [1]")
         ->type_name("S");
     command->add_option("-r,--regime", options->regimes, regimes_help())->type_name("NAMES");
-    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
     set_examples(
         *command,

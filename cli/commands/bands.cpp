@@ -3,9 +3,10 @@
 #include <memory>
 #include <numbers>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "cli/queries/bands_question.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/pictures/band_diagram.hpp"
@@ -13,8 +14,6 @@
 namespace irido {
 
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 struct BandsCommand {
     StackRequest stack;
@@ -25,7 +24,7 @@ struct BandsCommand {
 };
 
 BandDiagram::Edges wavelengths_of(const BandGap& gap) {
-    return {kTurn / gap.high_per_nm, kTurn / gap.low_per_nm};
+    return {kTwoPi / gap.high_per_nm, kTwoPi / gap.low_per_nm};
 }
 
 std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
@@ -92,7 +91,7 @@ void add_bands_command(CLI::App& program, Run& run) {
         ->add_option("--plot", options->plot,
                      "draw the gaps over angle and wavelength as SVG, for several angles")
         ->type_name("FILE");
-    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_output_options(*command, options->output, record_formats_text());
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(
         *command,

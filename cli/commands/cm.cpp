@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "cli/queries/cm_question.hpp"
 
 namespace irido {
@@ -30,7 +30,7 @@ void add_cm_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<CmCommand>();
     add_stack_options(*command, options->stack);
     options->typed = CmOptions::add(*command);
-    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_output_options(*command, options->output, record_formats_text());
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(
         *command,

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "cli/queries/color_question.hpp"
 #include "tables/pictures/swatches.hpp"
 
@@ -37,7 +37,7 @@ std::string picture(const ColorQuestion& question, const StackColors& stack,
 
 int run_color(const ColorCommand& command) {
     const bool is_picture = resolved_format(command.output) == "svg";
-    if (!is_picture) resolved_record_format(command.output, "svg");
+    if (!is_picture) resolved_record_format(command.output, RecordTarget::stream_or_svg);
     const ColorQuestion question(
         static_cast<const ColorQuestionOptions&>(*command.typed),
         {.execution = execution_of(command.threads),
@@ -63,8 +63,7 @@ void add_color_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<ColorCommand>();
     add_stack_options(*command, options->stack);
     options->typed = ColorQuestionOptions::add(*command);
-    add_output_options(*command, options->output,
-                       "csv, json, npy, or svg: a strip of the colours in sRGB [csv]");
+    add_output_options(*command, options->output, record_formats_text(RecordTarget::stream_or_svg));
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(*command, {"irido color \"air | TiO2@35 | Ti\" -a 0:80:10 --stats",

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "core/error.hpp"
 #include "schemas/readers/stack_expression.hpp"
 #include "tables/files/atomic_file.hpp"

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/exit_status.hpp"
 #include "cli/options/color_options.hpp"
 #include "cli/progress.hpp"
 #include "core/colorimetry/illuminant.hpp"
@@ -18,8 +19,7 @@ namespace irido {
 
 namespace {
 
-constexpr int kCheckFailed = 1;
-constexpr double kLargestCount = 8192;
+constexpr double kMostSamples = 8192;
 constexpr std::size_t kMostVaried = 2;
 
 /// What was typed for one kind of table.
@@ -68,7 +68,7 @@ std::vector<std::size_t> parse_size(std::string text, std::size_t axes) {
     std::ranges::replace(text, 'x', ',');
     for (const std::string_view part : comma_separated(text))
         counts.push_back(
-            static_cast<std::size_t>(parse_whole_number("--size", part, 1, kLargestCount)));
+            static_cast<std::size_t>(parse_whole_number("--size", part, 1, kMostSamples)));
     if (counts.size() == 1) counts.resize(axes, counts.front());
     return counts;
 }
@@ -204,7 +204,7 @@ int run_lut(const LutKind& kind, const LutCommand& command) {
     Lut lut;
     try {
         lut = make_lut(kind, std::move(plan), making);
-    } catch (const LutToleranceError& error) {
+    } catch (const ToleranceError& error) {
         progress.clear();
         print_error(error.what());
         return kCheckFailed;
@@ -325,7 +325,7 @@ int show_info(const std::string& file) {
 }
 
 /// What is wrong with a file, one line each.
-std::vector<std::string> problems_of(const std::string& file) {
+std::vector<std::string> problems_of_table(const std::string& file) {
     try {
         const Lut lut = read_lut(file);
         std::vector<std::string> problems = lut_problems(lut);
@@ -344,19 +344,18 @@ std::vector<std::string> problems_of(const std::string& file) {
 }
 
 int check_files(const std::vector<std::string>& files) {
-    constexpr int unreadable = 2;
     int status = 0;
     std::string text;
     for (const std::string& file : files) {
         try {
-            const std::vector<std::string> problems = problems_of(file);
+            const std::vector<std::string> problems = problems_of_table(file);
             if (problems.empty()) text += escaped(file) + ": ok\n";
             for (const std::string& problem : problems)
                 text += message_line(file + ": " + problem) + "\n";
             if (!problems.empty()) status = std::max(status, kCheckFailed);
         } catch (const InputError& error) {
             print_error(error.what());
-            status = unreadable;
+            status = kBadInput;
         }
     }
     write_stdout(text);

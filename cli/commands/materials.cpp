@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "schemas/input_error.hpp"
@@ -29,12 +29,6 @@ LibraryMaterial material_named(std::string_view name) {
                      ", see irido materials list");
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
-
 int run_list(const MaterialsOptions& options) {
     Column::Texts name, alias, source;
     Column::Numbers first, last;
@@ -43,7 +37,7 @@ int run_list(const MaterialsOptions& options) {
         const LibraryMaterial found = material_named(entry);
         const WavelengthRange range = range_of(found.material);
         name.emplace_back(entry);
-        alias.push_back(joined(found.aliases));
+        alias.push_back(joined(found.aliases, " "));
         first.push_back(range.first_nm);
         last.push_back(range.last_nm);
         visible.push_back(range.first_nm <= kVisible.first_nm && range.last_nm >= kVisible.last_nm);
@@ -118,7 +112,7 @@ void add_show(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& opti
     show->add_option("-w,--wavelengths", options->wavelengths,
                      "vacuum wavelengths, nm [380:780:1, where it is known]")
         ->type_name("LIST");
-    add_output_options(*show, options->output, "csv, json or npy [csv]");
+    add_output_options(*show, options->output, record_formats_text());
     show->add_flag("--quiet", options->quiet, "no source, range and notes on standard error");
     set_examples(*show, {"irido materials show Au -w 400:800:100",
                          "irido materials show water -w 589.3 -f json",
@@ -135,7 +129,7 @@ void add_materials_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<MaterialsOptions>();
     CLI::App* list = command->add_subcommand(
         "list", "Names, ranges in nm, whether 380 to 780 nm is covered, and sources.");
-    add_output_options(*list, options->output, "csv, json or npy [csv]");
+    add_output_options(*list, options->output, record_formats_text());
     set_examples(*list, {"irido materials list", "irido materials list -f json"});
     list->callback([options, &run] { run = [options] { return run_list(*options); }; });
     add_show(*command, options, run);

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "cli/progress.hpp"
 #include "core/error.hpp"
 #include "schemas/documents/canonical_stack.hpp"
@@ -88,12 +88,6 @@ std::string role_of(const ScenePlan& plan, std::size_t table) {
     return "";
 }
 
-std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 /// The largest difference of what the shader shows from the exact colour, for a loss.
 std::optional<double> delta_e_of(const Scene& scene, const ScenePlan& plan, std::size_t m,
                                  const Omission& loss, const SceneCommand& command) {
@@ -120,7 +114,7 @@ void plan_table(const Scene& scene, PlannedScene& result, std::size_t t, const B
         keeping = keeping_of(scene, result.plan, table, before, command.place, false);
     const bool is_kept = !keeping.entry.is_null();
     json entry = is_kept ? keeping.entry : planned_entry(table);
-    PlanRow row{joined(table.materials), role_of(result.plan, t), table.file,
+    PlanRow row{joined(table.materials, ", "), role_of(result.plan, t), table.file,
                 size_text(entry["axes"])};
     row.state = entry.contains("values") ? "numbers" : is_kept ? "kept" : "new";
     row.why = keeping.why;
@@ -172,14 +166,14 @@ std::vector<Omission> all_omissions(const PlannedScene& scene) {
 }
 
 /// Two digits are enough for a largest difference that was looked for.
-std::string short_number(double value) {
+std::string two_digits(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g", value);
     return to_text(std::stod(text.data()));
 }
 
 std::string delta_e_text(const Omission& loss) {
-    return loss.delta_e ? "Delta E " + short_number(*loss.delta_e) : "";
+    return loss.delta_e ? "Delta E " + two_digits(*loss.delta_e) : "";
 }
 
 void append_cells(std::string& out, const std::vector<std::string>& cells,
@@ -294,13 +288,13 @@ std::string explained(const Scene& scene, const PlannedScene& planned, const std
         if (error.is_object() && error.contains("levels")) {
             std::vector<std::string> levels;
             for (const json& level : error["levels"])
-                levels.push_back(short_number(level.get<double>()));
-            out += "    error of each mip level: " + joined(levels) + " (" +
+                levels.push_back(two_digits(level.get<double>()));
+            out += "    error of each mip level: " + joined(levels, ", ") + " (" +
                    error["measure"].get<std::string>() + ")\n";
         }
     }
     if (!plan.constants.empty()) out += "  constants " + plan.constants.dump() + "\n";
-    if (!plan.snippets.empty()) out += "  snippets " + joined(plan.snippets) + "\n";
+    if (!plan.snippets.empty()) out += "  snippets " + joined(plan.snippets, ", ") + "\n";
     for (const Omission& omission : all_omissions(planned)) {
         if (omission.material != name) continue;
         const bool is_loss = omission.kind == Omission::Kind::loss;
@@ -341,7 +335,7 @@ int run_plan(const SceneCommand& command) {
         text = command.format == "json" ? json_of(result).dump(2) + "\n" : text_of(result);
     write_stdout(text);
     if (result.seconds > 0)
-        note("to make what is new will take about " + short_number(result.seconds) + " s",
+        note("to make what is new will take about " + two_digits(result.seconds) + " s",
              command.quiet);
     return report_faults(scene, result.faults);
 }

@@ -1,9 +1,9 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "cli/queries/spectrum_question.hpp"
-#include "tables/records/record_stream.hpp"
+#include "tables/resume/record_stream.hpp"
 
 namespace irido {
 
@@ -19,7 +19,7 @@ struct SpectrumCommand {
 };
 
 int run_spectrum(const SpectrumCommand& command) {
-    const StreamFormat& format = *find_counted_format(resolved_record_format(command.output).name);
+    const RecordFormat& format = resolved_record_format(command.output);
     const SpectrumQuestion question(
         static_cast<const SpectrumOptions&>(*command.typed),
         {.execution = execution_of(command.threads),
@@ -45,7 +45,7 @@ void add_spectrum_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<SpectrumCommand>();
     add_stack_options(*command, options->stack);
     options->typed = SpectrumOptions::add(*command);
-    add_output_options(*command, options->output, "csv, json or npy [csv]");
+    add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
     command->add_flag("--stats", options->stats,
                       "say on standard error how it was computed and what was skipped");

@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/options/command.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep/engine.hpp"
 #include "core/error.hpp"
@@ -49,14 +49,6 @@ Shard parse_shard(const std::string& text) {
         throw UsageError("--shard: must be K/N, as in 3/8 (got '" + text + "')");
     const auto of = parse_whole_number("--shard", text.substr(slash + 1), 1, kMostShards);
     return {parse_whole_number("--shard", text.substr(0, slash), 1, static_cast<double>(of)), of};
-}
-
-const StreamFormat& resolved_stream_format(const OutputOptions& output) {
-    const std::string name = resolved_format(output);
-    if (const StreamFormat* format = find_stream_format(name)) return *format;
-    constexpr std::array<std::string_view, 4> names{"csv", "json", "npy", "h5"};
-    throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
-                     not_one_of(names, name));
 }
 
 /// Says each note once.
@@ -208,7 +200,7 @@ void print_stats(const SweepEngine& engine, const SweptStacks& stacks,
                  static_cast<unsigned long long>(stacks.prepared()));
 }
 
-std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const StreamFormat& format,
+std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const RecordFormat& format,
                                           const SweepEngine& engine,
                                           const StreamIdentity& identity) {
     const bool is_known = engine.rows_per_unit() > 0 && !command.keep_going;
@@ -226,13 +218,14 @@ std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const Str
 
 int run_merge(const SweepCommand& command) {
     if (command.output.file.empty()) throw UsageError("--merge: needs --output FILE");
-    merge_streams(command.merge, command.output.file, resolved_stream_format(command.output));
+    merge_streams(command.merge, command.output.file,
+                  resolved_record_format(command.output, RecordTarget::any));
     return 0;
 }
 
 /// Writes what is left of a stream's units. Returns the exit status.
 int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& stacks,
-               const StreamFormat& format, const StreamIdentity& identity, RecordStream& stream,
+               const RecordFormat& format, const StreamIdentity& identity, RecordStream& stream,
                const OrderlyEnd* orderly) {
     const std::uint64_t begin = identity.begin + stream.units_done();
     SweepProgress progress(command.quiet, identity.end - begin, engine.counts());
@@ -266,7 +259,7 @@ int run_sweep(const SweepCommand& command) {
     if (!command.merge.empty()) return run_merge(command);
     if (command.stack.stack.empty()) throw UsageError("STACK is required (see irido sweep --help)");
     if (!command.kind) throw UsageError("--compute: is required: spectrum, color, bands or cm");
-    const StreamFormat& format = resolved_stream_format(command.output);
+    const RecordFormat& format = resolved_record_format(command.output, RecordTarget::any);
     const Shard shard = parse_shard(command.shard);
     check_writable(command.output);
     Notes notes(command.quiet);
@@ -399,7 +392,7 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
     options->kind = is_typed ? typed_kind(arguments) : nullptr;
     if (options->kind) options->typed = options->kind->add_options(*command);
     add_sweep_options(*command, *options);
-    add_output_options(*command, options->output, "csv, json, npy or h5 (HDF5) [csv]");
+    add_output_options(*command, options->output, record_formats_text(RecordTarget::any));
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");
     set_examples(

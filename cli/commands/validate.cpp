@@ -3,7 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/command.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/options/command.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/scene_document.hpp"
 #include "schemas/input_error.hpp"
@@ -19,8 +20,6 @@ namespace irido {
 namespace {
 
 using nlohmann::json;
-
-constexpr int kInvalid = 1, kUnreadable = 2;
 
 struct SchemaText {
     std::string_view name;
@@ -82,10 +81,10 @@ int run_validate(const std::vector<std::string>& files) {
             const std::vector<std::string> problems = problems_of(file);
             for (const std::string& line : problems) out += message_line(line) + '\n';
             if (problems.empty()) out += escaped(file) + ": ok\n";
-            if (!problems.empty()) status = std::max(status, kInvalid);
+            if (!problems.empty()) status = std::max(status, kCheckFailed);
         } catch (const InputError& error) {
             print_error(error.what());
-            status = kUnreadable;
+            status = kBadInput;
         }
     }
     write_stdout(out);

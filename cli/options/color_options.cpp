@@ -87,8 +87,8 @@ const Observer& parse_observer(const std::string& text) {
 }
 
 double parse_tolerance(const std::string& text) {
-    return text.empty() ? ColorRequest().tolerance
-                        : parse_one_number("--tolerance", text, 1e-12, 1);
+    return text.empty() ? kDefaultTolerance
+                        : parse_one_number("--tolerance", text, kSmallestTolerance, 1);
 }
 
 ColorMethod parse_method(const std::string& text) {
@@ -262,9 +262,11 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
         ->type_name("R,G,B");
     command
         .add_option("--tolerance", options.tolerance,
-                    "largest error of X, Y, Z (white Y = 1), [1e-12, 1] [1e-6];\n"
-                    "exit status 1 if it cannot be met. Methods that are not exact are\n"
-                    "held to a tolerance only if one is given")
+                    "largest error of X, Y, Z (white Y = 1), [" + to_text(kSmallestTolerance) +
+                        ", 1] [" + to_text(kDefaultTolerance) +
+                        "];\n"
+                        "exit status 1 if it cannot be met. Methods that are not exact are\n"
+                        "held to a tolerance only if one is given")
         ->type_name("T");
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "core/color/color_request.hpp"
 #include "core/colorimetry/observer.hpp"
 #include "core/colorimetry/sensitivity.hpp"

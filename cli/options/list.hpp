@@ -1,16 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace irido {
 
 /// Thrown for what the user typed on the command line; the text is the whole message.
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct UsageError : Error {
+    using Error::Error;
 };
 
 /// The parts of "a,b": one more than there are commas, empty ones among them.

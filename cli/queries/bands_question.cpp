@@ -6,17 +6,16 @@
 #include <numbers>
 #include <utility>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido {
 
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
-
-std::vector<Polarization> parse_polarizations(const std::string& text) {
+std::vector<Polarization> band_polarizations(const std::string& text) {
     std::vector<Polarization> polarizations;
     for (const std::string_view item : comma_separated(text)) {
         if (item != "s" && item != "p")
@@ -115,7 +114,7 @@ private:
             for (const Polarization p : question_.polarizations_) {
                 for (const Landmark& mark :
                      landmarks(mirror.period_at(angle_deg, p), question_.omega())) {
-                    const double wavelength_nm = kTurn / mark.omega_per_nm;
+                    const double wavelength_nm = kTwoPi / mark.omega_per_nm;
                     if (wavelength_nm < question_.first_nm() || wavelength_nm > question_.last_nm())
                         continue;
                     rows.angle.push_back(angle_deg);
@@ -158,8 +157,8 @@ private:
             for (const Polarization p : question_.polarizations_) {
                 for (const BandGap& gap :
                      band_gaps(mirror.period_at(angle_deg, p), question_.omega())) {
-                    const double short_nm = kTurn / gap.high_per_nm;
-                    const double long_nm = kTurn / gap.low_per_nm;
+                    const double short_nm = kTwoPi / gap.high_per_nm;
+                    const double long_nm = kTwoPi / gap.low_per_nm;
                     if (long_nm < question_.first_nm() || short_nm > question_.last_nm()) continue;
                     if (!known.contains(gap.order))
                         known[gap.order] = mirror.is_omnidirectional(gap.order);
@@ -180,7 +179,7 @@ private:
                               const BandGap& gap, GapRows& rows) {
         const double middle = gap.centre_per_nm();
         rows.R.push_back(mirror.reflectance(angle_deg, p, middle));
-        rows.centre.push_back(kTurn / middle);
+        rows.centre.push_back(kTwoPi / middle);
         BraggMirror::Periods needed{};
         if (gap.is_open()) needed = mirror.periods_needed(angle_deg, p, middle);
         for (std::size_t i = 0; i < needed.size(); ++i) rows.periods[i].push_back(needed[i]);
@@ -204,14 +203,14 @@ private:
 
 BandsQuestion::BandsQuestion(const BandsOptions& typed, const Answering& answering)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
-      polarizations_(parse_polarizations(typed.polarization)),
+      polarizations_(band_polarizations(typed.polarization)),
       gaps_(typed.gaps),
       answering_(answering) {
     std::tie(first_nm_, last_nm_) = parse_range(typed.range);
 }
 
 OmegaRange BandsQuestion::omega() const {
-    return {kTurn / last_nm_ * (1 - 1e-15), kTurn / first_nm_ * (1 + 1e-15)};
+    return {kTwoPi / last_nm_ * (1 - 1e-15), kTwoPi / first_nm_ * (1 + 1e-15)};
 }
 
 BraggMirror BandsQuestion::mirror(const StackDocument& document, const Stack& stack) const {
@@ -256,7 +255,7 @@ double BandsQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
     const OmegaRange range = omega();
     const BraggPeriod middle = period((range.low_per_nm + range.high_per_nm) / 2);
     const double modes =
-        (middle.path1_nm + middle.path2_nm) * (range.high_per_nm - range.low_per_nm) / kTurn;
+        (middle.path1_nm + middle.path2_nm) * (range.high_per_nm - range.low_per_nm) / kTwoPi;
     return kStack +
            (1 + 2 * modes) * (gaps_ ? kGap : kMode) * static_cast<double>(polarizations_.size());
 }

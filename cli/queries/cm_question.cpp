@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "core/color/fourier/film_color.hpp"
 #include "core/error.hpp"
 #include "core/film/film.hpp"

@@ -5,11 +5,11 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/spectrum/spectrum.hpp"
 #include "core/stack/index_table.hpp"
 #include "schemas/documents/stack_document.hpp"
@@ -17,16 +17,6 @@
 #include "tables/records/records.hpp"
 
 namespace irido {
-
-/// What was asked for cannot be had, though nothing is wrong with the input: exit status 1.
-struct CheckFailed : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-/// A --tolerance that cannot be met.
-struct ToleranceError : CheckFailed {
-    using CheckFailed::CheckFailed;
-};
 
 /// How a question is answered, besides what is asked.
 struct Answering {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "core/coherent/coherent.hpp"
 #include "core/error.hpp"
 #include "core/spectrum/stack_power.hpp"
@@ -414,7 +414,7 @@ void SpectrumQuestion::note_long_work(const StackDocument& document) const {
             const std::clock_t start = std::clock();  // whatever else the machine is doing
             serial.block(document, some, {angles_deg_[angles_deg_.size() / 2]}, polarizations_);
             seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-        } catch (const std::runtime_error&) {  // said when it is met in its turn
+        } catch (const Error&) {  // said when it is met in its turn
             return;
         }
         whole_s = seconds * points / static_cast<double>(tried) / threads;

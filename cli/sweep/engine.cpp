@@ -96,9 +96,7 @@ auto at_place(const Place& place, const Work& work) {
         return work();
     } catch (const ToleranceError& error) {
         throw ToleranceError("at " + place() + ": " + error.what());
-    } catch (const std::runtime_error& error) {  // InputError, UsageError
-        throw InputError("", "", "at " + place() + ": " + error.what());
-    } catch (const DomainError& error) {
+    } catch (const Error& error) {
         throw InputError("", "", "at " + place() + ": " + error.what());
     }
 }
@@ -216,9 +214,7 @@ double SweepEngine::cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const {
         if (angle_column_) return cost(number_at(*angle_column_, combination));
         if (question_.splits_angles()) return cost(angles_[unit % angles_.size()]);
         return cost(0) * static_cast<double>(question_.angles_deg().size());
-    } catch (const std::runtime_error&) {  // errors for the run to find
-        return kLeftOut;
-    } catch (const DomainError&) {
+    } catch (const Error&) {  // for the run to find
         return kLeftOut;
     }
 }
@@ -302,7 +298,7 @@ void SweepEngine::take_alone(std::uint64_t unit, const std::function<void()>& ta
     if (!keep_going_) return take();
     try {
         take();
-    } catch (const std::runtime_error& error) {
+    } catch (const Error& error) {
         const std::scoped_lock guard(left_out_lock_);
         ++counts_.left_out;
         if (unit > first_left_out_unit_) return;
@@ -311,7 +307,7 @@ void SweepEngine::take_alone(std::uint64_t unit, const std::function<void()>& ta
     }
 }
 
-void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const StreamFormat& format,
+void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const RecordFormat& format,
                           const std::atomic<bool>& stopped) {
     LeadingColumns leading(space_, led_by_);
     const std::unique_ptr<Answers> answers = question_.answers();
@@ -326,7 +322,7 @@ void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const StreamFor
         const std::uint64_t count = std::min(of_combination, block.end - unit);
         try {
             take(unit, count);
-        } catch (const std::runtime_error&) {  // one of them
+        } catch (const Error&) {  // one of them
             for (std::uint64_t i = 0; i < count; ++i)
                 take_alone(unit + i, [&] { take(unit + i, 1); });
         }
@@ -336,7 +332,7 @@ void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const StreamFor
         block.bytes = format.rows(layout_, assembled(leading.take(), answers->records()));
 }
 
-bool SweepEngine::run(std::uint64_t begin, std::uint64_t end, const StreamFormat& format,
+bool SweepEngine::run(std::uint64_t begin, std::uint64_t end, const RecordFormat& format,
                       RecordStream& stream, unsigned threads,
                       const std::function<bool(std::uint64_t)>& proceed) {
     if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());

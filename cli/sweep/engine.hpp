@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/sweep/stacks.hpp"
-#include "tables/records/record_stream.hpp"
+#include "tables/resume/record_stream.hpp"
 
 namespace irido {
 
@@ -36,7 +36,7 @@ public:
     /// Writes the rows of units in [begin, end) in order, computed by so many threads (0: one a
     /// core). `proceed` is called now and then with the number of units that are written; if it
     /// returns false, run() ends early and returns false. Throws what a unit throws.
-    bool run(std::uint64_t begin, std::uint64_t end, const StreamFormat& format,
+    bool run(std::uint64_t begin, std::uint64_t end, const RecordFormat& format,
              RecordStream& stream, unsigned threads,
              const std::function<bool(std::uint64_t)>& proceed);
 
@@ -55,7 +55,7 @@ private:
         return space_.columns()[column].numbers[space_.at(column, combination)];
     }
     double cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const;
-    void compute(Block& block, SweptStacks::Walk& walk, const StreamFormat& format,
+    void compute(Block& block, SweptStacks::Walk& walk, const RecordFormat& format,
                  const std::atomic<bool>& stopped);
     /// Takes one unit, or leaves it out.
     void take_alone(std::uint64_t unit, const std::function<void()>& take);

@@ -13,6 +13,9 @@
 
 namespace irido {
 
+/// Of X, Y, Z where the white has Y = 1.
+inline constexpr double kDefaultTolerance = 1e-6, kSmallestTolerance = 1e-12;
+
 enum class Side { reflected, transmitted };
 
 /// The light that falls on the stack.
@@ -44,7 +47,8 @@ struct ColorMethod {
 struct ColorRequest {
     std::vector<Side> sides{Side::reflected};
     Light light = Light::unpolarized;
-    double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
+    /// Largest error of X, Y, Z, [kSmallestTolerance, 1].
+    double tolerance = kDefaultTolerance;
     std::size_t evaluations = 1U << 20;  ///< a colour; past it the best value is returned
     std::size_t colors = 1;  ///< about as many will be asked for: it decides what to prepare
     /// Layers of the stack, if these are the only ones whose thickness will differ: what the others

@@ -147,7 +147,7 @@ std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const
                                                 const ColorMethod& method,
                                                 const ColorRequest& request) {
     using enum ColorMethod::Kind;
-    require_in_range("tolerance", request.tolerance, 1e-12, 1);
+    require_in_range("tolerance", request.tolerance, kSmallestTolerance, 1);
     switch (method.kind) {
         case automatic:
             return automatic_color(tables, stack, request);

@@ -10,9 +10,9 @@
 namespace irido {
 namespace {
 
-#include "core/color/data/illuminants.inc"
+#include "core/colorimetry/data/illuminants.inc"
 
-constexpr std::array<std::string_view, 6> kNames{"D65", "D50", "A", "E", "FL2", "FL11"};
+constexpr std::array<std::string_view, 6> kIlluminantNames{"D65", "D50", "A", "E", "FL2", "FL11"};
 
 Table rows_of_5_nm(double first_nm, std::span<const double> power) {
     Table table;
@@ -45,11 +45,11 @@ Table illuminant(std::string_view name) {
     if (name == "E") return {{300, 830}, {100, 100}};
     if (name == "FL2") return rows_of_5_nm(380, kFl2);
     if (name == "FL11") return rows_of_5_nm(380, kFl11);
-    throw DomainError("illuminant " + not_one_of(kNames, name));
+    throw DomainError("illuminant " + not_one_of(kIlluminantNames, name));
 }
 
 std::span<const std::string_view> illuminant_names() {
-    return kNames;
+    return kIlluminantNames;
 }
 
 }  // namespace irido

@@ -8,8 +8,8 @@
 namespace irido {
 namespace {
 
-#include "core/color/data/cie1931.inc"
-#include "core/color/data/cie1964.inc"
+#include "core/colorimetry/data/cie1931.inc"
+#include "core/colorimetry/data/cie1964.inc"
 
 static_assert(kCie1931X.size() == kObserverRows && kCie1964X.size() == kObserverRows);
 

@@ -19,7 +19,7 @@ constexpr double kOversampling = 6;
 constexpr double kPeriod = 1.2;
 
 /// Relative, of what was made from the reach.
-constexpr double kRounding = 1e-14;
+constexpr double kSmoothRounding = 1e-14;
 
 /// Rows beyond either end of the period, which a cubic may need.
 constexpr std::size_t kMoreRows = 4;
@@ -88,7 +88,8 @@ SmoothSensitivity::SmoothSensitivity(const Sensitivity& sensitivity, double opd_
 }
 
 Triple SmoothSensitivity::at(double nu) const {
-    require_in_range("nu", nu, reach_.low * (1 - kRounding), reach_.high * (1 + kRounding));
+    require_in_range("nu", nu, reach_.low * (1 - kSmoothRounding),
+                     reach_.high * (1 + kSmoothRounding));
     const double place = (nu - first_) * per_nu_;
     const auto i = static_cast<std::size_t>(place);
     const double t = place - static_cast<double>(i);

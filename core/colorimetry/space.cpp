@@ -28,7 +28,7 @@ constexpr std::array<RgbSpace, 5> kSpaces{{
     {"xyz", {{{1, 0}, {0, 1}, {0, 0}}}, {1, 1, 1}, Encoding::linear},
 }};
 
-constexpr auto kNames = [] {
+constexpr auto kSpaceNames = [] {
     std::array<std::string_view, kSpaces.size()> names;
     std::ranges::transform(kSpaces, names.begin(), &RgbSpace::name);
     return names;
@@ -92,11 +92,11 @@ double bt2020_curve(double v) {
 const RgbSpace& rgb_space(std::string_view name) {
     const auto found = std::ranges::find(kSpaces, name, &RgbSpace::name);
     if (found != kSpaces.end()) return *found;
-    throw DomainError("space " + not_one_of(kNames, name));
+    throw DomainError("space " + not_one_of(kSpaceNames, name));
 }
 
 std::span<const std::string_view> rgb_space_names() {
-    return kNames;
+    return kSpaceNames;
 }
 
 ColorMatrix xyz_from_rgb(const RgbSpace& space) {

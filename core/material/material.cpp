@@ -6,13 +6,12 @@
 
 #include "core/error.hpp"
 #include "core/material/air.hpp"
+#include "core/math/constants.hpp"
 
 namespace irido {
 
 namespace {
 
-/// h c / e in eV nm: h, c and e are exact in the SI of 2019.
-constexpr double kPhotonEnergyEvNm = 6.62607015e-34 * 299792458.0 / 1.602176634e-19 * 1e9;
 
 constexpr double kLargestIndex = 1e4;
 constexpr double kSmallestModulus = 1e-6;
@@ -199,8 +198,8 @@ Complex value_at(const RefractiveIndex& index, const Query& query) {
 }
 
 Complex value_at(const LorentzDrude& model, const Query& query) {
-    const double energy = kPhotonEnergyEvNm / std::clamp(query.wavelength_nm, model.range.first_nm,
-                                                         model.range.last_nm);
+    const double energy = kPhotonEnergy_eVnm / std::clamp(query.wavelength_nm, model.range.first_nm,
+                                                          model.range.last_nm);
     Complex permittivity = model.eps_infinity;
     for (const auto& [strength, damping, resonance] : model.oscillators)
         if (strength != 0)

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
+#include "core/stack/stack.hpp"
 
 namespace irido {
 
@@ -186,8 +187,8 @@ std::int64_t last_order(const TurnRange& range) {
 
 BraggPeriod bragg_period(const RealLayer& first, const RealLayer& second, double n0,
                          IncidentAngle incidence, Polarization polarization) {
-    require_in_range("thickness_nm", first.thickness_nm, 0, 1e9);
-    require_in_range("thickness_nm", second.thickness_nm, 0, 1e9);
+    require_in_range("thickness_nm", first.thickness_nm, 0, kLargestThickness_nm);
+    require_in_range("thickness_nm", second.thickness_nm, 0, kLargestThickness_nm);
     require_in_range("cos_theta", incidence.cos, 0, 1);
     if (first.thickness_nm == 0 && second.thickness_nm == 0)
         throw DomainError("a period must have a thickness (got 0 nm)");

@@ -128,7 +128,7 @@ double BraggMirror::reflectance(double angle_deg, Polarization polarization, dou
 
 BraggMirror::Periods BraggMirror::periods_needed(double angle_deg, Polarization polarization,
                                                  double omega) const {
-    constexpr std::uint64_t kOneByOne = 64, kMost = 1000000000;
+    constexpr std::uint64_t kOneByOne = 64, kMost = kMostRepeats;
     Periods needed{};
     std::size_t level = 0;
     const std::function<double(std::uint64_t)> R = reflectances(angle_deg, polarization, omega);

@@ -9,6 +9,11 @@
 
 namespace irido {
 
+/// Of a layer, and of a standard deviation of it.
+inline constexpr double kLargestThickness_nm = 1e9;
+/// Of a group.
+inline constexpr std::uint64_t kMostRepeats = 1'000'000'000;
+
 /// One homogeneous plane layer.
 struct Layer {
     std::size_t material = 0;       ///< index into Stack::materials

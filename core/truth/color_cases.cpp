@@ -166,19 +166,19 @@ double transparent(Random& random) {
     return random.uniform(1.2, 2.7);
 }
 
-Complex metal(Random& random) {
+Complex bare_metal(Random& random) {
     const double n = random.uniform(0.05, 3);
     return {n, random.uniform(1.5, 7)};
 }
 
-ColorFamily dielectric(Random& random) {
+ColorFamily dielectric_family(Random& random) {
     const double n = transparent(random), d = random.uniform(0, 1500);
     return at_some_angle(random, film_stack(1, n, d, random.uniform(1, 2.5)));
 }
 
 ColorFamily conductor(Random& random) {
     const double n = transparent(random), d = random.uniform(0, 1500);
-    return at_some_angle(random, film_stack(1, n, d, metal(random)));
+    return at_some_angle(random, film_stack(1, n, d, bare_metal(random)));
 }
 
 ColorFamily dispersive(Random& random) {
@@ -200,7 +200,7 @@ ColorFamily multilayer(Random& random) {
         const double k = random.one_in(4) ? random.uniform(0, 0.3) : 0;
         b.add(b.layer({n, k}, random.uniform(5, 300)));
     }
-    return at_some_angle(random, b.over(random.one_in(2) ? Complex(1.52) : metal(random)));
+    return at_some_angle(random, b.over(random.one_in(2) ? Complex(1.52) : bare_metal(random)));
 }
 
 ColorFamily bragg(Random& random) {
@@ -241,7 +241,7 @@ constexpr std::array kCases{
     ColorCase{"mirror_normal", "32 mirrors like (2.3@60 | 1.46@94)^20, 0 degrees", false,
               mirror_normal},
     ColorCase{"mirror_80", "four of them at 0:80:2 degrees", false, mirror_80},
-    ColorCase{"dielectric", "random films up to 1500 nm on dielectrics", true, dielectric},
+    ColorCase{"dielectric", "random films up to 1500 nm on dielectrics", true, dielectric_family},
     ColorCase{"conductor", "the same on metals of constant index", true, conductor},
     ColorCase{"dispersive", "built-in films on built-in metals and glass", true, dispersive},
     ColorCase{"multilayer", "2 to 9 random layers, some absorbing", true, multilayer},

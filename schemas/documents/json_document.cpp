@@ -50,9 +50,9 @@ struct Reading {
 };
 
 /// Builds the document from the parser's events and stops at the first thing it refuses.
-class Builder : public json::json_sax_t {
+class DocumentBuilder : public json::json_sax_t {
 public:
-    explicit Builder(std::string_view text) : text_(text), furthest_(text.data()) {}
+    explicit DocumentBuilder(std::string_view text) : text_(text), furthest_(text.data()) {}
 
     Reading begin() { return {text_.data(), &furthest_}; }
     Reading end() { return {text_.data() + text_.size(), &furthest_}; }
@@ -146,8 +146,8 @@ std::string plain_words(std::string words) {
     return words;
 }
 
-bool Builder::parse_error(std::size_t position, const std::string& token,
-                          const nlohmann::detail::exception& error) {
+bool DocumentBuilder::parse_error(std::size_t position, const std::string& token,
+                                  const nlohmann::detail::exception& error) {
     constexpr int kNumberOverflow = 406;
     if (position > text_.size()) return refuse(plain_words(error.what()), text_.size());
     if (error.id == kNumberOverflow) {
@@ -195,10 +195,9 @@ json& element(json& array, const std::string& step, const std::string& path) {
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& file) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    text = without_byte_order_mark(text);
     const std::size_t nul = text.find('\0');  // to the parser this would be the end
-    Builder builder(text.substr(0, nul));
+    DocumentBuilder builder(text.substr(0, nul));
     if (!json::sax_parse(builder.begin(), builder.end(), &builder)) {
         throw InputError(file, line_and_column(text, builder.refused), builder.refusal);
     }

@@ -48,9 +48,9 @@ std::vector<Problem> broken_rules(const json& document) {
     return problems;
 }
 
-class Reader {
+class SceneReader {
 public:
-    Reader(const json& document, std::string file, std::string folder)
+    SceneReader(const json& document, std::string file, std::string folder)
         : document_(document), file_(std::move(file)), folder_(std::move(folder)) {}
 
     Scene read() {
@@ -194,7 +194,7 @@ std::vector<std::string> scene_problems(const json& document, const std::string&
 }
 
 Scene read_scene(const json& document, const std::string& file, const std::string& folder) {
-    return Reader(document, file, folder).read();
+    return SceneReader(document, file, folder).read();
 }
 
 Scene read_scene(const std::string& path) {

@@ -147,10 +147,10 @@ bool same_physics(const Material& a, const Material& b) {
 
 /// Builds a stack from a document. Reports everything that is wrong instead of stopping there, and
 /// steps over the parts that break the schema.
-class Reader {
+class StackReader {
 public:
-    Reader(const json& document, const std::string& file, const std::string& folder,
-           MaterialFiles& files)
+    StackReader(const json& document, const std::string& file, const std::string& folder,
+                MaterialFiles& files)
         : document_(document), file_(file), folder_(folder), files_(files) {
         static const Schema schema(json::parse(stack_schema_text()));
         for (const Problem& problem : check(schema, document)) {
@@ -501,7 +501,7 @@ StackDocument read_stack(const json& document, const std::string& file, const st
 
 StackDocument read_stack(const json& document, const std::string& file, const std::string& folder,
                          MaterialFiles& files) {
-    Reader reader(document, file, folder, files);
+    StackReader reader(document, file, folder, files);
     if (!reader.problems.empty()) throw InputError(reader.problems.front());
     StackDocument result = reader.read();
     if (!reader.problems.empty()) throw InputError(reader.problems.front());
@@ -519,7 +519,7 @@ std::vector<std::string> stack_problems(const json& document, const std::string&
     std::vector<std::string> lines;
     MaterialFiles files;
     try {
-        Reader reader(document, file, folder, files);
+        StackReader reader(document, file, folder, files);
         reader.read();
         for (const InputError& problem : reader.problems) lines.emplace_back(problem.what());
     } catch (const InputError& error) {

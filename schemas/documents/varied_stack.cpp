@@ -14,7 +14,6 @@ namespace irido {
 namespace {
 
 constexpr std::string_view kThickness = "thickness_nm";
-constexpr double kLargestThickness_nm = 1e9;
 
 /// I of "layers.I.rest", of which "rest" stays; nothing for a path of another shape.
 std::optional<std::size_t> take_layer(std::string_view& path) {
@@ -134,7 +133,9 @@ Layer* VariedStack::layer_at(Stack& stack, std::string_view path) {
 void VariedStack::require_thickness(const std::string& file, const std::string& path,
                                     double thickness_nm) {
     if (!(thickness_nm >= 0 && thickness_nm <= kLargestThickness_nm))
-        throw InputError(file, path, "must be in [0, 1e9] (got " + to_text(thickness_nm) + ")");
+        throw InputError(file, path,
+                         "must be in [0, " + to_text(kLargestThickness_nm) + "] (got " +
+                             to_text(thickness_nm) + ")");
 }
 
 }  // namespace irido

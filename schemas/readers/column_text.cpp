@@ -7,14 +7,15 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/number.hpp"
+#include "schemas/readers/utf8.hpp"
 
 namespace irido {
 
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::array kSeparators{';', '\t', ',', ' '};
 
 using Cells = std::vector<std::string_view>;
@@ -104,9 +105,9 @@ std::vector<std::string> names_of(std::string_view line, char separator) {
     return names;
 }
 
-class Reader {
+class TextReader {
 public:
-    Reader(std::span<const TextLine> lines, const std::string& name, const ColumnNames& names)
+    TextReader(std::span<const TextLine> lines, const std::string& name, const ColumnNames& names)
         : name_(name), names_(names) {
         for (const TextLine& line : lines) {
             lines_.push_back(without_comment(line));
@@ -251,8 +252,6 @@ double shifted(double value, int power) {
     return parse_number({text.data(), end}).value_or(value);
 }
 
-/// h c / e in eV nm: h, c and e are exact in the SI of 2019.
-constexpr double kPhotonEnergyEvNm = 6.62607015e-34 * 299792458.0 / 1.602176634e-19 * 1e9;
 
 using Spelling = std::pair<std::string_view, std::string_view>;
 
@@ -306,7 +305,7 @@ bool goes_with(std::string_view word, SpectralUnit unit) {
 }  // namespace
 
 std::vector<TextLine> lines_of(std::string_view text) {
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    text = without_byte_order_mark(text);
     std::vector<TextLine> lines;
     for (std::size_t start = 0; start < text.size();) {
         const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
@@ -322,7 +321,7 @@ std::string place_of(const TextLine& line, std::string_view part) {
 
 ColumnText read_columns(std::span<const TextLine> lines, const std::string& name,
                         const ColumnNames& names) {
-    return Reader(lines, name, names).read();
+    return TextReader(lines, name, names).read();
 }
 
 std::string plain_words(std::string_view column) {
@@ -368,7 +367,7 @@ double to_nm(double value, SpectralUnit unit) {
         case SpectralUnit::angstrom:
             return shifted(value, -1);
         case SpectralUnit::ev:
-            return kPhotonEnergyEvNm / value;
+            return kPhotonEnergy_eVnm / value;
         case SpectralUnit::per_cm:
             return 1e7 / value;
         case SpectralUnit::nm:

@@ -9,12 +9,11 @@
 #include "schemas/input_error.hpp"
 #include "schemas/readers/number.hpp"
 #include "schemas/readers/text_file.hpp"
+#include "schemas/readers/utf8.hpp"
 
 namespace irido {
 
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// Whether a text that is no number of ours was meant as one: nan, inf, 1e999.
 bool is_unusable_number(std::string_view text) {
@@ -113,10 +112,10 @@ private:
     std::deque<std::string> unquoted_;  ///< texts of cells that are not as they stand in the file
 };
 
-using Cells = std::vector<Rows::Cell>;
+using PlacedCells = std::vector<Rows::Cell>;
 
 std::vector<PointsColumn> read_header(Rows& rows) {
-    Cells cells;
+    PlacedCells cells;
     if (!rows.next(cells)) rows.fail(0, "must have a header that names the paths");
     std::vector<PointsColumn> columns;
     std::set<std::string_view> paths;
@@ -134,7 +133,7 @@ std::vector<PointsColumn> read_header(Rows& rows) {
 /// Reads all rows, numbers where a column has no others. Which columns have is in the result.
 std::vector<bool> read_numbers(Rows rows, std::vector<PointsColumn>& columns) {
     std::vector<bool> has_texts(columns.size());
-    Cells cells;
+    PlacedCells cells;
     std::size_t count = 0;
     for (; rows.next(cells); ++count) {
         if (cells.size() != columns.size())
@@ -160,7 +159,7 @@ std::vector<bool> read_numbers(Rows rows, std::vector<PointsColumn>& columns) {
 /// Reads all rows again, for the columns that are not numbers.
 void read_texts(Rows rows, const std::vector<bool>& has_texts, std::vector<PointsColumn>& columns) {
     std::vector<std::map<std::string, std::uint32_t, std::less<>>> known(columns.size());
-    Cells cells;
+    PlacedCells cells;
     while (rows.next(cells))
         for (std::size_t c = 0; c < cells.size(); ++c) {
             if (!has_texts[c]) continue;
@@ -177,7 +176,7 @@ void read_texts(Rows rows, const std::vector<bool>& has_texts, std::vector<Point
 }  // namespace
 
 std::vector<PointsColumn> read_points_csv(std::string_view text, const std::string& name) {
-    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    text = without_byte_order_mark(text);
     Rows rows(text, name);
     std::vector<PointsColumn> columns = read_header(rows);
     const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));

@@ -47,4 +47,9 @@ bool is_well_formed(std::string_view text) {
     return well_formed(text) == text;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF";
+    return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
 }  // namespace irido

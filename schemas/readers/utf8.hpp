@@ -21,4 +21,7 @@ inline constexpr const char* kNoText = "must be UTF-8 without control characters
 /// Whether well_formed() changes nothing.
 bool is_well_formed(std::string_view text);
 
+/// The text after the byte order mark that it may begin with.
+std::string_view without_byte_order_mark(std::string_view text);
+
 }  // namespace irido

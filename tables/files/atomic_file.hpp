@@ -2,16 +2,17 @@
 
 #include <sys/types.h>
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace irido {
 
 /// Output that could not be written; the text names the file and the system's reason.
-struct OutputError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct OutputError : Error {
+    using Error::Error;
 };
 
 /// Nobody reads standard output any more.

@@ -4,22 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/half.hpp"
+
 namespace irido {
 
 namespace {
 
 constexpr double kSpacingTolerance = 1e-9;
-constexpr double kLargestHalf = 65504;
-constexpr int kHalfDigits = 10, kSmallestHalfExponent = -14;
-
-double rounded_to_half(double value) {
-    if (value == 0 || !std::isfinite(value)) return value;
-    const int exponent = std::max(std::ilogb(value), kSmallestHalfExponent) - kHalfDigits;
-    const double half = std::ldexp(std::nearbyint(std::ldexp(value, -exponent)), exponent);
-    return std::abs(half) > kLargestHalf
-               ? std::copysign(std::numeric_limits<double>::infinity(), half)
-               : half;
-}
 
 }  // namespace
 

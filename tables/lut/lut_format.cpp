@@ -10,6 +10,8 @@ namespace irido {
 namespace {
 
 constexpr std::array kFormats{IRIDO_ALL};
+#undef IRIDO_DECLARE
+#undef IRIDO_ALL
 
 }  // namespace
 

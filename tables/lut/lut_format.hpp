@@ -1,19 +1,19 @@
 #pragma once
 
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "tables/lut/lut.hpp"
 
 namespace irido {
 
 /// A table that a format cannot hold, or a file that is not what it should be: one line of text.
-struct LutError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+struct LutError : Error {
+    using Error::Error;
 };
 
 /// How a table is laid out in files, beyond what follows from the table.

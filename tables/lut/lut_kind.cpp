@@ -10,6 +10,8 @@ namespace irido {
 namespace {
 
 constexpr std::array kKinds{IRIDO_ALL};
+#undef IRIDO_DECLARE
+#undef IRIDO_ALL
 
 }  // namespace
 

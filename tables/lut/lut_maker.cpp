@@ -371,10 +371,10 @@ private:
         std::string place;
         for (std::size_t a = 0; a < lut_.axes.size(); ++a)
             place += (a > 0 ? ", " : "") + lut_.axes[a].name + " " + to_text(error.at[a]);
-        throw LutToleranceError(
-            "no table of a reasonable size has an interpolation error of " + to_text(tolerance_) +
-            " (" + plan_.measure.name + "): the function is too steep at " + place + ", where " +
-            to_text(error.value) + " is left; a range without that place may do");
+        throw ToleranceError("no table of a reasonable size has an interpolation error of " +
+                             to_text(tolerance_) + " (" + plan_.measure.name +
+                             "): the function is too steep at " + place + ", where " +
+                             to_text(error.value) + " is left; a range without that place may do");
     }
 
     /// Fewer samples along one axis after the other, the largest first, while the error allows.

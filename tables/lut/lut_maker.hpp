@@ -11,11 +11,6 @@
 
 namespace irido {
 
-/// No table of a reasonable size meets the tolerance.
-struct LutToleranceError : LutError {
-    using LutError::LutError;
-};
-
 /// How many samples a table gets along its axes.
 struct LutSizing {
     std::vector<std::size_t> counts{};  ///< of every axis; empty: as planned or by the tolerance
@@ -48,7 +43,7 @@ std::vector<InterpolationError> interpolation_errors(const LutPlan& plan, const 
 /// Samples the plan's function. With a tolerance: axes that do not matter get one sample, ranges
 /// end where the function has become constant, and sizes grow until the error is met, of the first
 /// level where there are mip levels; what was left out is in the facts' notes. Throws
-/// LutToleranceError if no size up to 8192 meets it, LutError for sizes that cannot be.
+/// ToleranceError if no size up to 8192 meets it, LutError for sizes that cannot be.
 Lut make_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
 /// The same without its values and their error: what the table will be.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "core/math/half.hpp"
 #include "tables/lut/lut_format.hpp"
 #include "tables/records/records.hpp"
 
@@ -19,39 +20,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t kMostAxes = 3, kMostSamples = 1U << 20U, kMostLevels = 32;
 constexpr std::size_t kMostChannels = 4096;
-constexpr double kMostValues = 0x1p40;
-
-// --- half precision -------------------------------------------------------------------------
-
-constexpr std::uint16_t kHalfSign = 0x8000, kHalfInfinity = 0x7C00, kHalfNan = 0x7E00;
-constexpr int kHalfDigits = 10, kHalfBias = 15, kSmallestHalfExponent = -14;
-
-/// Bits of a double that a half can hold.
-std::uint16_t half_bits(double value) {
-    const unsigned sign = std::signbit(value) ? kHalfSign : 0U;
-    if (std::isnan(value)) return kHalfNan;
-    if (std::isinf(value)) return static_cast<std::uint16_t>(sign | kHalfInfinity);
-    if (value == 0) return static_cast<std::uint16_t>(sign);
-    const int exponent = std::max(std::ilogb(value), kSmallestHalfExponent);
-    // 1024 to 2047, its leading bit adding 1 to the exponent; below that for subnormal numbers
-    const auto digits = static_cast<unsigned>(std::ldexp(std::abs(value), kHalfDigits - exponent));
-    const auto biased = static_cast<unsigned>(exponent + kHalfBias - 1) << unsigned{kHalfDigits};
-    return static_cast<std::uint16_t>(sign | (biased + digits));
-}
-
-double half_value(std::uint16_t bits) {
-    const unsigned digits = bits & 0x3FFU;
-    const int exponent = static_cast<int>((bits & kHalfInfinity) >> unsigned{kHalfDigits});
-    double value = 0;
-    if (exponent == 31)
-        value = digits == 0 ? std::numeric_limits<double>::infinity()
-                            : std::numeric_limits<double>::quiet_NaN();
-    else if (exponent == 0)
-        value = std::ldexp(digits, kSmallestHalfExponent - kHalfDigits);
-    else
-        value = std::ldexp(digits + 1024U, exponent - kHalfBias - kHalfDigits);
-    return (bits & kHalfSign) != 0 ? -value : value;
-}
+constexpr double kMostLutValues = 0x1p40;
 
 template <class Number>
 void append_number_bytes(std::string& out, Number number) {
@@ -138,7 +107,7 @@ void check_shape(const Lut& lut) {
         check_axis(axis);
         count *= static_cast<double>(axis.count());
     }
-    if (count > kMostValues) throw LutError("the table has more than 2^40 values");
+    if (count > kMostLutValues) throw LutError("the table has more than 2^40 values");
     if (lut.mips) check_mips(lut);
 }
 

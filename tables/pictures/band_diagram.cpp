@@ -21,19 +21,9 @@ constexpr double kLabelHeight = 15;  ///< a gap must be this tall to be named in
 constexpr const char* kColorS = "#0072b2";
 constexpr const char* kColorP = "#d55e00";
 
-/// A hundredth of a unit.
-std::string coordinate(double value) {
-    return svg_number(std::round(value * 100) / 100);
-}
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& color) {
-    return "<path d=\"M" + coordinate(x1) + " " + coordinate(y1) + "L" + coordinate(x2) + " " +
-           coordinate(y2) + "\" stroke=\"" + color + "\"/>\n";
-}
-
 std::string rectangle(double x, double y, double width, double height, const std::string& style) {
-    return "<rect x=\"" + coordinate(x) + "\" y=\"" + coordinate(y) + "\" width=\"" +
-           coordinate(width) + "\" height=\"" + coordinate(height) + "\" " + style + "/>\n";
+    return "<rect x=\"" + svg_coordinate(x) + "\" y=\"" + svg_coordinate(y) + "\" width=\"" +
+           svg_coordinate(width) + "\" height=\"" + svg_coordinate(height) + "\" " + style + "/>\n";
 }
 
 /// A pale sRGB colour of a wavelength's hue, paler where the eye sees less of it. White is added
@@ -97,7 +87,7 @@ std::string wavelength_axis(const BandDiagram& diagram, const Frame& frame) {
     std::string out;
     for (double i = std::ceil(diagram.first_nm / step); i * step <= diagram.last_nm; ++i) {
         const double y = frame.y(i * step);
-        out += line(kLeft, y, kRight, y, "#e8e8e8") +
+        out += svg_line(kLeft, y, kRight, y, "#e8e8e8") +
                svg_text(kLeft - kStrip - 8, std::round(y) + 4, "end", svg_number(i * step));
     }
     const std::string middle = svg_number((kTop + kBottom) / 2);
@@ -112,7 +102,7 @@ std::string angle_axis(const Frame& frame) {
         for (double i = side < 0 ? 1 : 0; i * step <= frame.largest_deg(); ++i) {
             const double x = frame.x(i * step, side);
             out +=
-                line(x, kTop, x, kBottom, i == 0 ? "#999999" : "#e8e8e8") +
+                svg_line(x, kTop, x, kBottom, i == 0 ? "#999999" : "#e8e8e8") +
                 svg_text(std::round(x * 100) / 100, kBottom + 18, "middle", svg_number(i * step));
         }
     }
@@ -124,9 +114,9 @@ std::string gap_area(const BandDiagram& diagram, const Frame& frame,
     const std::vector<double>& angles = diagram.angles_deg;
     std::string points, back;
     for (std::size_t i = 0; i < angles.size(); ++i) {
-        const std::string x = coordinate(frame.x(angles[i], side)) + ",";
-        points += x + coordinate(frame.y(edges[i].short_nm)) + " ";
-        back = x + coordinate(frame.y(edges[i].long_nm)) + " " + back;
+        const std::string x = svg_coordinate(frame.x(angles[i], side)) + ",";
+        points += x + svg_coordinate(frame.y(edges[i].short_nm)) + " ";
+        back = x + svg_coordinate(frame.y(edges[i].long_nm)) + " " + back;
     }
     const std::string color = side < 0 ? kColorS : kColorP;
     return "<polygon class=\"gap\" points=\"" + points + back + "\" fill=\"" + color +

@@ -8,21 +8,23 @@ namespace irido {
 
 namespace {
 
-constexpr double kWidth = 720, kLeft = 70, kRight = 20, kTop = 40, kStrip = 64, kGap = 8;
+constexpr double kSwatchWidth = 720, kSwatchLeft = 70, kSwatchRight = 20, kSwatchTop = 40,
+                 kSwatchStrip = 64, kSwatchGap = 8;
 constexpr std::size_t kMostTicks = 10;
 
 /// Left edge of swatch `i` of `count`, on whole units where they are wide enough to show a seam.
 double edge(std::size_t i, std::size_t count) {
-    return kLeft + (kWidth - kLeft - kRight) * static_cast<double>(i) / static_cast<double>(count);
+    return kSwatchLeft + (kSwatchWidth - kSwatchLeft - kSwatchRight) * static_cast<double>(i) /
+                             static_cast<double>(count);
 }
 
 std::string strip_at(double y, const Swatches::Strip& strip) {
     const std::size_t count = strip.colors.size();
-    std::string out = svg_text(kLeft - 10, y + kStrip / 2 + 5, "end", strip.label);
+    std::string out = svg_text(kSwatchLeft - 10, y + kSwatchStrip / 2 + 5, "end", strip.label);
     for (std::size_t i = 0; i < count; ++i)
         out += "<rect x=\"" + svg_number(edge(i, count)) + "\" y=\"" + svg_number(y) +
                "\" width=\"" + svg_number(edge(i + 1, count) - edge(i, count)) + "\" height=\"" +
-               svg_number(kStrip) + "\" fill=\"" + strip.colors[i] + "\"/>\n";
+               svg_number(kSwatchStrip) + "\" fill=\"" + strip.colors[i] + "\"/>\n";
     return out;
 }
 
@@ -40,22 +42,23 @@ std::string axis_at(double y, const Swatches& swatches) {
     for (std::size_t i = 0; i < count; i += step)
         out += svg_text((edge(i, count) + edge(i + 1, count)) / 2, y, "middle",
                         svg_number(swatches.positions[i]));
-    return out + svg_text(kWidth / 2, y + 22, "middle", swatches.axis);
+    return out + svg_text(kSwatchWidth / 2, y + 22, "middle", swatches.axis);
 }
 
 }  // namespace
 
 std::string write_swatches(const Swatches& swatches) {
     const double strips = static_cast<double>(swatches.strips.size());
-    const double bottom = kTop + strips * (kStrip + kGap);
-    const std::string size = svg_number(kWidth) + " " + svg_number(bottom + 44);
+    const double bottom = kSwatchTop + strips * (kSwatchStrip + kSwatchGap);
+    const std::string size = svg_number(kSwatchWidth) + " " + svg_number(bottom + 44);
     std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size +
                       "\" font-family=\"sans-serif\" font-size=\"14\" fill=\"#333333\" "
                       "shape-rendering=\"crispEdges\">\n"
                       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
-    out += svg_text(kLeft, 26, "start", swatches.title);
+    out += svg_text(kSwatchLeft, 26, "start", swatches.title);
     for (std::size_t i = 0; i < swatches.strips.size(); ++i)
-        out += strip_at(kTop + static_cast<double>(i) * (kStrip + kGap), swatches.strips[i]);
+        out += strip_at(kSwatchTop + static_cast<double>(i) * (kSwatchStrip + kSwatchGap),
+                        swatches.strips[i]);
     return out + axis_at(bottom + 12, swatches) + "</svg>\n";
 }
 

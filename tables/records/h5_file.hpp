@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tables/records/record_format.hpp"
 #include "tables/records/record_layout.hpp"
-#include "tables/records/stream_format.hpp"
 
 namespace irido {
 

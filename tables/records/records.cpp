@@ -3,10 +3,6 @@
 #include <array>
 #include <charconv>
 
-#include "tables/records/csv.hpp"
-#include "tables/records/json.hpp"
-#include "tables/records/npy.hpp"
-
 namespace irido {
 
 std::size_t Records::rows() const {
@@ -42,17 +38,6 @@ void Records::append(Records more) {
                 append_values(values, std::get<Values>(more.columns[c].values));
             },
             columns[c].values);
-}
-
-const RecordFormat* find_record_format(std::string_view name) {
-    static constexpr std::array formats{
-        RecordFormat{"csv", "one line a record, names in the first", write_csv},
-        RecordFormat{"json", "array of objects with the CSV's names", write_json},
-        RecordFormat{"npy", "NumPy structured array with the CSV's names", write_npy},
-    };
-    for (const RecordFormat& format : formats)
-        if (format.name == name) return &format;
-    return nullptr;
 }
 
 void append_number(std::string& out, double value) {

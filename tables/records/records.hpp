@@ -38,18 +38,11 @@ struct Records {
     void append(Records more);
 };
 
-/// A way to write records as bytes.
-struct RecordFormat {
-    std::string_view name;  ///< as --format and as a file's extension
-    std::string_view summary;
-    std::string (*write)(const Records&);
-};
-
-/// csv, json and npy; nullptr for any other name.
-const RecordFormat* find_record_format(std::string_view name);
-
 /// Shortest text that reads back to the same double, appended.
 void append_number(std::string& out, double value);
+
+/// Bytes that one value takes in a text, with its comma, more or less.
+inline constexpr std::size_t kUsualValueBytes = 16;
 
 /// Appends the values of some columns row by row: a column's values through `append(out, value)`,
 /// those of coded columns once.

@@ -10,7 +10,7 @@
 
 #include "tables/files/plain_file.hpp"
 #include "tables/records/record_layout.hpp"
-#include "tables/records/record_stream.hpp"
+#include "tables/resume/record_stream.hpp"
 
 namespace irido {
 

@@ -10,8 +10,8 @@
 #include "tables/files/atomic_file.hpp"
 #include "tables/files/hash.hpp"
 #include "tables/files/plain_file.hpp"
-#include "tables/records/record_stream.hpp"
 #include "tables/resume/journal.hpp"
+#include "tables/resume/record_stream.hpp"
 
 namespace irido {
 
@@ -29,7 +29,7 @@ struct Shard {
     std::string name() const { return std::to_string(identity().shard); }
 };
 
-Shard read_shard(const std::string& path, const StreamFormat& format) {
+Shard read_shard(const std::string& path, const RecordFormat& format) {
     const std::string target = resolved_path(path), journal = journal_name(target);
     std::error_code ignored;
     if (!std::filesystem::exists(journal, ignored))
@@ -113,9 +113,9 @@ void write_to(int descriptor, std::string_view bytes, const std::string& path) {
 }
 
 /// The rows of a shard, without its head and tail, which must be those of the format.
-void copy_rows(const Shard& shard, const StreamFormat& format, int to, const std::string& path) {
+void copy_rows(const Shard& shard, const RecordFormat& format, int to, const std::string& path) {
     const PlainFile file(shard.path, PlainFile::Use::read);
-    const std::string head = format.head(shard.head.layout, shard.counts.rows);
+    const std::string head = format.head(shard.head.layout, shard.counts.rows, HeadKind::open);
     std::string buffer(head.size(), '\0'), tail(format.tail.size(), '\0');
     const std::uint64_t end = shard.counts.bytes;
     file.read_at(0, buffer);
@@ -129,11 +129,11 @@ void copy_rows(const Shard& shard, const StreamFormat& format, int to, const std
     }
 }
 
-void copy_all(const std::vector<Shard>& shards, const StreamFormat& format, int to,
+void copy_all(const std::vector<Shard>& shards, const RecordFormat& format, int to,
               const std::string& path) {
     std::uint64_t rows = 0;
     for (const Shard& shard : shards) rows += shard.counts.rows;
-    write_to(to, format.head(shards[0].head.layout, rows), path);
+    write_to(to, format.head(shards[0].head.layout, rows, HeadKind::open), path);
     std::uint64_t done = 0;
     for (const Shard& shard : shards) {
         if (done > 0 && shard.counts.rows > 0) write_to(to, format.separator, path);
@@ -143,7 +143,7 @@ void copy_all(const std::vector<Shard>& shards, const StreamFormat& format, int 
     write_to(to, format.tail, path);
 }
 
-void write_merged(const std::vector<Shard>& shards, const StreamFormat& format,
+void write_merged(const std::vector<Shard>& shards, const RecordFormat& format,
                   const std::string& path) {
     const OutputTarget target = output_target(path);
     if (!target.is_file) {
@@ -169,7 +169,7 @@ void write_merged(const std::vector<Shard>& shards, const StreamFormat& format,
 }  // namespace
 
 void merge_streams(const std::vector<std::string>& paths, const std::string& path,
-                   const StreamFormat& format) {
+                   const RecordFormat& format) {
     if (paths.empty()) throw OutputError(path + ": no shards to be merged");
     std::vector<Shard> shards;
     for (const std::string& shard : paths) shards.push_back(read_shard(shard, format));

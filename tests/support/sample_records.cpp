@@ -92,13 +92,6 @@ Records sample_rows(std::uint64_t first, std::uint64_t count) {
     return records;
 }
 
-const std::vector<const StreamFormat*>& stream_formats() {
-    static const std::vector<const StreamFormat*> formats{
-        find_stream_format("csv"), find_stream_format("json"), find_stream_format("npy"),
-        find_stream_format("h5")};
-    return formats;
-}
-
 H5Content read_h5(const std::string& path) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) throw std::runtime_error("no HDF5 file: " + path);

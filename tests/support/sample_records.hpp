@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tables/records/stream_format.hpp"
+#include "tables/records/record_format.hpp"
 
 namespace irido::test {
 
@@ -13,9 +13,6 @@ RecordLayout sample_layout();
 
 /// Rows first, first + 1, ... of an endless sample.
 Records sample_rows(std::uint64_t first, std::uint64_t count);
-
-/// The formats of a stream.
-const std::vector<const StreamFormat*>& stream_formats();
 
 /// One dataset of an HDF5 file: its values as texts.
 struct H5Column {

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/coherent/fresnel.hpp"
 #include "core/color/baselines/film_approximation.hpp"
 #include "core/color/fourier/one_film.hpp"
 #include "core/error.hpp"
@@ -137,15 +138,6 @@ private:
     std::span<const Polarization> polarizations_;
     Triple mirror_;
 };
-
-/// Reflectance of a face at normal incidence.
-double normal_reflectance(double below, double above) {
-    return std::pow((below - above) / (below + above), 2);
-}
-
-double schlick(double R0, double cos_theta) {
-    return R0 + (1 - R0) * std::pow(1 - cos_theta, 5);
-}
 
 /// Keeps the base's index finite: added to its F0, and the most that F0 may be then.
 constexpr double kF0Guard = 1e-4, kLargestF0 = 0.9999;

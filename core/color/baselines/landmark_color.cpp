@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/coherent/fresnel.hpp"
 #include "core/color/bloch/one_mirror.hpp"
 #include "core/color/fourier/film_parts.hpp"
 #include "core/error.hpp"
@@ -14,10 +15,6 @@ namespace {
 
 /// The constants of w~ and of its linear regression. Source: FPB24 appendix B.
 constexpr double kSlope = 0.735, kOffset = 0.532;
-
-double normal_reflectance(double n1, double n2) {
-    return std::pow((n1 - n2) / (n1 + n2), 2);
-}
 
 /// Of the first layer.
 double cos_inside(const OneMirror& mirror, double cos_theta) {

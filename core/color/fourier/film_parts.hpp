@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/film/film.hpp"
 #include "core/stack/index_table.hpp"
+#include "core/stack/stack.hpp"
 
 /// What the two kinds of film_color() have in common.
 namespace irido {
@@ -38,14 +39,12 @@ inline Film film_at(const IndexTable& table, const Stack& stack, std::size_t wav
 
 /// The film's thicknesses, whose spread is that of a Gaussian.
 struct Thickness {
-    static constexpr double kThickest_nm = 1e9;
-
     double mean_nm, sigma_nm;
 
     explicit Thickness(const Layer& layer)
         : mean_nm(layer.thickness_nm), sigma_nm(layer.thickness_sigma_nm) {
-        require_in_range("thickness_nm", mean_nm, 0, kThickest_nm);
-        require_in_range("thickness_sigma_nm", sigma_nm, 0, kThickest_nm);
+        require_in_range("thickness_nm", mean_nm, 0, kLargestThickness_nm);
+        require_in_range("thickness_sigma_nm", sigma_nm, 0, kLargestThickness_nm);
         mean_nm = std::max(mean_nm, 1e-9 * sigma_nm);  // the spread is taken in parts of the mean
     }
     bool vanishes() const { return mean_nm == 0 && sigma_nm == 0; }

@@ -6,7 +6,7 @@
 //   f16, f32 and f64 all read back bit-equal. Linear axes are written as the metadata has them.
 // - The metadata is in the companion FILE.csv.json; a table on standard output has none.
 
-#include "tables/records/csv.hpp"
+#include "tables/records/record_format.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ std::vector<LutFile> write(const Lut& lut, const LutLayout& layout) {
     check_values(lut);
     std::vector<LutFile> files;
     files.push_back(companion_of(lut));
-    std::string bytes = write_csv(records_of(lut));
+    std::string bytes = written(*find_record_format("csv"), records_of(lut));
     files.push_back({"", std::move(bytes)});
     return files;
 }

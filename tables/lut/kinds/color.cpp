@@ -5,6 +5,7 @@
 #include "core/coherent/coherent.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
+#include "core/stack/stack.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/varied_stack.hpp"
 #include "tables/lut/color_values.hpp"
@@ -195,7 +196,7 @@ extern const LutKind lut_kind_color = {
                  .help = "standard deviations of the first value that varies, a thickness, nm,\n"
                          "ascending: a first axis, in KTX2 files mip levels",
                  .lowest = 0,
-                 .highest = 1e9}},
+                 .highest = kLargestThickness_nm}},
     .plan = plan,
     .problems = color_problems,
 };

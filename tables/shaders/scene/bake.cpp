@@ -125,7 +125,7 @@ Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest
     std::string reason;
     try {
         return make(table.request);
-    } catch (const LutToleranceError& error) {
+    } catch (const ToleranceError& error) {
         reason = error.what();
     } catch (const DomainError& error) {  // a value is not known well enough
         reason = error.what();
@@ -139,11 +139,11 @@ Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest
                                "] would do");
             lut.facts["request"]["angles_deg"] = {0, angle_deg};
             return lut;
-        } catch (const LutToleranceError&) {
+        } catch (const ToleranceError&) {
         } catch (const DomainError&) {
         }
     }
-    throw LutToleranceError(reason);
+    throw ToleranceError(reason);
 }
 
 /// Makes one table, writes its file if it needs one, and returns its entry.

@@ -48,7 +48,7 @@ Keeping keeping_of(const Scene& scene, const ScenePlan& plan, const SceneTable& 
 
 /// A table's entry without its values' file, size found by the tolerance: for a plan. It has
 /// `samples` and `seconds`, an estimate of what making it takes, and the errors of mip levels as
-/// estimated_level_errors() has them. Throws LutToleranceError.
+/// estimated_level_errors() has them. Throws ToleranceError.
 nlohmann::json planned_entry(const SceneTable& table);
 
 struct BakeRequest {

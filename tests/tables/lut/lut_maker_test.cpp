@@ -133,7 +133,7 @@ TEST_CASE("a range ends where the function is constant", "[lut]") {
 
 TEST_CASE("a tolerance that no size meets is said", "[lut]") {
     const LutPlan jump = plan_of([](double x, double) { return x < 0.3 ? 0.0 : 1.0; });
-    CHECK_THROWS_AS(make_lut(kKind, jump, with_tolerance(1e-3)), LutToleranceError);
+    CHECK_THROWS_AS(make_lut(kKind, jump, with_tolerance(1e-3)), ToleranceError);
 }
 
 TEST_CASE("sizes that were typed are taken", "[lut]") {

@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "tables/files/atomic_file.hpp"
-#include "tables/records/record_stream.hpp"
+#include "tables/resume/record_stream.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/sample_records.hpp"
+#include "tests/support/sample_streams.hpp"
 
 using namespace irido;
 using namespace irido::test;
@@ -17,14 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-StreamIdentity identity_of(std::uint64_t total, std::uint64_t shard = 1, std::uint64_t shards = 1) {
-    return {
-        "request", "avx2",    shard, shards, total * (shard - 1) / shards, total * shard / shards,
-        total,     shards > 1};
-}
-
 /// Two rows a unit, but none in the first ten units.
-void write_shard(const std::string& path, const StreamFormat& format,
+void write_shard(const std::string& path, const RecordFormat& format,
                  const StreamIdentity& identity, const RecordLayout& layout = sample_layout()) {
     const auto stream = record_file(path, format, layout, identity, false);
     for (std::uint64_t unit = identity.begin; unit < identity.end; ++unit) {
@@ -39,10 +33,10 @@ void write_shard(const std::string& path, const StreamFormat& format,
 /// The shards of a sweep in a folder, 1.csv and so on.
 struct Shards {
     TemporaryFolder folder;
-    const StreamFormat& format;
+    const RecordFormat& format;
     std::vector<std::string> paths;
 
-    explicit Shards(const StreamFormat& of, std::uint64_t total = 47, std::uint64_t count = 3)
+    explicit Shards(const RecordFormat& of, std::uint64_t total = 47, std::uint64_t count = 3)
         : format(of) {
         for (std::uint64_t shard = 1; shard <= count; ++shard) {
             paths.push_back(folder / (std::to_string(shard) + "." + std::string(format.name)));
@@ -69,7 +63,7 @@ struct Shards {
 }  // namespace
 
 TEST_CASE("merged shards are the bytes of one run", "[tables][stream]") {
-    for (const StreamFormat* const format : stream_formats())
+    for (const RecordFormat* const format : record_formats())
         for (const std::uint64_t total : {0, 11, 47}) {
             const TemporaryFolder folder;
             write_shard(folder / "one", *format, identity_of(total));
@@ -85,7 +79,7 @@ TEST_CASE("merged shards are the bytes of one run", "[tables][stream]") {
 
 TEST_CASE("a merging of long HDF5 shards", "[tables][stream]") {
     const TemporaryFolder folder;
-    const StreamFormat& h5 = *find_stream_format("h5");
+    const RecordFormat& h5 = *find_record_format("h5");
     constexpr std::uint64_t rows = 1200000;  // a column of a shard is larger than a buffer
     const RecordLayout layout{sample_layout()[0]};
     Records all = sample_rows(0, rows);
@@ -109,7 +103,7 @@ TEST_CASE("a merging of long HDF5 shards", "[tables][stream]") {
 }
 
 TEST_CASE("a merging replaces a file and writes to a device", "[tables][stream]") {
-    const Shards shards(*find_stream_format("csv"));
+    const Shards shards(*find_record_format("csv"));
     write_text(shards.folder / "merged", "old");
     fs::permissions(shards.folder / "merged", fs::perms(0600));
     const std::string bytes = shards.merged();
@@ -117,12 +111,12 @@ TEST_CASE("a merging replaces a file and writes to a device", "[tables][stream]"
     merge_streams(shards.paths, "/dev/null", shards.format);
     CHECK_THROWS_WITH(merge_streams(shards.paths, "/dev/full", shards.format),
                       Equals("/dev/full: cannot be written: No space left on device"));
-    const Shards h5(*find_stream_format("h5"));
+    const Shards h5(*find_record_format("h5"));
     CHECK_THROWS_WITH(merge_streams(h5.paths, "/dev/null", h5.format), Contains("not a file"));
 }
 
 TEST_CASE("shards of different numbers are refused", "[tables][stream][refused]") {
-    const Shards shards(*find_stream_format("json"));
+    const Shards shards(*find_record_format("json"));
     const std::string &first = shards.paths[0], &second = shards.paths[1];
     StreamIdentity identity = identity_of(47, 2, 3);
     identity.simd = "baseline";
@@ -144,7 +138,7 @@ TEST_CASE("shards of different numbers are refused", "[tables][stream][refused]"
 }
 
 TEST_CASE("shards that were edited are refused", "[tables][stream][refused]") {
-    for (const StreamFormat* const format : stream_formats()) {
+    for (const RecordFormat* const format : record_formats()) {
         INFO(format->name);
         const Shards shards(*format);
         const std::string& path = shards.paths[2];
@@ -172,7 +166,7 @@ TEST_CASE("shards that were edited are refused", "[tables][stream][refused]") {
 }
 
 TEST_CASE("a single shard is merged, too", "[tables][stream]") {
-    for (const StreamFormat* const format : stream_formats()) {
+    for (const RecordFormat* const format : record_formats()) {
         INFO(format->name);
         Shards shards(*format, 47, 1);
         CHECK_THAT(shards.refused(), Contains("there is no journal"));
@@ -184,7 +178,7 @@ TEST_CASE("a single shard is merged, too", "[tables][stream]") {
 }
 
 TEST_CASE("shards that are not one whole are refused", "[tables][stream]") {
-    for (const StreamFormat* const format : stream_formats()) {
+    for (const RecordFormat* const format : record_formats()) {
         INFO(format->name);
         Shards shards(*format);
         const auto path = [&](std::size_t i) { return shards.paths[i - 1]; };
@@ -216,7 +210,7 @@ TEST_CASE("shards that are not one whole are refused", "[tables][stream]") {
         shards.paths = {};
         CHECK_THAT(shards.refused(), Contains("no shards"));
         shards.paths = all;
-        for (const StreamFormat* const another : stream_formats())
+        for (const RecordFormat* const another : record_formats())
             if (another != format)
                 CHECK_THROWS_WITH(merge_streams(all, shards.folder / "merged", *another),
                                   Equals(path(1) + ": is " + std::string(format->name) + ", not " +
@@ -230,7 +224,7 @@ TEST_CASE("shards that are not one whole are refused", "[tables][stream]") {
 }
 
 TEST_CASE("shards that are not finished or not their own are refused", "[tables][stream]") {
-    for (const StreamFormat* const format : stream_formats()) {
+    for (const RecordFormat* const format : record_formats()) {
         INFO(format->name);
         const Shards shards(*format);
         const std::string& path = shards.paths[1];

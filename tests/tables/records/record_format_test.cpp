@@ -4,10 +4,9 @@
 #include <stdexcept>
 
 #include "tables/files/atomic_file.hpp"
-#include "tables/records/csv.hpp"
-#include "tables/records/json.hpp"
 #include "tables/records/npy.hpp"
 #include "tables/records/packed_rows.hpp"
+#include "tables/records/record_format.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/sample_records.hpp"
 
@@ -19,10 +18,10 @@ using Catch::StartsWith;
 namespace {
 
 /// A stream of that many rows, cut at random.
-std::string streamed(const StreamFormat& format, std::uint64_t rows, unsigned seed) {
+std::string streamed(const RecordFormat& format, std::uint64_t rows, unsigned seed) {
     std::mt19937 random(seed);
     const RecordLayout layout = sample_layout();
-    std::string out = format.head(layout, rows);
+    std::string out = format.head(layout, rows, HeadKind::open);
     bool has_rows = false;
     for (std::uint64_t done = 0; done < rows;) {
         const std::uint64_t count = std::min<std::uint64_t>(random() % 9, rows - done);
@@ -36,7 +35,7 @@ std::string streamed(const StreamFormat& format, std::uint64_t rows, unsigned se
 }
 
 std::string as_h5(const TemporaryFolder& folder, const std::string& packed, std::uint64_t rows) {
-    const StreamFormat& h5 = *find_stream_format("h5");
+    const RecordFormat& h5 = *find_record_format("h5");
     write_text(folder / "part", packed);
     h5.finish(sample_layout(), rows, folder / "part", folder / "out.h5");
     return folder / "out.h5";
@@ -48,23 +47,26 @@ TEST_CASE("blocks of a stream make the file that is written at once", "[tables][
     for (const std::uint64_t rows : {0, 1, 2, 7, 100})
         for (const unsigned seed : {1U, 2U, 3U}) {
             const Records all = sample_rows(0, rows);
-            CHECK(streamed(*find_stream_format("csv"), rows, seed) == write_csv(all));
-            CHECK(streamed(*find_stream_format("json"), rows, seed) == write_json(all));
+            CHECK(streamed(*find_record_format("csv"), rows, seed) ==
+                  written(*find_record_format("csv"), all));
+            CHECK(streamed(*find_record_format("json"), rows, seed) ==
+                  written(*find_record_format("json"), all));
             for (const char* const name : {"npy", "h5"}) {
-                const StreamFormat& format = *find_stream_format(name);
+                const RecordFormat& format = *find_record_format(name);
                 CHECK(streamed(format, rows, seed) ==
-                      format.head(sample_layout(), rows) + format.rows(sample_layout(), all));
+                      format.head(sample_layout(), rows, HeadKind::open) +
+                          format.rows(sample_layout(), all));
             }
         }
-    CHECK(find_stream_format("svg") == nullptr);
+    CHECK(find_record_format("svg") == nullptr);
 }
 
 TEST_CASE("the head of an npy stream has one length for any number of rows", "[tables][stream]") {
-    const StreamFormat& npy = *find_stream_format("npy");
-    const std::size_t length = npy.head(sample_layout(), 0).size();
+    const RecordFormat& npy = *find_record_format("npy");
+    const std::size_t length = npy.head(sample_layout(), 0, HeadKind::open).size();
     CHECK(length % 64 == 0);
     for (const std::uint64_t rows : {1ULL, 99999ULL, 100000000ULL, ~0ULL}) {
-        const std::string head = npy.head(sample_layout(), rows);
+        const std::string head = npy.head(sample_layout(), rows, HeadKind::open);
         CHECK(head.size() == length);
         CHECK(head.substr(0, 8) == std::string("\x93NUMPY\x01\x00", 8));
         CHECK(static_cast<unsigned char>(head[8]) + 256U * static_cast<unsigned char>(head[9]) ==
@@ -72,15 +74,15 @@ TEST_CASE("the head of an npy stream has one length for any number of rows", "[t
         CHECK_THAT(head, Contains("'shape': (" + std::to_string(rows) + ",), }"));
         CHECK(head.back() == '\n');
     }
-    CHECK_THAT(npy.head(sample_layout(), 5),
+    CHECK_THAT(npy.head(sample_layout(), 5, HeadKind::open),
                Contains(R"([('angle, degrees', '<f8'), ('it\'s', '<U12'), ('is_good', '|b1'), )"
                         R"(('\U000003bb_nm', '<f8'), ('kind', '<U11'), ('layers.0.n', '<f8'), ])"));
 }
 
 TEST_CASE("NumPy reads an npy stream, and one of very many columns", "[tables][stream]") {
     const TemporaryFolder folder;
-    write_text(folder / "rows.npy", streamed(*find_stream_format("npy"), 50, 1));
-    write_text(folder / "rows.json", streamed(*find_stream_format("json"), 50, 2));
+    write_text(folder / "rows.npy", streamed(*find_record_format("npy"), 50, 1));
+    write_text(folder / "rows.json", streamed(*find_record_format("json"), 50, 2));
     const Outcome read = run_shell(
         "/usr/bin/python3 -c 'import numpy, json\n"
         "a = numpy.load(\"rows.npy\")\n"
@@ -92,7 +94,7 @@ TEST_CASE("NumPy reads an npy stream, and one of very many columns", "[tables][s
     RecordLayout wide;
     for (int i = 0; i < 3000; ++i)
         wide.push_back({"column-" + std::to_string(i), RecordField::Type::number, 0});
-    const std::string head = find_stream_format("npy")->head(wide, 0);
+    const std::string head = find_record_format("npy")->head(wide, 0, HeadKind::open);
     CHECK(head.size() > 0xFFFF);
     write_text(folder / "wide.npy", head);
     const Outcome many = run_shell(
@@ -105,7 +107,7 @@ TEST_CASE("NumPy reads an npy stream, and one of very many columns", "[tables][s
 
 TEST_CASE("records that their layout does not allow are refused", "[tables][stream]") {
     const RecordLayout layout = sample_layout();
-    for (const StreamFormat* const format : stream_formats()) {
+    for (const RecordFormat* const format : record_formats()) {
         INFO(format->name);
         Records records = sample_rows(0, 20);
         std::get<Column::Texts>(records.columns[1].values)[3] = "thirteen char";
@@ -139,7 +141,7 @@ TEST_CASE("an HDF5 stream has one dataset a column with the CSV's values", "[tab
     for (const std::uint64_t rows : {0, 1, 50}) {
         INFO(rows);
         const H5Content content =
-            read_h5(as_h5(folder, streamed(*find_stream_format("h5"), rows, 5), rows));
+            read_h5(as_h5(folder, streamed(*find_record_format("h5"), rows, 5), rows));
         CHECK(content.faults.empty());
         const Records all = sample_rows(0, rows);
         const RowWriter writer(all, [](std::string& out, const std::string& text) { out += text; });
@@ -164,7 +166,7 @@ TEST_CASE("an HDF5 stream has one dataset a column with the CSV's values", "[tab
 
 TEST_CASE("an HDF5 stream of more rows than a buffer holds", "[tables][stream]") {
     const TemporaryFolder folder;
-    const StreamFormat& h5 = *find_stream_format("h5");
+    const RecordFormat& h5 = *find_record_format("h5");
     constexpr std::uint64_t rows = 120000;  // 48 bytes each: more than 4 MiB
     const Records all = sample_rows(0, rows);
     const H5Content content = read_h5(as_h5(folder, h5.rows(sample_layout(), all), rows));
@@ -176,8 +178,8 @@ TEST_CASE("an HDF5 stream of more rows than a buffer holds", "[tables][stream]")
 }
 
 TEST_CASE("HDF5 refuses names that it cannot have, before the first row", "[tables][stream]") {
-    const StreamFormat& h5 = *find_stream_format("h5");
+    const RecordFormat& h5 = *find_record_format("h5");
     for (const char* const name : {"", ".", "R/T"})
-        CHECK_THROWS_WITH(h5.head({{name, RecordField::Type::number, 0}}, 0),
+        CHECK_THROWS_WITH(h5.head({{name, RecordField::Type::number, 0}}, 0, HeadKind::open),
                           StartsWith("h5: a column cannot be named"));
 }

@@ -1,4 +1,4 @@
-#include "cli/commands/bench.hpp"
+#include "cli/bench/bench.hpp"
 
 namespace irido {
 

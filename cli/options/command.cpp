@@ -1,7 +1,8 @@
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -54,6 +55,27 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
         ->type_name("FILE")
         ->check([](const std::string& file) { return file.empty() ? "must name a file" : ""; });
     command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
+}
+
+namespace {
+
+std::vector<std::string_view> names_of_formats(RecordTarget target) {
+    std::vector<std::string_view> names;
+    for (const RecordFormat* const format : record_formats())
+        if (!format->finish || target == RecordTarget::any) names.push_back(format->name);
+    if (target == RecordTarget::stream_or_svg) names.push_back("svg");
+    return names;
+}
+
+}  // namespace
+
+std::string record_formats_text(RecordTarget target) {
+    const std::vector<std::string_view> names = names_of_formats(target);
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text.append(i == 0 ? "" : i + 1 == names.size() ? " or " : ", ").append(names[i]);
+    if (target == RecordTarget::stream_or_svg) text += ": a strip of the colours in sRGB";
+    return text + " [csv]";
 }
 
 void add_angles_option(CLI::App& command, std::string& angles) {
@@ -127,11 +149,11 @@ std::string resolved_format(const OutputOptions& output) {
     return extension == "hdf5" ? "h5" : extension;
 }
 
-const RecordFormat& resolved_record_format(const OutputOptions& output, std::string_view others) {
+const RecordFormat& resolved_record_format(const OutputOptions& output, RecordTarget target) {
     const std::string name = resolved_format(output);
-    if (const RecordFormat* format = find_record_format(name)) return *format;
-    std::vector<std::string_view> names{"csv", "json", "npy"};
-    if (!others.empty()) names.push_back(others);
+    const std::vector<std::string_view> names = names_of_formats(target);
+    const RecordFormat* const format = find_record_format(name);
+    if (format && std::ranges::count(names, name) > 0) return *format;
     throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                      not_one_of(names, name));
 }
@@ -155,7 +177,7 @@ void check_plot(const std::optional<std::string>& plot, const OutputOptions& out
 
 void write_records(const Records& records, const OutputOptions& output) {
     const RecordFormat& format = resolved_record_format(output);
-    write_bytes(format.write(records), output, format.name == "npy");
+    write_bytes(written(format, records), output, format.is_binary);
 }
 
 void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary) {

@@ -11,7 +11,7 @@
 #include "cli/options/list.hpp"
 #include "core/math/simd_level.hpp"
 #include "schemas/documents/stack_document.hpp"
-#include "tables/records/records.hpp"
+#include "tables/records/record_format.hpp"
 
 namespace irido {
 
@@ -48,6 +48,12 @@ StackDocument read_noted_stack(const StackRequest& request, bool quiet);
 /// -o and -f; `formats` as the help shows them.
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
 
+/// Where records may go: any format, those that standard output takes, or those and a picture.
+enum class RecordTarget { any, stream, stream_or_svg };
+
+/// "csv, json or npy [csv]": what --format may be, for --help.
+std::string record_formats_text(RecordTarget target = RecordTarget::stream);
+
 /// -a
 void add_angles_option(CLI::App& command, std::string& angles);
 
@@ -79,10 +85,9 @@ void set_examples(CLI::App& command, const std::vector<std::string>& examples,
 /// The format's name as typed or as the file's extension says, "csv" if by neither. UsageError.
 std::string resolved_format(const OutputOptions& output);
 
-/// The format of tables/records/records.hpp of that name. Throws UsageError, which names `others`
-/// too.
+/// The record format of that name. Throws UsageError that names those which there are.
 const RecordFormat& resolved_record_format(const OutputOptions& output,
-                                           std::string_view others = "");
+                                           RecordTarget target = RecordTarget::stream);
 
 /// Throws UsageError or OutputError if a file could not be written there: before a long
 /// computation, and after the inputs are read, of which it must not be one.

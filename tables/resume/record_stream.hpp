@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tables/records/stream_format.hpp"
+#include "tables/records/record_format.hpp"
 #include "tables/version.hpp"
 
 namespace irido {
@@ -45,7 +45,7 @@ public:
     /// Whether the resumed file is whole: nothing is left to do.
     virtual bool is_complete() const = 0;
 
-    /// The next block: `bytes` of StreamFormat::rows(), of that many units and rows. Throws
+    /// The next block: `bytes` of RecordFormat::rows(), of that many units and rows. Throws
     /// OutputError, or BrokenPipe.
     virtual void append(const std::string& bytes, std::uint64_t units, std::uint64_t rows) = 0;
     /// Also of a stream that has all its units, but was not finished. Does nothing to a complete
@@ -65,26 +65,26 @@ public:
 /// what to do).
 /// A device or a pipe is written to directly, without a part, and needs `rows` as record_output()
 /// does.
-std::unique_ptr<RecordStream> record_file(const std::string& path, const StreamFormat& format,
+std::unique_ptr<RecordStream> record_file(const std::string& path, const RecordFormat& format,
                                           const RecordLayout& layout,
                                           const StreamIdentity& identity, bool resume,
                                           std::uint64_t rows = 0);
 
 /// Standard output; `rows` is the number of rows of the stream if it is known, or 0 for a format
 /// whose head does not need it.
-std::unique_ptr<RecordStream> record_output(const StreamFormat& format, const RecordLayout& layout,
+std::unique_ptr<RecordStream> record_output(const RecordFormat& format, const RecordLayout& layout,
                                             std::uint64_t rows);
 
 /// `rows` rows into a file, whole or not at all and with nothing beside it but a temporary file, or
 /// to standard output if `path` is empty. A device or a pipe is written to directly. Throws
 /// OutputError.
-std::unique_ptr<RecordStream> counted_output(const std::string& path, const StreamFormat& format,
+std::unique_ptr<RecordStream> counted_output(const std::string& path, const RecordFormat& format,
                                              const RecordLayout& layout, std::uint64_t rows);
 
 /// Puts the shards of one stream, in any order, together: the same bytes as of one run, in constant
 /// memory. Throws OutputError if a file is not what its journal says, shards are missing or given
 /// twice, or they are of different requests, builds of irido or SIMD levels.
 void merge_streams(const std::vector<std::string>& shards, const std::string& path,
-                   const StreamFormat& format);
+                   const RecordFormat& format);
 
 }  // namespace irido

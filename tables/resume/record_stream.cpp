@@ -1,4 +1,4 @@
-#include "tables/records/record_stream.hpp"
+#include "tables/resume/record_stream.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -46,7 +46,7 @@ std::string shard_text(const StreamIdentity& identity) {
 
 class FileStream : public RecordStream {
 public:
-    FileStream(const std::string& path, OutputTarget target, const StreamFormat& format,
+    FileStream(const std::string& path, OutputTarget target, const RecordFormat& format,
                const RecordLayout& layout, const StreamIdentity& identity)
         : path_(path),
           target_(std::move(target)),
@@ -82,7 +82,7 @@ private:
     std::string path_;
     OutputTarget target_;
     std::string part_name_, made_name_;
-    const StreamFormat& format_;
+    const RecordFormat& format_;
     JournalHead head_;
     Journal journal_;
     std::unique_ptr<PlainFile> part_;
@@ -108,7 +108,7 @@ void FileStream::begin() {
     require_own_part();
     bool is_ours = !journal_.was_there();
     try {
-        const std::string head = format_.head(head_.layout, 0);
+        const std::string head = format_.head(head_.layout, 0, HeadKind::open);
         part_ = std::make_unique<PlainFile>(part_name_, PlainFile::Use::create, path_);
         is_ours = true;
         journal_.clear();  // first, and the part next: an old part never has a new journal
@@ -181,7 +181,8 @@ bool FileStream::resume() {
     if (take_finished(found)) return true;
     const auto point = last_fitting(found);
     if (!point) {
-        if (found.checkpoints.empty() && part_bytes() > format_.head(head_.layout, 0).size())
+        if (found.checkpoints.empty() &&
+            part_bytes() > format_.head(head_.layout, 0, HeadKind::open).size())
             fail(damaged);
         return false;
     }
@@ -244,7 +245,7 @@ void FileStream::give_name(const std::string& file) {
 void FileStream::finish() {
     if (is_over_) return;
     part_->write_at(at_.bytes, format_.tail);
-    part_->write_at(0, format_.head(head_.layout, at_.rows));
+    part_->write_at(0, format_.head(head_.layout, at_.rows, HeadKind::open));
     checkpoint(false);
     give_name(made_file());
     is_complete_ = is_over_ = true;
@@ -275,7 +276,7 @@ void FileStream::discard() noexcept {
 /// To standard output, a device, a pipe or a NewFile: what is written is written.
 class DirectStream : public RecordStream {
 public:
-    DirectStream(int descriptor, const std::string& name, const StreamFormat& format,
+    DirectStream(int descriptor, const std::string& name, const RecordFormat& format,
                  const RecordLayout& layout, std::uint64_t rows,
                  std::unique_ptr<NewFile> file = nullptr)
         : descriptor_(descriptor),
@@ -284,7 +285,7 @@ public:
           layout_(layout),
           file_(std::move(file)) {
         if (descriptor_ < 0) fail_to_write(name, errno);
-        head_ = format.head(layout, rows);
+        head_ = format.head(layout, rows, HeadKind::final);
     }
     ~DirectStream() override {
         if (!file_ && descriptor_ > STDERR_FILENO) close(descriptor_);
@@ -305,7 +306,7 @@ public:
     void finish() override {
         begin();
         write(format_.tail);
-        if (format_.head(layout_, rows_) != head_)
+        if (format_.head(layout_, rows_, HeadKind::final) != head_)
             throw OutputError(name_ + ": is not whole: its head says another number of rows");
         if (file_) file_->commit();
     }
@@ -323,7 +324,7 @@ private:
 
     int descriptor_;
     std::string name_;
-    const StreamFormat& format_;
+    const RecordFormat& format_;
     RecordLayout layout_;
     std::unique_ptr<NewFile> file_;  ///< of the descriptor, if it is one
     std::string head_;
@@ -333,7 +334,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<RecordStream> record_file(const std::string& path, const StreamFormat& format,
+std::unique_ptr<RecordStream> record_file(const std::string& path, const RecordFormat& format,
                                           const RecordLayout& layout,
                                           const StreamIdentity& identity, bool resume,
                                           std::uint64_t rows) {
@@ -353,7 +354,7 @@ std::unique_ptr<RecordStream> record_file(const std::string& path, const StreamF
     return stream;
 }
 
-std::unique_ptr<RecordStream> record_output(const StreamFormat& format, const RecordLayout& layout,
+std::unique_ptr<RecordStream> record_output(const RecordFormat& format, const RecordLayout& layout,
                                             std::uint64_t rows) {
     if (format.finish)
         throw OutputError("--format: " + std::string(format.name) + " needs --output FILE");
@@ -362,7 +363,7 @@ std::unique_ptr<RecordStream> record_output(const StreamFormat& format, const Re
     return std::make_unique<DirectStream>(STDOUT_FILENO, "standard output", format, layout, rows);
 }
 
-std::unique_ptr<RecordStream> counted_output(const std::string& path, const StreamFormat& format,
+std::unique_ptr<RecordStream> counted_output(const std::string& path, const RecordFormat& format,
                                              const RecordLayout& layout, std::uint64_t rows) {
     if (path.empty()) return record_output(format, layout, rows);
     const OutputTarget target = output_target(path);

@@ -1,9 +1,9 @@
-#include "cli/command_line.hpp"
+#include "cli/options/command_line.hpp"
 
 #include <algorithm>
 #include <map>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "schemas/readers/nearest.hpp"
 
 namespace irido {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <span>
 
-#include "cli/command.hpp"
+#include "cli/options/command.hpp"
 #include "schemas/readers/nearest.hpp"
 
 namespace irido {
+
+inline constexpr double kLargestSeed = 0x1p53;
 
 /// The subcommands of `irido bench`, each in a file of its own.
 void add_bench_speed(CLI::App& bench, Run& run);
