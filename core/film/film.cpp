@@ -2,52 +2,10 @@
 
 #include <cmath>
 
+#include "core/coherent/fresnel.hpp"
 #include "core/coherent/layer.hpp"
 
 namespace irido {
-
-namespace {
-
-/// One medium: permittivity and normal index, kz / k0, of the wave that goes on or dies away.
-template <class Number>
-struct Ray {
-    Number eps, kz;
-};
-
-Ray<double> real_ray(double index, const Medium& medium) {
-    return {index * index, std::sqrt(medium.q2.real())};
-}
-
-Ray<Complex> outgoing_ray(const Medium& medium) {
-    const Complex kz = square_root(medium.q2);
-    return {medium.eps, kz.imag() < 0 ? -kz : kz};
-}
-
-/// Fresnel's amplitude of the tangential electric field and the power that passes. The differences
-/// of admittances, s: kz, p: eps/kz, are written as what is left after their cancellation:
-///     r_s = (eps1 - eps2) / (kz1 + kz2)^2
-///     r_p = (eps1 - eps2) (eps1 eps2 - S^2 (eps1 + eps2)) / (eps1 kz2 + eps2 kz1)^2
-template <class Number>
-struct Interface {
-    Number r;
-    double T;
-};
-
-template <class Number>
-Interface<Number> interface_s(const Ray<double>& a, const Ray<Number>& b, Number difference) {
-    const Number sum = a.kz + b.kz;
-    return {difference / (sum * sum), 4 * a.kz * std::real(b.kz) / std::norm(sum)};
-}
-
-template <class Number>
-Interface<Number> interface_p(const Ray<double>& a, const Ray<Number>& b, Number difference,
-                              double s2) {
-    const Number sum = a.eps * b.kz + b.eps * a.kz;
-    return {difference * (a.eps * b.eps - s2 * (a.eps + b.eps)) / (sum * sum),
-            4 * a.eps * a.kz * std::real(b.eps * std::conj(b.kz)) / std::norm(sum)};
-}
-
-}  // namespace
 
 std::optional<FilmSeries> film_series(const Film& film, IncidentAngle incidence,
                                       Polarization polarization) {
@@ -64,8 +22,8 @@ std::optional<FilmSeries> film_series(const Film& film, IncidentAngle incidence,
     const Complex from_b = (n2 - n3) * (n2 + n3);
     const double s2 = a.eps * incidence.sin * incidence.sin;
     const bool s = polarization == Polarization::s;
-    const auto upper = s ? interface_s(a, b, from_a) : interface_p(a, b, from_a, s2);
-    const auto lower = s ? interface_s(b, c, from_b) : interface_p(b, c, from_b, s2);
+    const auto upper = s ? fresnel_s(a, b, from_a) : fresnel_p(a, b, from_a, s2);
+    const auto lower = s ? fresnel_s(b, c, from_b) : fresnel_p(b, c, from_b, s2);
     series.bounce = Complex(0) - upper.r * lower.r;  // without negative zeros
     series.opd_nm = 2 * film.thickness_nm * b.kz;
     if (upper.T == 0 || lower.T == 0) return series;

@@ -42,31 +42,31 @@ Powers powers_of(const StackCase& c, Random& random, SimdLevel simd) {
 }
 
 /// An error with the condition that it has to be seen with; nothing to compare if absent.
-struct Error {
+struct CaseError {
     double error = 0, condition = 0;
 };
 
 /// One polarization of one case.
 struct Answer {
-    Error R, T, A;
-    std::optional<Error> T_relative, A_relative;
+    CaseError R, T, A;
+    std::optional<CaseError> T_relative, A_relative;
     bool finite = true, negative = false, excess = false, refused = false;
     double beyond = 0;       ///< largest error / bound
     std::string_view which;  ///< quantity of that error
 };
 
-Error absolute_error(double value, double exact, double condition) {
+CaseError absolute_error(double value, double exact, double condition) {
     const double scale = std::max(1.0, std::abs(exact));
     return {std::abs(value - exact) / scale, condition / scale};
 }
 
 /// Relative, or of the logarithm where that is less: what an exponent is off by is what tells.
-Error relative_error(double value, double exact, double condition) {
+CaseError relative_error(double value, double exact, double condition) {
     const double relative = std::abs(value - exact) / std::abs(exact), ratio = value / exact;
     return {ratio > 1 ? std::min(relative, std::log(ratio)) : relative, condition};
 }
 
-void judge(Answer& answer, std::string_view which, const std::optional<Error>& e,
+void judge(Answer& answer, std::string_view which, const std::optional<CaseError>& e,
            double well_posed = kWellPosedError, double roundings = kAllowedRoundings) {
     if (!e) return;
     const double share = e->error / error_bound(e->condition, well_posed, roundings);
@@ -126,13 +126,13 @@ std::array<Answer, 2> answers(const StackCase& c, bool passive, Random random, S
     return result;
 }
 
-ErrorSummary summary_of(std::vector<Error> errors) {
+ErrorSummary summary_of(std::vector<CaseError> errors) {
     ErrorSummary summary;
     if (errors.empty()) return summary;
-    for (const Error& e : errors)
+    for (const CaseError& e : errors)
         summary.roundings =
             std::max(summary.roundings, e.error / (kUnitRoundoff * (1 + e.condition)));
-    std::ranges::sort(errors, {}, &Error::error);
+    std::ranges::sort(errors, {}, &CaseError::error);
     summary.worst = errors.back().error;
     summary.condition = errors.back().condition;
     const double rank = std::ceil(0.99 * static_cast<double>(errors.size()));
@@ -193,7 +193,7 @@ RegimeReport measure_stability(const Regime& regime, std::uint64_t cases, std::u
     });
     RegimeReport report;
     report.regime = regime.name;
-    std::vector<Error> r, t, a, t_relative, a_relative;
+    std::vector<CaseError> r, t, a, t_relative, a_relative;
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (const Answer& answer : all[i]) {
             count(report, answer, regime.passive, seed + i);

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/coherent/fresnel.hpp"
 #include "core/color/baselines/film_approximation.hpp"
 #include "core/color/fourier/one_film.hpp"
 #include "core/color/held_stack.hpp"

@@ -45,13 +45,6 @@ FilmIndex film_index(const Stack& stack, double wavelength_nm) {
             table.index(stack.substrate, 0)};
 }
 
-Complex face_amplitude(const Medium& above, const Medium& below, Polarization polarization) {
-    const Complex q1 = std::sqrt(above.q2), q2 = std::sqrt(below.q2);
-    const bool is_s = polarization == Polarization::s;
-    const Complex a = is_s ? q1 : above.eps * q2, b = is_s ? q2 : below.eps * q1;
-    return a + b == Complex(0) ? 0 : (a - b) / (a + b);
-}
-
 std::span<const Polarization> polarizations(Light light) {
     static constexpr std::array both{Polarization::s, Polarization::p};
     return light == Light::s   ? std::span(both).first(1)

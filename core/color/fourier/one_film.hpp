@@ -26,9 +26,6 @@ struct FilmIndex {
 };
 FilmIndex film_index(const Stack& stack, double wavelength_nm);
 
-/// Amplitude of the tangential electric field that the face between two media reflects.
-Complex face_amplitude(const Medium& above, const Medium& below, Polarization polarization);
-
 /// One or both.
 std::span<const Polarization> polarizations(Light light);
 
