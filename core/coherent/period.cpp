@@ -65,17 +65,6 @@ BlochPhase bloch_phase_of_matrix(const Matrix& m) {
     return {product / cos2, cos2};
 }
 
-BlochPhase bloch_phase_of_group(const Group& group, const Matrix& matrix,
-                                std::span<const Medium> media, double k0,
-                                Polarization polarization) {
-    if (group.elements.size() == 2) {
-        const Layer* upper = std::get_if<Layer>(&group.elements[0].value);
-        const Layer* lower = std::get_if<Layer>(&group.elements[1].value);
-        if (upper && lower) return bloch_phase_of_pair(*upper, *lower, media, k0, polarization);
-    }
-    return bloch_phase_of_matrix(matrix);
-}
-
 /// One layer repeated is a thicker layer.
 const Layer* only_layer(const Group& group) {
     return group.elements.size() == 1 ? std::get_if<Layer>(&group.elements[0].value) : nullptr;
@@ -100,7 +89,7 @@ struct Matrices {
         const Matrix m = of(group.elements);
         if (group.repeat == 1) return m;
         // the Bloch phase is the same in any basis
-        return power(m, bloch_phase_of_group(group, m, media, k0, polarization), group.repeat);
+        return power(m, bloch_phase(group, m, media, k0, polarization), group.repeat);
     }
 
     Matrix of(std::span<const Element> elements) const {
@@ -133,7 +122,7 @@ Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
                 Polarization polarization) {
     const Slab period = slab_of(group.elements, media, k0, polarization);
     if (!period.absorbs) return {Matrices{media, k0, polarization}.of(group), {}, false};
-    const BlochPhase bloch = bloch_phase_of_group(group, period.matrix, media, k0, polarization);
+    const BlochPhase bloch = bloch_phase(group, period.matrix, media, k0, polarization);
     const double growth = std::abs((2.0 * std::asin(std::sqrt(bloch.sin2))).imag());
     const bool closed = growth * static_cast<double>(group.repeat) < kLargestLogTrace;
     const auto of_periods = [&](const Slab& slab, std::uint64_t count) {
@@ -163,6 +152,16 @@ bool absorbs(std::span<const Element> elements, std::span<const Medium> media) {
 }
 
 }  // namespace
+
+BlochPhase bloch_phase(const Group& group, const Matrix& matrix, std::span<const Medium> media,
+                       double k0, Polarization polarization) {
+    if (group.elements.size() == 2) {
+        const Layer* upper = std::get_if<Layer>(&group.elements[0].value);
+        const Layer* lower = std::get_if<Layer>(&group.elements[1].value);
+        if (upper && lower) return bloch_phase_of_pair(*upper, *lower, media, k0, polarization);
+    }
+    return bloch_phase_of_matrix(matrix);
+}
 
 Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     const double n = static_cast<double>(repeat);

@@ -33,6 +33,10 @@ struct BlochPhase {
     Complex cos2;  ///< cos(K/2)^2 = (2 + tr M)/4
 };
 
+/// Of a group's period, whose matrix is matrix_of() its elements.
+BlochPhase bloch_phase(const Group& group, const Matrix& period, std::span<const Medium> media,
+                       double k0, Polarization polarization);
+
 /// matrix^repeat, exact in the number of periods:
 ///     M^N = cos(N K) I + sin(N K)/sin(K) (M - cos(K) I)
 /// with the growing exponential factored out; N in [1, 1e9] costs the same as 1.

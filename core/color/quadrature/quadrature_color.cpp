@@ -7,9 +7,11 @@
 #include <mutex>
 #include <numbers>
 
+#include "core/coherent/fringe_mean.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/quadrature/fixed_layers_cache.hpp"
 #include "core/color/quadrature/integration.hpp"
+#include "core/color/quadrature/left_out_fringes.hpp"
 #include "core/error.hpp"
 #include "core/math/pool.hpp"
 #include "core/spectrum/spectrum.hpp"
@@ -47,6 +49,14 @@ std::size_t path_class(double path_nm) {
 double path_of_class(std::size_t k) {
     return kShortestPath_nm * std::exp2(static_cast<double>(k) / 2);
 }
+
+/// Fringes of longer paths than kFine_nm, and those that the evaluations do not resolve at
+/// kPointsPerPath a nm, may be left out. A period's mean is as rich as fringes of a path of
+/// kPeriodsOfMean periods.
+constexpr double kFine_nm = 4e6, kPointsPerPath = 0.032, kPeriodsOfMean = 4;
+
+/// Layers of a path below this share of the fringes' have no lines as narrow as these.
+constexpr double kSlow = 0.01;
 
 /// Twice the optical thickness, nm, of what light passes on its way to faces that it returns from,
 /// and the exponent of its loss.
@@ -130,7 +140,8 @@ std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const Lay
 class QuadratureColor : public ColorAlgorithm {
 public:
     QuadratureColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request)
-        : sensitivity_(tables.sensitivity()),
+        : tables_(tables),
+          sensitivity_(tables.sensitivity()),
           request_(request),
           held_(held_stack(stack, sensitivity_)),
           pieces_(smooth_pieces(held_, sensitivity_.support())),
@@ -186,6 +197,8 @@ private:
         std::optional<IndexTable> indices;  ///< of several parts
         IntegrationMemory integration;
         std::vector<ColorIntegral> integrals;
+        std::vector<Medium> media;
+        std::array<LeftOutFringes, 2> left_out;  ///< of s and p
     };
 
     const SpectrumKernel& kernel_of(const Stack& stack, Scratch& scratch) const {
@@ -214,7 +227,7 @@ private:
         return true;
     }
 
-    double optical_path_nm(const Stack& stack, IncidentAngle incidence,
+    double optical_path_nm(std::span<const Element> elements, IncidentAngle incidence,
                            std::vector<Complex>& normal) const {
         double longest = 0;
         normal.resize(on_path_.materials());
@@ -223,8 +236,7 @@ private:
             for (std::size_t m = 0; m < normal.size(); ++m)
                 normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, incidence).q2);
             Path path;
-            add_path(stack.elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance),
-                     path);
+            add_path(elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance), path);
             longest = std::max(longest, path.length_nm);
         }
         return longest;
@@ -234,8 +246,11 @@ private:
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
         if (incidence.cos == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
-        const std::size_t path = path_class(optical_path_nm(stack, incidence, scratch.normal));
-        const PanelTree::Start& start = start_of(path);
+        const double path_nm = optical_path_nm(stack.elements, incidence, scratch.normal);
+        const bool is_fine = path_nm > kFine_nm ||
+                             kPointsPerPath * path_nm > static_cast<double>(limits.evaluations);
+        if (is_fine && try_mean(stack, incidence, path_nm, limits, colors, scratch)) return;
+        const PanelTree::Start& start = start_of(path_class(path_nm));
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
         const bool with_p = needs_.p && !(with_s && incidence.cos == 1);
@@ -260,6 +275,86 @@ private:
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = {scratch.integrals[i].xyz, scratch.integrals[i].error,
                          scratch.integrals[i].evaluations, ColorMethod::Kind::quadrature};
+    }
+
+    /// The mean over the phase of the element of the longest path, where its fringes are too fine
+    /// to be seen; false if that cannot be promised.
+    bool try_mean(const Stack& stack, IncidentAngle incidence, double path_nm,
+                  const IntegrationLimits& limits, std::span<StackColor> colors,
+                  Scratch& scratch) const {
+        if (!constant_ || incidence.cos == 0 || !scratch.power->has_amplitudes() ||
+            std::ranges::find(amplifies_, true) != amplifies_.end())
+            return false;
+        std::size_t fast = 0;
+        double longest_nm = 0, period_nm = 0;
+        for (std::size_t i = 0; i < stack.elements.size(); ++i) {
+            const auto path_of = [&](std::span<const Element> elements) {
+                return optical_path_nm(elements, incidence, scratch.normal);
+            };
+            const double nm = path_of({&stack.elements[i], 1});
+            if (nm <= longest_nm) continue;
+            fast = i;
+            longest_nm = nm;
+            const Group* group = std::get_if<Group>(&stack.elements[i].value);
+            period_nm = group ? path_of(group->elements) : 0;
+        }
+        const PanelTree::Start& start =
+            start_of(path_class(std::max(0.0, path_nm - longest_nm) + kPeriodsOfMean * period_nm));
+        const bool only_edges = period_nm > 0 && path_nm - longest_nm < kSlow * longest_nm;
+        const std::size_t polarizations = needs_.s && needs_.p && incidence.cos < 1 ? 2 : 1;
+        for (LeftOutFringes& fringes : scratch.left_out) fringes.clear();
+        const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
+                                    Samples& samples) {
+            fill_with_means(stack, fast, incidence, polarizations, indices_at(parts, scratch),
+                            samples, scratch);
+        };
+        const auto affordable = static_cast<std::size_t>(
+            std::max(kFewestPoints, kMostPlainWork / work_of(stack.elements)));
+        scratch.integrals.resize(colors.size());
+        integrate_color(
+            sensitivity_, start, polarizations, sample,
+            {limits.tolerance / 2, std::min(limits.evaluations, affordable), limits.simd},
+            scratch.integration, scratch.integrals);
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            double error = scratch.integrals[i].error;
+            for (std::size_t k = 0; k < polarizations; ++k)
+                error += scratch.left_out[k].error(request_.sides[i], tables_, only_edges) /
+                         static_cast<double>(polarizations);
+            if (!(error <= limits.tolerance)) return false;
+            colors[i] = {scratch.integrals[i].xyz, error, scratch.integrals[i].evaluations,
+                         ColorMethod::Kind::quadrature};
+        }
+        return true;
+    }
+
+    /// Means of the polarizations, and their denominators.
+    void fill_with_means(const Stack& stack, std::size_t fast, IncidentAngle incidence,
+                         std::size_t polarizations, const IndexTable& indices, Samples& samples,
+                         Scratch& scratch) const {
+        const std::size_t sides = request_.sides.size();
+        std::vector<Medium>& media = scratch.media;
+        media.resize(indices.materials() + 1);
+        for (std::size_t j = 0; j < samples.points(); ++j) {
+            const double n0 = indices.n(indices.incident())[j];
+            for (std::size_t m = 0; m < indices.materials(); ++m)
+                media[m] = medium(indices.index(m, j), n0, incidence);
+            media.back() = medium(n0, n0, incidence);
+            for (std::size_t side = 0; side < sides; ++side) samples.row(side)[j] = 0;
+            for (std::size_t k = 0; k < polarizations; ++k) {
+                const auto polarization = needs_.s && k == 0 ? Polarization::s : Polarization::p;
+                const FringeMean mean =
+                    fringe_mean(stack, fast, media, indices.k0()[j], polarization);
+                scratch.left_out[k].add(indices.wavelength_nm()[j], mean);
+                for (std::size_t side = 0; side < sides; ++side)
+                    samples.row(side)[j] +=
+                        (request_.sides[side] == Side::reflected ? mean.R : mean.T) /
+                        static_cast<double>(polarizations);
+                const std::size_t row = sides + 3 * k;
+                samples.row(row)[j] = mean.denominator.real();
+                samples.row(row + 1)[j] = mean.denominator.imag();
+                samples.row(row + 2)[j] = mean.log_scale;
+            }
+        }
     }
 
     /// Whether nothing enters the stack at 90 degrees, at any wavelength, as is so unless nothing
@@ -350,6 +445,7 @@ private:
         }
     }
 
+    const ColorTables& tables_;
     const Sensitivity& sensitivity_;
     ColorRequest request_;
     Stack held_;
@@ -375,7 +471,7 @@ std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, cons
 
 double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
                        IncidentAngle incidence) {
-    constexpr double kPointsOfPiece = 20, kPointsPerPath = 0.032;  // of nm; as --stats says
+    constexpr double kPointsOfPiece = 20;  // as --stats says
     constexpr double kUsualTolerance = 1e-6;
     std::vector<Complex> normal(indices.materials());
     for (std::size_t m = 0; m < normal.size(); ++m)

@@ -472,19 +472,66 @@ TEST_CASE("a line in front of an opaque mirror is not missed") {
     }
 }
 
+TEST_CASE("fringes too fine for the wavelengths are the mean of those that are not") {
+    // with few wavelengths they are left out, with many they are resolved
+    oracle::Random random(7);
+    const ColorTables tables(d65());
+    for (int i = 0; i < 2; ++i) {
+        StackBuilder b;
+        std::vector<Element> period;
+        for (std::size_t left = 2 + random.below(2); left > 0; --left)
+            period.push_back(b.layer({random.uniform(1.4, 2.4), i % 3 == 0 ? 1e-6 : 0},
+                                     random.uniform(50, 150)));
+        b.add(StackBuilder::group(2500, period));
+        const Stack stack = b.over({1.5, i % 2 == 0 ? 3.0 : 0.0});
+        const double angle = random.uniform(0, 60);
+        const auto with = [&](std::size_t evaluations) {
+            return stack_color(
+                tables, stack, kQuadrature,
+                {.sides = {Side::reflected, Side::transmitted}, .evaluations = evaluations},
+                std::span(&angle, 1));
+        };
+        const std::vector<StackColor> few = with(20000), many = with(1U << 20);
+        for (std::size_t side = 0; side < 2; ++side) {
+            CAPTURE(i, oracle::text_of(stack), angle, side, few[side].error, many[side].error);
+            CHECK(few[side].error <= 1e-6);
+            CHECK(many[side].error <= 1e-6);
+            CHECK(few[side].evaluations < many[side].evaluations);
+            CHECK(largest_error(few[side].xyz, many[side].xyz) <
+                  few[side].error + many[side].error);
+        }
+    }
+}
+
+TEST_CASE("a billion periods and a metre of glass have their colours") {
+    StackBuilder mirror, glass;
+    mirror.add(StackBuilder::group(1000000000, {mirror.layer(2.3, 60), mirror.layer(1.4, 95)}));
+    glass.add(glass.layer(2, 90));
+    glass.add(glass.layer({1.5, 1e-10}, 1e9));
+    const Stack thick = glass.over({0.2, 3.4});
+    Stack incoherent = thick;
+    std::get<Layer>(incoherent.elements[1].value).coherent = false;
+    for (const double angle : {0.0, 40.0}) {
+        const StackColor many = color(mirror.over({0.2, 3.4}), angle, Side::reflected, 1e-6);
+        CHECK(many.error <= 1e-6);
+        const StackColor metre = color(thick, angle, Side::reflected, 1e-6);
+        CHECK(metre.error <= 1e-6);
+        const Triple powers = color(incoherent, angle, Side::reflected, 1e-9).xyz;
+        CHECK(largest_error(metre.xyz, powers) < 1e-7);
+    }
+}
+
 TEST_CASE("stacks of every regime have their colour within the tolerance") {
     // IRIDO_TEST_TOLERANCES: stacks of each regime, 400 of which take hours. Those left out have
-    // fringes of up to 1e9 periods, or 1 m, that a million wavelengths do not resolve.
-    constexpr std::array<std::string_view, 11> kLong{
-        "absorber",  "repeats_pair",      "repeats_triple",  "repeats_absorbing",
-        "band_edge", "hosted_mirror",     "thousand_layers", "nested",
-        "brewster",  "frustrated_mirror", "nested_gaps"};
+    // two places with fringes that a million wavelengths do not resolve, or so many layers.
+    constexpr std::array<std::string_view, 5> kLong{"thousand_layers", "nested", "brewster",
+                                                    "frustrated_mirror", "nested_gaps"};
     const ColorTables tables(d65());
     const std::size_t stacks = stacks_to_try();
     for (const Regime& regime : regimes()) {
         const bool is_long = std::ranges::find(kLong, regime.name) != kLong.end();
         if (!regime.passive || is_long) continue;
-        for (std::size_t i = 0; i < std::max<std::size_t>(stacks, 3); ++i) {
+        for (std::size_t i = 0; i < std::max<std::size_t>(stacks, 2); ++i) {
             Random random(i);
             const StackCase one = regime.make(random);
             const std::vector<StackColor> colors =

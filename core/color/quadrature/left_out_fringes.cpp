@@ -1,0 +1,64 @@
+#include "core/color/quadrature/left_out_fringes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace irido {
+
+namespace {
+
+/// Points on either side that see a function turn as quickly as it does anywhere, and the radians
+/// of phase between these from which on the function is constant over a fringe.
+constexpr std::size_t kNeighbours = 4;
+constexpr double kManyTurns = 100;
+
+/// Wavelengths that differ by roundings are one.
+constexpr double kSame = 1e-11;
+
+/// Of bounds that look at a few points.
+constexpr double kSafety = 2;
+
+}  // namespace
+
+void LeftOutFringes::add(double wavelength_nm, const FringeMean& mean) {
+    points_.push_back({wavelength_nm, mean.phase, mean.swing_R, mean.swing_T, 0});
+}
+
+double LeftOutFringes::error(Side side, const ColorTables& tables, bool only_edges) {
+    std::ranges::sort(points_, {}, &Point::wavelength_nm);
+    const auto again = std::ranges::unique(
+        points_, [](double a, double b) { return b - a < kSame * a; }, &Point::wavelength_nm);
+    points_.erase(again.begin(), again.end());
+    for (std::size_t i = 1; i < points_.size(); ++i)
+        points_[i].turned =
+            points_[i - 1].turned + std::abs(points_[i].phase - points_[i - 1].phase);
+    const std::size_t last = points_.size() - 1;
+    // from one point to a later one
+    const auto path_nm = [](const Point& a, const Point& b) {
+        const double waves = (b.turned - a.turned) / (2 * std::numbers::pi);
+        return waves > 0 ? waves / (1 / a.wavelength_nm - 1 / b.wavelength_nm) : 0;
+    };
+    double slow = 0, fast = 0;
+    for (std::size_t i = 0; i <= last; ++i) {
+        const Point& point = points_[i];
+        const Point& before = points_[i - std::min<std::size_t>(i, 1)];
+        const Point& after = points_[std::min(i + 1, last)];
+        const double swing = side == Side::reflected ? point.swing_R : point.swing_T;
+        const double turn = points_[std::min(i + kNeighbours, last)].turned -
+                            points_[i - std::min(i, kNeighbours)].turned;
+        if (!std::isfinite(swing + turn)) return std::numeric_limits<double>::infinity();
+        if (only_edges || turn >= kManyTurns) {
+            // one of the two may lead into a gap, or from K < pi to K > pi
+            const double longer_nm = std::max(path_nm(before, point), path_nm(point, after));
+            fast = std::max(fast, swing * tables.decay()(longer_nm));
+        } else {
+            slow += swing * (after.wavelength_nm - before.wavelength_nm) / 2 *
+                    std::ranges::max(tables.sensitivity().at(point.wavelength_nm));
+        }
+    }
+    return kSafety * fast + slow;
+}
+
+}  // namespace irido
