@@ -1,7 +1,9 @@
 #include "core/coherent/layer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace irido {
 
@@ -112,6 +114,19 @@ Matrix phase_matrix(const Medium& m, const Phase& phase, double k0_d, Polarizati
     return {phase.less, -kI * w * sd, -kI * v * sd, phase.less, phase.log_scale};
 }
 
+/// The factor of a layer's form, of one sign.
+FormRoot root_of(const AbsorbedPower& q) {
+    const double bb = std::abs(q.bb), cc = std::abs(q.cc);
+    if (bb == 0) return {0, std::sqrt(cc), 0};
+    const double b = std::sqrt(bb);
+    const Complex c = (q.bb < 0 ? -q.bc : q.bc) / b;
+    return {b, std::sqrt(std::max(0.0, cc - std::norm(c))), c};
+}
+
+double norm_of(const FormRoot& f, Complex b, Complex c) {
+    return std::norm(f.b * b + f.c * c) + f.rest * f.rest * std::norm(c);
+}
+
 }  // namespace
 
 Complex square_root(Complex z) {
@@ -143,6 +158,10 @@ double absorbed_flux(const AbsorbedPower& q, Complex b, Complex c) {
     return q.bb * std::norm(b) + q.cc * std::norm(c) + 2 * (std::conj(b) * q.bc * c).real();
 }
 
+double absorbed_flux(const SlabAbsorption& q, Complex b, Complex c) {
+    return norm_of(q.loss, b, c) - norm_of(q.gain, b, c);
+}
+
 Matrix layer_matrix(const Medium& m, double k0_d, Polarization polarization) {
     return phase_matrix(m, layer_phase(m.q2, k0_d), k0_d, polarization);
 }
@@ -167,7 +186,9 @@ Matrix wave_matrix(const Medium& m, double k0_d, Polarization polarization, Comp
 Slab layer_slab(const Medium& m, double k0_d, Polarization polarization) {
     const Phase phase = layer_phase(m.q2, k0_d);
     Slab slab{phase_matrix(m, phase, k0_d, polarization), {}, m.eps.imag() != 0};
-    if (slab.absorbs) slab.absorbed = absorbed_power(m, phase, k0_d, polarization);
+    if (slab.absorbs)
+        (m.eps.imag() > 0 ? slab.absorbed.loss : slab.absorbed.gain) =
+            root_of(absorbed_power(m, phase, k0_d, polarization));
     return slab;
 }
 
@@ -201,29 +222,56 @@ Matrix product(const Matrix& u, const Matrix& l) {
             with_u * u.d + with_l * l.d + (u.c * l.b + u.d * l.d), u.log_scale + l.log_scale};
 }
 
-/// Q as seen from below the slab of matrix M: M^H Q M.
-AbsorbedPower seen_through(const Matrix& m, const AbsorbedPower& q) {
+/// Rows (b, c) of a factor.
+using Row = std::array<Complex, 2>;
+
+/// The triangle of the same F^H F: QR by Gram and Schmidt.
+FormRoot triangle(std::span<const Row> rows) {
+    double bb = 0;
+    for (const Row& row : rows) bb += std::norm(row[0]);
+    const double b = std::sqrt(bb), inverse = b > 0 ? 1 / b : 0;
+    Complex c = 0;
+    for (const Row& row : rows) c += std::conj(row[0] * inverse) * row[1];
+    double rest = 0;
+    for (const Row& row : rows) rest += std::norm(row[1] - c * (row[0] * inverse));
+    return {b, std::sqrt(rest), c};
+}
+
+/// Of both, the first as seen from below the slab of matrix M: F M.
+FormRoot combined(const FormRoot& above, double f, const Matrix& m, const FormRoot& below,
+                  double g) {
+    if (above.is_zero() && below.is_zero()) return {};
     const Complex a = m.a + m.identity(), d = m.d + m.identity();
-    const Complex b1 = q.bb * a + q.bc * m.c, c1 = std::conj(q.bc) * a + q.cc * m.c;
-    const Complex b2 = q.bb * m.b + q.bc * d, c2 = std::conj(q.bc) * m.b + q.cc * d;
-    return {(std::conj(a) * b1 + std::conj(m.c) * c1).real(),
-            (std::conj(m.b) * b2 + std::conj(d) * c2).real(),
-            std::conj(a) * b2 + std::conj(m.c) * c2, q.log_scale};
+    const double b = f * above.b, rest = f * above.rest;
+    const Complex c = f * above.c;
+    const std::array<Row, 4> rows{Row{b * a + c * m.c, b * m.b + c * d}, Row{rest * m.c, rest * d},
+                                  Row{g * below.b, g * below.c}, Row{0, g * below.rest}};
+    return triangle(rows);
 }
 
-AbsorbedPower operator+(const AbsorbedPower& p, const AbsorbedPower& q) {
-    const double common = std::max(p.log_scale, q.log_scale);
-    const double f = std::exp(2 * (p.log_scale - common));
-    const double g = std::exp(2 * (q.log_scale - common));
-    return {f * p.bb + g * q.bb, f * p.cc + g * q.cc, f * p.bc + g * q.bc, common};
+/// Both logarithms are relative to the matrix of the two slabs.
+SlabAbsorption combined(const SlabAbsorption& above, const Matrix& m, const SlabAbsorption& below) {
+    const auto is_zero = [](const SlabAbsorption& q) {
+        return q.loss.is_zero() && q.gain.is_zero();
+    };
+    const double common = is_zero(above)   ? below.log_scale
+                          : is_zero(below) ? above.log_scale
+                                           : std::max(above.log_scale, below.log_scale);
+    const double f = is_zero(above) ? 0 : std::exp(above.log_scale - common);
+    const double g = is_zero(below) ? 0 : std::exp(below.log_scale - common);
+    return {combined(above.loss, f, m, below.loss, g), combined(above.gain, f, m, below.gain, g),
+            common};
 }
 
-AbsorbedPower normalized(AbsorbedPower q) {
-    const double size = std::max({std::abs(q.bb), std::abs(q.cc), std::abs(q.bc)});
-    if ((size > 1e-60 && size < 1e60) || size < 1e-280) return q;  // 0 or as good as that
-    const int half = std::ilogb(size) / 2;
-    const double factor = std::ldexp(1.0, -2 * half);
-    return {q.bb * factor, q.cc * factor, q.bc * factor, q.log_scale + half * std::log(2.0)};
+void normalize(SlabAbsorption& q) {
+    double size = 0;
+    for (const FormRoot* f : {&q.loss, &q.gain})
+        size = std::max({size, f->b, std::abs(f->c), f->rest});
+    if ((size > 1e-30 && size < 1e30) || size < 1e-140) return;  // 0 or as good as that
+    const int exponent = std::ilogb(size);
+    const double factor = std::ldexp(1.0, -exponent);
+    for (FormRoot* f : {&q.loss, &q.gain}) *f = {f->b * factor, f->rest * factor, f->c * factor};
+    q.log_scale += exponent * std::log(2.0);
 }
 
 }  // namespace
@@ -238,11 +286,11 @@ Slab operator*(const Slab& upper, const Slab& lower) {
     Slab both{product(upper.matrix, lower.matrix), {}, upper.absorbs || lower.absorbs};
     const double moved = normalize(both.matrix);
     if (!both.absorbs) return both;
-    AbsorbedPower above = seen_through(lower.matrix, upper.absorbed);
-    AbsorbedPower below = lower.absorbed;
+    SlabAbsorption above = upper.absorbed, below = lower.absorbed;
     above.log_scale -= moved;
     below.log_scale -= upper.matrix.log_scale + moved;
-    both.absorbed = normalized(!lower.absorbs ? above : !upper.absorbs ? below : above + below);
+    both.absorbed = combined(above, lower.matrix, below);
+    normalize(both.absorbed);
     return both;
 }
 

@@ -15,18 +15,34 @@ struct Matrix {
     double identity() const;
 };
 
-/// Power absorbed above the fields v = (B, C) at a slab's lower face, in the units of the flux
-/// Re(conj(B) C): exp(2 (log_scale + the slab's own)) v^H Q v, Q = [[bb, bc], [conj(bc), cc]].
+/// Power that one layer absorbs above the fields v = (B, C) at its lower face, in the units of the
+/// flux Re(conj(B) C) and up to the layer's exp(2 log_scale): v^H Q v, Q = [[bb, bc], [conj(bc),
+/// cc]].
 struct AbsorbedPower {
     double bb = 0, cc = 0;
     Complex bc{};
+};
+
+/// F = [[b, c], [0, rest]] of a form Q = F^H F that is nowhere negative. Where fields cancel, F v
+/// has twice the digits of v^H Q v.
+struct FormRoot {
+    double b = 0, rest = 0;
+    Complex c{};
+
+    bool is_zero() const { return b == 0 && rest == 0; }
+};
+
+/// The same of a slab: exp(2 (log_scale + the slab's own)) (|F v|^2 of what absorbs - |F v|^2 of
+/// what amplifies).
+struct SlabAbsorption {
+    FormRoot loss, gain;
     double log_scale = 0;  ///< relative to the matrix, so that thick slabs lose no digits
 };
 
 /// A layer, or layers taken together.
 struct Slab {
-    Matrix matrix;           ///< fields at the lower face to fields at the upper face
-    AbsorbedPower absorbed;  ///< all zero if nothing absorbs
+    Matrix matrix;            ///< fields at the lower face to fields at the upper face
+    SlabAbsorption absorbed;  ///< all zero if nothing absorbs
     bool absorbs = false;
 };
 
@@ -56,8 +72,9 @@ LayerTurn layer_turn(Complex q2, double k0_d);
 /// Power that one layer absorbs, by the fields at its lower face: an exact integral over its depth.
 AbsorbedPower absorbed_power(const Medium& medium, double k0_d, Polarization polarization);
 
-/// v^H Q v of the fields v = (b, c).
+/// v^H Q v of the fields v = (b, c), without exp(2 log_scale).
 double absorbed_flux(const AbsorbedPower& q, Complex b, Complex c);
+double absorbed_flux(const SlabAbsorption& q, Complex b, Complex c);
 
 /// Characteristic matrix of one layer, thickness k0 d (radians in vacuum, >= 0).
 Matrix layer_matrix(const Medium& medium, double k0_d, Polarization polarization);

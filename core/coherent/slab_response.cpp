@@ -41,15 +41,14 @@ double dying_phase(std::span<const Element> elements, std::span<const Medium> me
     return sum;
 }
 
-/// x exp(exponent), where exp(exponent) alone may underflow.
+}  // namespace
+
 double times_exp(double x, double exponent) {
     constexpr double kDeepExponent = -400;
     if (exponent > kDeepExponent) return x * std::exp(exponent);
     const double half = std::exp(exponent / 2);
     return x * half * half;
 }
-
-}  // namespace
 
 Wave outgoing_wave(const Medium& m, Polarization polarization) {
     const Complex kz = square_root(m.q2);

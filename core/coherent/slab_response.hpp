@@ -13,6 +13,9 @@ inline constexpr double kSubtractable = 0.01;
 /// plain kernel takes waves instead.
 inline constexpr double kAmplified = 100;
 
+/// x exp(exponent), where exp(exponent) alone may underflow.
+double times_exp(double x, double exponent);
+
 /// One wave of a medium: its tangential fields B : C, up to a common factor, and the flux
 /// Re(conj(B) C) of that.
 struct Wave {

@@ -92,20 +92,20 @@ ThicknessSweep::Column ThicknessSweep::column(Complex b, Complex c) const {
     return {b, c, in_.c * top_b + in_.b * top_c, in_.c * top_b - in_.b * top_c};
 }
 
-double ThicknessSweep::absorbed(const SweptLayer::State& at) const {
+double ThicknessSweep::absorbed(const SweptLayer::State& at, double unit) const {
     const auto& [turn, layer] = at;
     const double above_log_scale = above_.matrix.log_scale;
     double power = 0;
     if (below_flux_ != 0)
-        power += below_flux_ *
-                 std::exp(2 * (below_absorbed_.log_scale - above_log_scale - turn.log_scale));
+        power += times_exp(unit * below_flux_,
+                           2 * (below_absorbed_.log_scale - above_log_scale - turn.log_scale));
     if (layer_absorbs_)
-        power += absorbed_flux(layer, cos_.b, cos_.c) *
-                 std::exp(2 * (layer.log_scale - above_log_scale));
+        power += times_exp(unit * absorbed_flux(layer, cos_.b, cos_.c), -2 * above_log_scale);
     if (above_.absorbs)
-        power += absorbed_flux(above_.absorbed, turn.cos * cos_.b + turn.sd * sd_.b,
-                               turn.cos * cos_.c + turn.sd * sd_.c) *
-                 std::exp(2 * above_.absorbed.log_scale);
+        power +=
+            times_exp(unit * absorbed_flux(above_.absorbed, turn.cos * cos_.b + turn.sd * sd_.b,
+                                           turn.cos * cos_.c + turn.sd * sd_.c),
+                      2 * above_.absorbed.log_scale);
     return power;
 }
 
@@ -119,8 +119,8 @@ Response ThicknessSweep::operator()(double thickness_nm, double phase) const {
     Response response{{}, difference / sum, 0, sum, log_scale};
     Power& power = response.power;
     power.R = std::norm(difference) / std::norm(sum);
-    power.T = unit * out_flux_ * (log_scale == 0 ? 1 : std::exp(-2 * log_scale));
-    if (absorbs_) power.A = unit * absorbed(at);
+    power.T = times_exp(unit * out_flux_, -2 * log_scale);
+    if (absorbs_) power.A = absorbed(at, unit);
     power.A += mixed_power(in_, response.r);
     if (!std::isfinite(power.R + power.T + power.A))
         throw DomainError("the stack amplifies without bound at this wavelength and angle");

@@ -40,8 +40,8 @@ public:
     Response operator()(double thickness_nm, double phase = 0) const;
 
 private:
-    /// In units of unit_ / |sum|^2.
-    double absorbed(const SweptLayer::State& at) const;
+    /// A part of the incident power; unit = unit_ / |sum|^2.
+    double absorbed(const SweptLayer::State& at, double unit) const;
 
     /// What both fields of a column contribute.
     struct Column {
@@ -55,7 +55,7 @@ private:
     SweptLayer layer_;
     bool layer_absorbs_, absorbs_;
     double unit_, below_log_scale_, out_flux_;
-    AbsorbedPower below_absorbed_;
+    SlabAbsorption below_absorbed_;
     double below_flux_;
     Column cos_, sd_;
 };

@@ -226,3 +226,34 @@ TEST_CASE("amplitudes agree with 100 digits") {
         }
     }
 }
+
+TEST_CASE("groups of groups in gaps absorb what their layers absorb") {
+    // fields cancel in what the inner groups, deep in a gap, do to a band of the outer one
+    StackBuilder b(2);
+    const Element inner = StackBuilder::group(
+        8, {b.layer({1.8663439197464142, 1.2593598230183976e-06}, 226.61934406930504),
+            b.layer(1.171990289343589, 330.71217009574275)});
+    b.add(StackBuilder::group(10, {inner, b.layer(1.5423832780065041, 116.30752486570692)}));
+    const Stack stack = b.over(1.5);
+    for (const auto polarization : {Polarization::s, Polarization::p}) {
+        const Query query{643.77437147418436, 57.576985353219506, polarization};
+        const Powers powers = ask(stack, query.wavelength_nm, query.angle_deg);
+        const double A = polarization == Polarization::s ? powers.s.A : powers.p.A;
+        CHECK_THAT(A, WithinRel(sum(layers_of(stack, query)), 1e-9));
+    }
+}
+
+TEST_CASE("a spread layer over deep absorbers lets T reach 1e-293") {
+    const auto stack_of = [](double sigma_nm) {
+        StackBuilder b;
+        b.add(spread(b.layer(1.5, 100), sigma_nm));
+        for (int i = 0; i < 700; ++i) {
+            b.add(b.layer({0.05, 3}, 40));
+            b.add(b.layer(2.5, 80));
+        }
+        return b.over(1.5);
+    };
+    const double sharp = ask(stack_of(0), 550, 0).s.T;
+    CHECK(sharp > 1e-294);
+    CHECK_THAT(ask(stack_of(1e-7), 550, 0).s.T, WithinRel(sharp, 1e-9));
+}
