@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/color_options.hpp"
+#include "cli/long_work.hpp"
 #include "cli/progress.hpp"
 #include "core/color/illuminant.hpp"
 #include "core/error.hpp"
@@ -197,8 +198,12 @@ int run_lut(const LutKind& kind, const LutCommand& command) {
     const LutFormat& format = resolved_lut_format(command.output);
     const LutRequest request = parse(kind, command);
     check_writable(command.output);
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    if (is_slow(kind, request)) say(kSlowNote);
     LutPlan plan = plan_of(kind, request);
     LutMaking making = making_of(command, format, plan.axes.size());
+    if (!is_slow(kind, request))
+        note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     Progress progress(command.quiet);
     making.progress = [&progress](double done) { progress.set(done); };
     Lut lut;

@@ -8,6 +8,7 @@
 
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/long_work.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep/engine.hpp"
 #include "core/error.hpp"
@@ -305,6 +306,9 @@ int run_sweep(const SweepCommand& command) {
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
         note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
+    note_long_work(
+        engine.seconds_of(identity.begin + stream->units_done(), identity.end, command.threads),
+        false, [&](const std::string& text) { notes(text); });
     try {
         return write_rows(command, engine, stacks, format, identity, *stream,
                           orderly ? &*orderly : nullptr);
