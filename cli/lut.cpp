@@ -407,7 +407,7 @@ void add_shader(CLI::App& lut, Run& run) {
         run = [typed] {
             const auto known = shader_names(), languages = shader_languages();
             if (std::ranges::find(known, typed->name) == known.end())
-                throw UsageError("lut shader: " + not_one_of(known, typed->name));
+                throw UsageError("NAME: " + not_one_of(known, typed->name));
             if (std::ranges::find(languages, typed->language) == languages.end())
                 throw UsageError("--language: " + not_one_of(languages, typed->language));
             write_stdout(shader_source(typed->name, typed->language));

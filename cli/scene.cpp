@@ -339,7 +339,9 @@ int run_plan(const SceneCommand& command) {
     if (!command.explained.empty())
         text = explained(scene, result, command.explained);
     else
-        text = command.format == "json" ? json_of(result).dump(2) + "\n" : text_of(result);
+        text = command.format == "json"
+                   ? json_of(result).dump(2, ' ', false, json::error_handler_t::replace) + "\n"
+                   : text_of(result);
     write_stdout(text);
     if (result.seconds > 0)
         note("making what is new will take about " + coarse_time(result.seconds), command.quiet);

@@ -143,7 +143,7 @@ std::string request_hash(const SweepCommand& command, const Question& question,
                                  {"stack", source.document},
                                  {"first", canonical_stack(first.stack)},
                                  {"vary", std::move(vary)}};
-    return sha256_of(request.dump());
+    return sha256_of(request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string in_words(double seconds) {

@@ -416,14 +416,15 @@ private:
 /// The axes for the sizes that were typed.
 void set_counts(Lut& lut, const LutPlan& plan, const std::vector<std::size_t>& counts) {
     if (counts.size() != plan.axes.size())
-        throw LutError("the size must have " + std::to_string(plan.axes.size()) +
-                       " numbers, one for each axis (got " + std::to_string(counts.size()) + ")");
+        throw LutError("the size must have one number for each of the " +
+                       std::to_string(plan.axes.size()) + " axes, or one for all (got " +
+                       std::to_string(counts.size()) + ")");
     for (std::size_t a = 0; a < counts.size(); ++a) {
         LutAxis& axis = lut.axes[a];
         if (counts[a] == axis.count()) continue;
         if (plan.axes[a].fixed || (lut.mips && a == 0))
-            throw LutError("the samples of " + name_of_axis(axis) +
-                           " are given: " + std::to_string(axis.count()) + " (got " +
+            throw LutError("the size along " + name_of_axis(axis) + " must be " +
+                           std::to_string(axis.count()) + ", as many as its list has (got " +
                            std::to_string(counts[a]) + ")");
         axis.values = counts[a] == 1
                           ? std::vector{0.5 * (axis.values.front() + axis.values.back())}
