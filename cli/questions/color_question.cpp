@@ -206,9 +206,10 @@ double ColorQuestion::try_share(const StackDocument& document, const Incidence& 
     const auto lightings = static_cast<double>(lightings_.size());
     const StackPower power(document.stack);
     if (power.spread_layers() == 0 || share >= 1) {
-        if (base_color_) return Question::try_share(document, incidence, share);
-        stack_color(*color_algorithm(tables, document.stack, method_, request_), document.stack,
-                    sides().size(), incidence.angles_deg, 1);
+        const auto algorithm =
+            base_color_ ? approximate_color(tables, document.stack, method_, request_, base_color_)
+                        : color_algorithm(tables, document.stack, method_, request_);
+        stack_color(*algorithm, document.stack, sides().size(), incidence.angles_deg, 1);
         return 1 / lightings;
     }
     std::vector<IncidentAngle> angles;
