@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "cli/options/command.hpp"
+#include "cli/options/long_work.hpp"
 #include "cli/queries/color_question.hpp"
 #include "tables/pictures/swatches.hpp"
 
@@ -38,13 +39,13 @@ std::string picture(const ColorQuestion& question, const StackColors& stack,
 int run_color(const ColorCommand& command) {
     const bool is_picture = resolved_format(command.output) == "svg";
     if (!is_picture) resolved_record_format(command.output, RecordTarget::stream_or_svg);
-    const ColorQuestion question(
-        static_cast<const ColorQuestionOptions&>(*command.typed),
-        {.execution = execution_of(command.threads),
-         .note = [&](const std::string& text) { note(text, command.quiet); }});
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    const ColorQuestion question(static_cast<const ColorQuestionOptions&>(*command.typed),
+                                 {.execution = execution_of(command.threads), .note = say});
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
     check_writable(command.output);
     const StackDocument& document = prepared->document;
+    note_long_work(seconds_of_rows(question, document, command.threads), false, say);
     const StackColors colors = question.colors(*prepared, document.stack, question.angles_deg());
     if (is_picture) {
         const std::string title = document.name.empty() ? command.stack.stack : document.name;

@@ -4,6 +4,7 @@
 
 #include "cli/exit_status.hpp"
 #include "cli/options/color_options.hpp"
+#include "cli/options/long_work.hpp"
 #include "cli/progress.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
@@ -197,8 +198,12 @@ int run_lut(const LutKind& kind, const LutCommand& command) {
     const LutFormat& format = resolved_lut_format(command.output);
     const LutRequest request = parse(kind, command);
     check_writable(command.output);
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    if (is_slow(kind, request)) say(kSlowNote);
     LutPlan plan = plan_of(kind, request);
     LutMaking making = making_of(command, format, plan.axes.size());
+    if (!is_slow(kind, request))
+        note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     Progress progress(command.quiet);
     making.progress = [&progress](double done) { progress.set(done); };
     Lut lut;
@@ -401,7 +406,7 @@ void add_shader(CLI::App& lut, Run& run) {
         run = [typed] {
             const auto known = shader_names(), languages = shader_languages();
             if (std::ranges::find(known, typed->name) == known.end())
-                throw UsageError("lut shader: " + not_one_of(known, typed->name));
+                throw UsageError("NAME: " + not_one_of(known, typed->name));
             if (std::ranges::find(languages, typed->language) == languages.end())
                 throw UsageError("--language: " + not_one_of(languages, typed->language));
             write_stdout(shader_source(typed->name, typed->language));

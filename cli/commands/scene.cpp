@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/options/command.hpp"
+#include "cli/options/long_work.hpp"
 #include "cli/progress.hpp"
 #include "core/error.hpp"
 #include "schemas/documents/canonical_stack.hpp"
@@ -332,17 +333,38 @@ int run_plan(const SceneCommand& command) {
     if (!command.explained.empty())
         text = explained(scene, result, command.explained);
     else
-        text = command.format == "json" ? json_of(result).dump(2) + "\n" : text_of(result);
+        text = command.format == "json"
+                   ? json_of(result).dump(2, ' ', false, json::error_handler_t::replace) + "\n"
+                   : text_of(result);
     write_stdout(text);
     if (result.seconds > 0)
-        note("to make what is new will take about " + two_digits(result.seconds) + " s",
-             command.quiet);
+        note("making what is new will take about " + coarse_time(result.seconds), command.quiet);
     return report_faults(scene, result.faults);
+}
+
+/// Says so if what is new will take long.
+void note_long_bake(const Scene& scene, const ScenePlan& plan, const SceneCommand& command) {
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    const Baked before = baked_scene(command.place, scene);
+    const double share = 1 / static_cast<double>(std::max<std::size_t>(1, plan.tables.size()));
+    double seconds = 0;
+    for (const SceneTable& table : plan.tables) {
+        if (!command.force && before.tables.contains(table.id)) continue;
+        if (is_slow(*table.kind, table.request)) return say(kSlowNote);
+        try {
+            LutMaking making = table.making;
+            making.threads = command.threads;
+            seconds += least_seconds(table.kind->plan(table.request), making, share);
+        } catch (const std::exception&) {  // for the bake to find
+        }
+    }
+    note_long_work(seconds, true, say);
 }
 
 int run_bake(const SceneCommand& command) {
     const Scene scene = scene_of(command);
     const ScenePlan plan = plan_scene(scene, execution_of(command.threads));
+    note_long_bake(scene, plan, command);
     Progress progress(command.quiet);
     const BakeRequest request{command.place,
                               command.force,

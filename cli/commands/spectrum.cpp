@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/options/command.hpp"
+#include "cli/options/long_work.hpp"
 #include "cli/queries/spectrum_question.hpp"
 #include "tables/resume/record_stream.hpp"
 
@@ -20,13 +21,13 @@ struct SpectrumCommand {
 
 int run_spectrum(const SpectrumCommand& command) {
     const RecordFormat& format = resolved_record_format(command.output);
-    const SpectrumQuestion question(
-        static_cast<const SpectrumOptions&>(*command.typed),
-        {.execution = execution_of(command.threads),
-         .note = [&](const std::string& text) { note(text, command.quiet); }});
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
+                                    {.execution = execution_of(command.threads), .note = say});
     const StackDocument document = read_noted_stack(command.stack, command.quiet);
     const RecordLayout layout = question.layout(document);
     const auto stream = counted_output(command.output.file, format, layout, question.rows());
+    note_long_work(seconds_of_rows(question, document, command.threads), false, say);
     question.each_block(document, [&](const Records& rows) {
         stream->append(format.rows(layout, rows), 0, rows.rows());
     });

@@ -8,6 +8,7 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/options/command.hpp"
+#include "cli/options/long_work.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep/engine.hpp"
 #include "core/error.hpp"
@@ -134,7 +135,7 @@ std::string request_hash(const SweepCommand& command, const Question& question,
                                  {"stack", source.document},
                                  {"first", canonical_stack(first.stack)},
                                  {"vary", std::move(vary)}};
-    return sha256_of(request.dump());
+    return sha256_of(request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string in_words(double seconds) {
@@ -298,6 +299,9 @@ int run_sweep(const SweepCommand& command) {
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
         note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
+    note_long_work(
+        engine.seconds_of(identity.begin + stream->units_done(), identity.end, command.threads),
+        false, [&](const std::string& text) { notes(text); });
     try {
         return write_rows(command, engine, stacks, format, identity, *stream,
                           orderly ? &*orderly : nullptr);

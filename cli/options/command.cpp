@@ -52,8 +52,7 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
             [&output](const std::string& file) { output.file = file == "-" ? "" : file; },
             "write to FILE (whole or not at all); the format follows the\n"
             "extension; - is standard output [-]")
-        ->type_name("FILE")
-        ->check([](const std::string& file) { return file.empty() ? "must name a file" : ""; });
+        ->type_name("FILE");
     command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
 }
 

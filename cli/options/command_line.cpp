@@ -82,11 +82,14 @@ private:
             const bool is_full =
                 !takes_many(*option) && counts_[option] >= option->get_items_expected_max();
             if (is_full) continue;
+            if (word.empty()) empty(*option);
             count(*option);
             return;
         }
         fail("there is one word too many: '" + std::string(word) + "'" +
-             (positionals_ > 1 ? ", an expression is one word in quotes" : ""));
+             (positionals_ > 1 && command_.get_option_no_throw("STACK")
+                  ? ", an expression is one word in quotes"
+                  : ""));
     }
 
     void option(std::string_view word) {
@@ -104,12 +107,21 @@ private:
         }
         if (counts_[found] > 1 && !may_repeat(*found)) fail(name_of(*found) + ": is there twice");
         if (attached.empty()) value_of(*found);
-        while (takes_many(*found) && at_ < words_.size() && !is_option_word(words_[at_])) ++at_;
+        while (takes_many(*found) && at_ < words_.size() && !is_option_word(words_[at_]))
+            if (std::string_view(words_[at_++]).empty()) empty(*found);
+    }
+
+    [[noreturn]] void empty(const CLI::Option& option) const {
+        const std::string type = option.get_positional() ? name_of(option) : option.get_type_name();
+        const char* const what = type == "DIR"                       ? "name a folder"
+                                 : type == "FILE" || type == "SCENE" ? "name a file"
+                                                                     : "not be empty";
+        fail(name_of(option) + ": must " + what);
     }
 
     void value_of(const CLI::Option& option) {
         if (has_value()) {
-            ++at_;
+            if (std::string_view(words_[at_++]).empty()) empty(option);
         } else if (option.get_items_expected_min() > 0) {
             fail(name_of(option) + ": needs a value, " + option.get_type_name());
         }

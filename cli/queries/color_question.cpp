@@ -199,6 +199,31 @@ double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
            (kColor + kLayer * quadrature_work(stack, indices, pieces, incident_angle(angle_deg)));
 }
 
+double ColorQuestion::try_share(const StackDocument& document, const Incidence& incidence,
+                                double share) const {
+    constexpr double kUsualWavelengths = 1000;  // of a colour, as --stats says
+    const ColorTables& tables = lightings_.front()->tables;
+    const auto lightings = static_cast<double>(lightings_.size());
+    const StackPower power(document.stack);
+    if (power.spread_layers() == 0 || share >= 1) {
+        const auto algorithm =
+            base_color_ ? approximate_color(tables, document.stack, method_, request_, base_color_)
+                        : color_algorithm(tables, document.stack, method_, request_);
+        stack_color(*algorithm, document.stack, sides().size(), incidence.angles_deg, 1);
+        return 1 / lightings;
+    }
+    std::vector<IncidentAngle> angles;
+    for (const double angle_deg : incidence.angles_deg) angles.push_back(incident_angle(angle_deg));
+    const double count = std::max(1.0, std::round(share * kUsualWavelengths));
+    const WavelengthRange all = tables.sensitivity().support();
+    std::vector<double> wavelengths_nm;
+    for (double i = 0; i < count; ++i)
+        wavelengths_nm.push_back(all.first_nm + (i + 0.5) / count * (all.last_nm - all.first_nm));
+    const IndexTable indices(held_stack(document.stack, tables.sensitivity()), wavelengths_nm);
+    spectra(power, indices, angles, needs_of(request_), {1, request_.simd});
+    return count / kUsualWavelengths / lightings;
+}
+
 StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& stack,
                                   std::span<const double> angles_deg) const {
     const auto& algorithms = static_cast<const ColorStack&>(prepared).algorithms;

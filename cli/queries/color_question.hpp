@@ -59,6 +59,8 @@ public:
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
+    double try_share(const StackDocument& document, const Incidence& incidence,
+                     double share) const override;
 
     std::span<const Side> sides() const { return request_.sides; }
     /// The one asked for, and all others to be compared with it.

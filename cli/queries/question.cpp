@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/options/long_work.hpp"
 #include "cli/queries/bands_question.hpp"
 #include "cli/queries/cm_question.hpp"
 #include "cli/queries/color_question.hpp"
@@ -12,8 +13,22 @@
 
 namespace irido {
 
+namespace {
+
+/// A row, as text.
+constexpr double kWriting_s = 1e-6;
+
+}  // namespace
+
 nlohmann::json Question::data() const {
     return nullptr;
+}
+
+double Question::try_share(const StackDocument& document, const Incidence& incidence,
+                           double) const {
+    const std::unique_ptr<const PreparedStack> prepared = prepare(document);
+    answers()->add(*prepared, document.stack, incidence);
+    return 1;
 }
 
 void note_incident(const StackDocument& document, const IndexTable& table,
@@ -28,6 +43,23 @@ Records records_of(const Question& question, const PreparedStack& prepared) {
     const std::unique_ptr<Answers> answers = question.answers();
     answers->add(prepared, prepared.document.stack, {question.angles_deg()});
     return answers->records();
+}
+
+double seconds_of_rows(const Question& question, const StackDocument& document, unsigned threads) {
+    const std::span<const double> all = question.angles_deg();
+    const auto seconds_of = [&](double angles) {
+        const auto count = static_cast<std::size_t>(std::max(1.0, std::round(angles)));
+        std::vector<double> some;
+        for (std::size_t i = 0; i < count; ++i)
+            some.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
+        double share = 1;
+        const double seconds = processor_seconds(
+            [&] { share = question.try_share(document, {some}, std::min(1.0, angles)); });
+        return seconds * angles / (share * static_cast<double>(count)) / threads_used(threads);
+    };
+    const auto rows = static_cast<double>(question.rows_per_angle() * all.size());
+    return kWriting_s * rows +
+           tried_seconds(static_cast<double>(all.size()), kFirstShare, seconds_of);
 }
 
 std::span<const QuestionKind> question_kinds() {

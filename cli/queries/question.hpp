@@ -88,6 +88,10 @@ public:
     /// the same on every machine.
     virtual double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                            std::optional<double> wavelength_nm) const = 0;
+    /// Computes a share, (0, 1], of what is asked about the document's stack and forgets it, to see
+    /// how long that takes; returns the share that it was. Throws as prepare() and Answers::add().
+    virtual double try_share(const StackDocument& document, const Incidence& incidence,
+                             double share) const;
 };
 
 /// Says so if an incident medium that has k is taken as transparent at the table's wavelengths.
@@ -96,6 +100,9 @@ void note_incident(const StackDocument& document, const IndexTable& table,
 
 /// The rows of the prepared stack itself at the question's angles.
 Records records_of(const Question& question, const PreparedStack& prepared);
+
+/// Seconds that the question's rows of a stack will take on so many threads; see tried_seconds().
+double seconds_of_rows(const Question& question, const StackDocument& document, unsigned threads);
 
 /// Options of one kind of question, as typed.
 class QuestionOptions {

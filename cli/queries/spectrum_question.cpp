@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/options/command.hpp"
 #include "core/coherent/coherent.hpp"
@@ -119,6 +117,8 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
 
 /// Numbers, more or less, that are computed and written at a time.
 constexpr std::size_t kBlockNumbers = 1U << 20U;
+/// Of index tables: 64 MB.
+constexpr std::size_t kKeptNumbers = 1U << 23U;
 
 template <class Value>
 std::vector<Value> part_of(const std::vector<Value>& all, std::size_t begin, std::size_t count) {
@@ -207,12 +207,15 @@ std::vector<IncidentAngle> incident_angles_of(std::span<const double> angles_deg
 
 class SpectrumAnswers : public Answers {
 public:
-    explicit SpectrumAnswers(const SpectrumQuestion& question) : question_(question) {}
+    explicit SpectrumAnswers(const SpectrumQuestion& question)
+        : SpectrumAnswers(question, question.polarizations_) {}
+    SpectrumAnswers(const SpectrumQuestion& question, std::string polarizations)
+        : question_(question), polarizations_(std::move(polarizations)) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
         const StackPower power = stack_power(prepared.document, stack);
-        const Needs needs = spectrum_needs(question_.polarizations_, question_.columns_, power);
+        const Needs needs = spectrum_needs(polarizations_, question_.columns_, power);
         const bool is_other = incidence.wavelength_nm.has_value();
         const IndexTable& table =
             is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
@@ -247,12 +250,12 @@ private:
         numbers_.assign(names_.size(), {});
         wavelength_ = {};
         angle_ = {};
-        polarization_ = {letters_of(question_.polarizations_), {}};
+        polarization_ = {letters_of(polarizations_), {}};
         shared_wavelengths_ = false;
     }
 
     std::size_t append(const Incidence& incidence, const std::vector<double>& wavelengths_nm) {
-        const SpectrumShape shape{incidence.angles_deg.size(), question_.polarizations_,
+        const SpectrumShape shape{incidence.angles_deg.size(), polarizations_,
                                   wavelengths_nm.size()};
         append_spectrum_numbers(shape, question_.columns_, layers_, spectra_, numbers_);
         if (incidence.wavelength_nm || !shared_wavelengths_) {
@@ -276,6 +279,7 @@ private:
     }
 
     const SpectrumQuestion& question_;
+    std::string polarizations_;
     Spectra spectra_;
     std::optional<IndexTable> other_;
     std::size_t layers_ = 0;
@@ -341,87 +345,68 @@ std::uint64_t SpectrumQuestion::rows() const {
     return std::uint64_t{rows_per_angle()} * angles_deg_.size();
 }
 
-Records SpectrumQuestion::block(const StackDocument& document, std::vector<double> wavelengths_nm,
-                                std::vector<double> angles_deg,
-                                const std::string& polarizations) const {
-    SpectrumQuestion part(*this);
-    part.wavelengths_nm_ = std::move(wavelengths_nm);
-    part.angles_deg_ = std::move(angles_deg);
-    part.polarizations_ = polarizations;
-    part.note_ = [](const std::string&) {};  // said once, of all
-    return records_of(part, *part.prepare(document));
+double SpectrumQuestion::try_share(const StackDocument& document, const Incidence& incidence,
+                                   double share) const {
+    const std::size_t all = wavelengths_nm_.size();
+    if (incidence.wavelength_nm || all == 0) return Question::try_share(document, incidence, share);
+    const auto wanted = static_cast<std::size_t>(std::round(share * static_cast<double>(all)));
+    const std::size_t count = std::clamp<std::size_t>(wanted, 1, std::min(all, kBlockNumbers));
+    std::vector<double> some;
+    for (std::size_t i = 0; i < count; ++i)
+        some.push_back(wavelengths_nm_[(2 * i + 1) * all / (2 * count)]);
+    const SpectrumStack prepared(document, some);
+    answers()->add(prepared, document.stack, incidence);
+    return static_cast<double>(count) / static_cast<double>(all);
 }
 
 void SpectrumQuestion::each_block(const StackDocument& document,
                                   const std::function<void(const Records&)>& take) const {
     const std::size_t most = std::max<std::size_t>(1, kBlockNumbers / layout(document).size());
-    if (rows_per_angle() <= most) {
-        const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
-        const std::size_t count = (angles + blocks - 1) / blocks;
-        const auto prepared = prepare(document);
-        const auto answers = this->answers();
-        note_long_work(document);
-        for (std::size_t a = 0; a < angles; a += count) {
-            const std::vector<double> some = part_of(angles_deg_, a, count);
-            answers->add(*prepared, document.stack, {some});
-            take(answers->records());
-        }
-        return;
+    if (rows_per_angle() > most) return each_part_of_angle(document, most, take);
+    const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
+    const std::size_t count = (angles + blocks - 1) / blocks;
+    const auto prepared = prepare(document);
+    const auto answers = this->answers();
+    for (std::size_t a = 0; a < angles; a += count) {
+        const std::vector<double> some = part_of(angles_deg_, a, count);
+        answers->add(*prepared, document.stack, {some});
+        take(answers->records());
     }
+}
+
+void SpectrumQuestion::each_part_of_angle(const StackDocument& document, std::size_t most,
+                                          const std::function<void(const Records&)>& take) const {
+    const std::size_t all = wavelengths_nm_.size();
     Witnesses witnesses;
-    for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most) {
+    for (std::size_t w = 0; w < all; w += most) {
         const IndexTable table = index_table(document, part_of(wavelengths_nm_, w, most));
         if (w == 0) note_incident(document, table, note_);
         witnesses.see(table);
     }
     const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
-    note_long_work(document);
+    // what all angles and polarizations have in common, as far as there is room for it
+    std::vector<std::unique_ptr<const SpectrumStack>> kept((all + most - 1) / most);
+    const bool has_room = all * (2 * document.stack.materials.size() + 2) <= kKeptNumbers;
+    std::unique_ptr<const SpectrumStack> passing;
+    const auto prepared = [&](std::size_t w) -> const SpectrumStack& {
+        auto& part = has_room ? kept[w / most] : passing;
+        if (has_room && part) return *part;
+        std::vector<double> some = part_of(wavelengths_nm_, w, most);
+        some.insert(some.end(), others.begin(), others.end());
+        part = std::make_unique<const SpectrumStack>(document, some);
+        return *part;
+    };
+    std::vector<SpectrumAnswers> answers;
+    for (const char polarization : polarizations_)
+        answers.emplace_back(*this, std::string{polarization});
     for (const double angle_deg : angles_deg_)
-        for (const char polarization : polarizations_)
-            for (std::size_t w = 0; w < wavelengths_nm_.size(); w += most) {
-                std::vector<double> some = part_of(wavelengths_nm_, w, most);
-                const std::size_t count = some.size();
-                some.insert(some.end(), others.begin(), others.end());
-                Records rows = block(document, std::move(some), {angle_deg}, {polarization});
-                cut(rows, count);
+        for (SpectrumAnswers& of_polarization : answers)
+            for (std::size_t w = 0; w < all; w += most) {
+                of_polarization.add(prepared(w), document.stack, {{&angle_deg, 1}});
+                Records rows = of_polarization.records();
+                cut(rows, std::min(most, all - w));
                 take(rows);
             }
-}
-
-/// Of stacks with spread layers, whose points take long. Doubles the number of points that are
-/// tried until their time can be told, so that work that passes a minute takes a tenth of a second
-/// or a point longer.
-void SpectrumQuestion::note_long_work(const StackDocument& document) const {
-    constexpr double kLong_s = 60, kTold_s = 0.1;
-    const double points =
-        static_cast<double>(angles_deg_.size()) * static_cast<double>(wavelengths_nm_.size());
-    const std::size_t spread = stack_power(document, document.stack).spread_layers();
-    if (spread == 0) return;
-    if (spread == StackPower::kLargestSpreadLayers)
-        return note_("each of " + to_text(points) + " points may take seconds: " +
-                     to_text(static_cast<double>(spread)) + " layers have a thickness_sigma_nm");
-    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-    const unsigned threads = execution_.threads > 0 ? execution_.threads : cores;
-    SpectrumQuestion serial(*this);
-    serial.execution_.threads = 1;
-    double seconds = 0, whole_s = kLong_s;
-    for (std::size_t tried = 1; seconds < kTold_s && whole_s >= kLong_s; tried *= 2) {
-        if (static_cast<double>(tried) > points / 2) return;
-        std::vector<double> some;  // spread over all
-        for (std::size_t i = 0; i < tried; ++i)
-            some.push_back(wavelengths_nm_[(2 * i + 1) * wavelengths_nm_.size() / (2 * tried)]);
-        try {
-            const std::clock_t start = std::clock();  // whatever else the machine is doing
-            serial.block(document, some, {angles_deg_[angles_deg_.size() / 2]}, polarizations_);
-            seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-        } catch (const Error&) {  // said when it is met in its turn
-            return;
-        }
-        whole_s = seconds * points / static_cast<double>(tried) / threads;
-    }
-    if (whole_s < kLong_s) return;
-    note_("these " + to_text(points) + " points of wavelength and angle take about " +
-          to_text(std::round(whole_s / 60)) + " minutes");
 }
 
 std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) const {

@@ -35,12 +35,13 @@ public:
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
+    double try_share(const StackDocument& document, const Incidence& incidence,
+                     double share) const override;
 
     /// Rows of all wavelengths, angles and polarizations.
     std::uint64_t rows() const;
     /// Gives all rows of a stack in their order, block after block, in memory that does not grow
-    /// with their number: the values of prepare() and answers(). Before the first, says through
-    /// Answering::note if they will take more than a minute. Throws as these.
+    /// with their number: the values of prepare() and answers(). Throws as these.
     void each_block(const StackDocument& document,
                     const std::function<void(const Records&)>& take) const;
 
@@ -50,9 +51,8 @@ public:
 private:
     friend class SpectrumAnswers;
 
-    Records block(const StackDocument& document, std::vector<double> wavelengths_nm,
-                  std::vector<double> angles_deg, const std::string& polarizations) const;
-    void note_long_work(const StackDocument& document) const;
+    void each_part_of_angle(const StackDocument& document, std::size_t most,
+                            const std::function<void(const Records&)>& take) const;
 
     bool varies_wavelength_;
     std::vector<double> wavelengths_nm_;  ///< none if they vary

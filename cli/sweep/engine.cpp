@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cli/options/list.hpp"
+#include "cli/options/long_work.hpp"
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
 
@@ -332,10 +333,40 @@ void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const RecordFor
         block.bytes = format.rows(layout_, assembled(leading.take(), answers->records()));
 }
 
+double SweepEngine::try_units(std::uint64_t first, double units) {
+    SweptStacks::Walk walk(stacks_);
+    if (units >= 1) {
+        const auto count = static_cast<std::uint64_t>(units);
+        const std::unique_ptr<Answers> answers = question_.answers();
+        for (std::uint64_t i = 0; i < count; ++i) add(first + i, 1, walk, *answers);
+        return static_cast<double>(count);
+    }
+    const std::uint64_t combination = combination_of(first);
+    const auto& place = walk.at(combination);
+    StackDocument document = place.prepared->document;
+    document.stack = place.stack;
+    double angle_deg = angles_[first % angles_.size()];
+    if (angle_column_) angle_deg = number_at(*angle_column_, combination);
+    Incidence incidence{{&angle_deg, 1}};
+    if (!angle_column_ && !question_.splits_angles()) incidence.angles_deg = question_.angles_deg();
+    if (wavelength_column_) incidence.wavelength_nm = number_at(*wavelength_column_, combination);
+    return question_.try_share(document, incidence, units);
+}
+
+double SweepEngine::seconds_of(std::uint64_t begin, std::uint64_t end, unsigned threads) {
+    const auto seconds = [&](double units) {
+        double tried = units;
+        const double taken =
+            processor_seconds([&] { tried = try_units(begin + (end - begin) / 2, units); });
+        return taken * units / tried / threads_used(threads);
+    };
+    return tried_seconds(static_cast<double>(end - begin), kFirstShare, seconds);
+}
+
 bool SweepEngine::run(std::uint64_t begin, std::uint64_t end, const RecordFormat& format,
                       RecordStream& stream, unsigned threads,
                       const std::function<bool(std::uint64_t)>& proceed) {
-    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    threads = threads_used(threads);
     const std::uint64_t rows = std::max<std::uint64_t>(1, rows_per_unit_);
     Blocks blocks(begin, end, std::clamp<std::uint64_t>(kMostBlockRows / rows, 1, kMostBlockRows),
                   kBlocksAhead * threads);

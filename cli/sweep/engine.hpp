@@ -33,6 +33,9 @@ public:
     /// and the same ones on every machine.
     std::vector<std::uint64_t> shard_ends(std::uint64_t shards);
 
+    /// Seconds that units in [begin, end) will take on so many threads; see tried_seconds().
+    double seconds_of(std::uint64_t begin, std::uint64_t end, unsigned threads);
+
     /// Writes the rows of units in [begin, end) in order, computed by so many threads (0: one a
     /// core). `proceed` is called now and then with the number of units that are written; if it
     /// returns false, run() ends early and returns false. Throws what a unit throws.
@@ -61,6 +64,8 @@ private:
     void take_alone(std::uint64_t unit, const std::function<void()>& take);
     std::size_t add(std::uint64_t unit, std::size_t count, SweptStacks::Walk& walk,
                     Answers& answers);
+    /// Computes so many units, or part of one, and forgets them; returns how many it were.
+    double try_units(std::uint64_t first, double units);
     Records assembled(Records leading, Records answered) const;
 
     SweptStacks& stacks_;

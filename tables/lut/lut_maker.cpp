@@ -23,6 +23,7 @@ constexpr double kHelpful = 0.9;               ///< of the error, after a step t
 constexpr int kMostIdle = 3;
 constexpr std::size_t kFirstSize = 4;
 constexpr std::size_t kDroppedSamples = 65;  ///< along an axis that has one sample
+constexpr std::size_t kCoarseSamples = 9;    ///< along others, while one axis is looked at
 constexpr std::size_t kWorstCells = 8;       ///< that are looked at on a finer grid
 constexpr std::size_t kFineSamples = 9;      ///< along each side of these
 constexpr std::size_t kEndSamples = 1025;    ///< along a range that may end early
@@ -268,10 +269,9 @@ private:
 
     /// Few samples along the other axes.
     std::vector<LutAxis> coarse() const {
-        constexpr std::size_t coarse_samples = 9;
         std::vector<LutAxis> axes;
         for (std::size_t a = 0; a < plan_.axes.size(); ++a)
-            axes.push_back(is_free(a) ? range(a, coarse_samples) : plan_.axes[a].axis);
+            axes.push_back(is_free(a) ? range(a, kCoarseSamples) : plan_.axes[a].axis);
         // larger spreads only leave less to see
         if (lut_.mips) axes.front().values.resize(1);
         return axes;
@@ -416,14 +416,15 @@ private:
 /// The axes for the sizes that were typed.
 void set_counts(Lut& lut, const LutPlan& plan, const std::vector<std::size_t>& counts) {
     if (counts.size() != plan.axes.size())
-        throw LutError("the size must have " + std::to_string(plan.axes.size()) +
-                       " numbers, one for each axis (got " + std::to_string(counts.size()) + ")");
+        throw LutError("the size must have one number for each of the " +
+                       std::to_string(plan.axes.size()) + " axes, or one for all (got " +
+                       std::to_string(counts.size()) + ")");
     for (std::size_t a = 0; a < counts.size(); ++a) {
         LutAxis& axis = lut.axes[a];
         if (counts[a] == axis.count()) continue;
         if (plan.axes[a].fixed || (lut.mips && a == 0))
-            throw LutError("the samples of " + name_of_axis(axis) +
-                           " are given: " + std::to_string(axis.count()) + " (got " +
+            throw LutError("the size along " + name_of_axis(axis) + " must be " +
+                           std::to_string(axis.count()) + ", as many as its list has (got " +
                            std::to_string(counts[a]) + ")");
         axis.values = counts[a] == 1
                           ? std::vector{0.5 * (axis.values.front() + axis.values.back())}
@@ -472,6 +473,25 @@ std::vector<InterpolationError> interpolation_errors(const LutPlan& plan, const 
         errors.push_back(comparison.error());
     }
     return errors;
+}
+
+double least_evaluations(const LutPlan& plan, const LutMaking& making) {
+    const LutSizing& sizing = making.sizing;
+    const bool has_counts = sizing.counts.size() == plan.axes.size();
+    double samples = 1;
+    std::size_t ranges = 0;
+    for (std::size_t a = 0; a < plan.axes.size(); ++a) {
+        std::size_t count = plan.axes[a].axis.count();
+        const bool is_range = !plan.axes[a].fixed && count > 1 && !(plan.mips && a == 0);
+        if (is_range) ++ranges;
+        if (is_range && sizing.tolerance) count = kCoarseSamples;
+        if (is_range && has_counts) count = sizing.counts[a];
+        samples *= static_cast<double>(count);
+    }
+    if (sizing.tolerance)  // each range is looked at, with few samples along the others
+        return samples * static_cast<double>(ranges * kDroppedSamples) / kCoarseSamples;
+    // the values; and to measure their error, between them along each range and along all
+    return samples * (making.measure ? 2 + static_cast<double>(ranges) : 1);
 }
 
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making) {

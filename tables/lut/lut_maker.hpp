@@ -46,7 +46,10 @@ std::vector<InterpolationError> interpolation_errors(const LutPlan& plan, const 
 /// ToleranceError if no size up to 8192 meets it, LutError for sizes that cannot be.
 Lut make_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
-/// The same without its values and their error: what the table will be.
+/// How often make_lut() will compute the plan's function: about, or, with a tolerance, at least.
+double least_evaluations(const LutPlan& plan, const LutMaking& making);
+
+/// make_lut() without the values and their error: what the table will be.
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
 /// Of each mip level of a sized table its interpolation error, or what few samples show of it: in

@@ -238,6 +238,109 @@ TEST_CASE("whatever the names are, what is written is well formed", "[cli][files
     }
 }
 
+TEST_CASE("an empty word is refused where it was typed", "[cli][files]") {
+    const InputFolder folder;
+    const std::string stack = " '" + kWithMetal + "'";
+    for (const auto& [command, said] : std::vector<std::pair<std::string, std::string>>{
+             {"materials list -o ''", "--output: must name a file"},
+             {"materials show SiO2 -o ''", "--output: must name a file"},
+             {"lut list -o ''", "--output: must name a file"},
+             {"convert" + stack + " -o ''", "--output: must name a file"},
+             {"cm" + stack + " -o ''", "--output: must name a file"},
+             {"bands" + stack + " -o ''", "--output: must name a file"},
+             {"bench speed -o ''", "--output: must name a file"},
+             {"bench stability -o ''", "--output: must name a file"},
+             {"bench pareto -o ''", "--output: must name a file"},
+             {"bench scene scene.json -o ''", "--output: must name a file"},
+             {"sweep --merge a b -o ''", "--output: must name a file"},
+             {"plan scene.json -o ''", "--output: must name a folder"},
+             {"bake scene.json -o ''", "--output: must name a folder"},
+             {"bake scene.json -o b --manifest ''", "--manifest: must not be empty"},
+             {"plan ''", "SCENE: must name a file"},
+             {"validate ''", "FILE: must name a file"},
+             {"lut check x ''", "FILE: must name a file"},
+             {"spectrum ''", "STACK: must not be empty"},
+             {"color" + stack + " -f ''", "--format: must not be empty"},
+             {"color" + stack + " --illuminant ''", "--illuminant: must not be empty"},
+             {"bands" + stack + " --plot ''", "--plot: must name a file"},
+             {"sweep --merge a '' -o x.csv", "--merge: must name a file"},
+             {"sweep" + stack + " --compute color --points ''", "--points: must name a file"}}) {
+        INFO(command);
+        check_refused(folder.shell("\"$IRIDO\" " + command), said);
+        CHECK(folder.is_unchanged());
+    }
+}
+
+TEST_CASE("odd names leave tables, manifests and journals well formed", "[cli][files]") {
+    const TemporaryFolder folder;
+    const std::string odd = R"("\u0001 ]]> \" \\ \n \uFFFE \uFFFF \u00b5m\u0000")";
+    write_text(folder / "odd.json", "{\"name\": " + odd +
+                                        R"(, "incident": "air", "layers": [{"material":
+        {"n": 1.5, "name": )" + odd + R"(}, "thickness_nm": 100}], "substrate": "Si"})");
+    write_text(folder / "check.py", R"(
+import glob, json, struct, sys
+def metadata(file):
+    data = open(file, 'rb').read()
+    if file.endswith('.ktx2'):
+        place, size = struct.unpack_from('<II', data, 56)
+        end = place + size
+        while place < end:
+            length, = struct.unpack_from('<I', data, place)
+            key, value = data[place + 4:place + 4 + length].split(b'\0', 1)
+            if key == b'irido.metadata': yield value.rstrip(b'\0')
+            place += 4 + (length + 3) // 4 * 4
+    elif file.endswith('.exr'):
+        place = 8
+        while data[place]:
+            name, kind = data[place:].split(b'\0', 2)[:2]
+            place += len(name) + len(kind) + 2
+            length, = struct.unpack_from('<i', data, place)
+            if name == b'irido.metadata': yield data[place + 4:place + 4 + length]
+            place += 4 + length
+    else:
+        yield data.split(b'\n{')[0].splitlines()[0] if file.endswith('.sweep') else data
+for file in sys.argv[1:]:
+    for text in list(metadata(file)) or [b'missing in ' + file.encode()]:
+        json.loads(text.decode('utf-8'))
+)");
+    const auto check = [&](const std::string& command) {
+        INFO(command);
+        const Outcome outcome = run_shell(command, folder.path());
+        CHECK(outcome.status == 0);
+        CHECK(outcome.err.empty());
+    };
+    for (const std::string& file : std::vector<std::string>{"x.exr", "x.ktx2"})
+        check("\"$IRIDO\" lut color odd.json --vary layers.0.thickness_nm=0:100/4 --size 4 -o " +
+              file + " --quiet && \"$IRIDO\" lut check " + file + " && python3 check.py " + file);
+    for (const std::string& file : std::vector<std::string>{"x.csv", "x.npy", "x.h5", "x.json"})
+        check(
+            "\"$IRIDO\" sweep odd.json --compute spectrum -w 550 --shard 1/1 --vary "
+            "'layers.0.material={\"n\": 1.5, \"name\": " +
+            odd + "},Si' -o " + file + " && python3 check.py " + file + ".sweep");
+
+    // names of files and folders that are no text
+    fs::create_directory(folder / "d\xFF");
+    write_text(folder / "d\xFF/s\x01\xFF]]>.json", R"({"materials": [
+        {"name": "a", "stack": "../odd.json", "shading": "color", "angles_deg": [0, 60]}]})");
+    const std::string scene = " 'd\xFF/s\x01\xFF]]>.json'";
+    const std::string bake = "\"$IRIDO\" bake" + scene + " -o 'b\xFF' --quiet";
+    check(bake +
+          " && python3 check.py 'b\xFF/manifest.json' && \"$IRIDO\" validate "
+          "'b\xFF/manifest.json' && " +
+          bake);
+    write_text(folder / "d\xFF/s.json", R"({"materials": [
+        {"name": "a", "stack": "no.json", "shading": "color", "angles_deg": [0, 60]},
+        {"name": "b", "stack": "../odd.json", "shading": "color", "angles_deg": [0, 60]}]})");
+    check("\"$IRIDO\" bake 'd\xFF/s.json' -o b --quiet 2> said; python3 check.py b/manifest.json");
+    check("\"$IRIDO\" plan 'd\xFF/s.json' -f json > p.json 2> said; python3 check.py p.json");
+    fs::create_directory(folder / "e\xFF");
+    write_text(folder / "e\xFF/light.csv", "nm,power\n300,1\n830,2\n");
+    check(
+        "\"$IRIDO\" sweep odd.json --compute color --illuminant 'e\xFF/light.csv' --vary "
+        "layers.0.thickness_nm=1,2 --shard 1/1 -o 'y\x01\xFF.csv' && python3 check.py "
+        "'y\x01\xFF.csv.sweep'");
+}
+
 TEST_CASE("rows of many blocks are those of one", "[cli][files]") {
     const TemporaryFolder folder;
     const std::string run = "\"$IRIDO\" spectrum 'air | SiO2@300 | TiO2@100 | Si' -p s,p ";

@@ -1,4 +1,5 @@
 #include "tables/shaders/scene/bake.hpp"
+#include "schemas/readers/utf8.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -264,7 +265,7 @@ std::vector<std::string> pruned_files(const BakePlace& place,
 
 /// What a scene's manifest calls the scene's file.
 std::string source_of(const Scene& scene) {
-    return fs::path(scene.file).filename().string();
+    return well_formed(fs::path(scene.file).filename().string());
 }
 
 json settings_of(const Scene& scene, const ScenePlan& plan) {
@@ -616,7 +617,8 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
     if (!commit.empty()) manifest["commit"] = commit;
     manifest["stale"] = stale;
     manifest["checksum"] = checksum_of(manifest);
-    const std::string text = manifest.dump(2) + "\n";
+    // reasons of faults may name folders
+    const std::string text = manifest.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     const std::string path = place.folder + "/" + place.manifest;
     // after new files, too: what is not newer than the manifest need not be read next time
     if (!result.made.empty() || !is_regular(path) || read_own_file(path) != text) {

@@ -132,7 +132,7 @@ TEST_CASE("bench pareto refuses what it does not know in one line", "[cli][bench
         {{"--seed", "-1"}, "--seed: must be in [0, "},
         {{"--time", "0"}, "--time: must be in [1e-04, 60] (got 0)"},
         {{"--plot", "front.png"}, "--plot: must end in .svg (got 'front.png')"},
-        {{"--plot", ""}, "--plot: must end in .svg (got '')"},
+        {{"--plot", ""}, "--plot: must name a file"},
         {{"-o", "x.svg", "-f", "csv", "--plot", "x.svg"}, "x.svg: is the same file as"},
         {{"-o", "/no/such/folder/x.csv"}, "/no/such/folder/x.csv: cannot be written"},
         {{"-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},

@@ -88,7 +88,7 @@ TEST_CASE("bench refuses what it does not know in one line", "[cli][bench][refus
         {{"stability", "--seed", "nan"}, "--seed: must be a number (got 'nan')"},
         {{"stability", "--regime", "grasing"},
          "--regime: there is no regime 'grasing' (did you mean \"grazing\"?)"},
-        {{"stability", "--regime", ""}, "--regime: there is no regime ''"},
+        {{"stability", "--regime", ""}, "--regime: must not be empty"},
         {{"stability", "-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
         {{"stability", "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
         {{"stability", "-o", "/no/such/folder/x.csv", "-n", "1", "-r", "thin"}, "/no/such/folder"},

@@ -234,7 +234,7 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
     const std::vector<Case> cases{
         {{"spectrum", stack, "-w", "0"}, "--wavelengths: must be in [1, 1e+07] (got 0)"},
         {{"spectrum", stack, "-w", "nan"}, "--wavelengths: must be a number (got 'nan')"},
-        {{"spectrum", stack, "-w", ""}, "--wavelengths: must be a number (got '')"},
+        {{"spectrum", stack, "-w", ""}, "--wavelengths: must not be empty"},
         {{"spectrum", stack, "-w", "400:500"}, "--wavelengths: must be start:stop:step or"},
         {{"spectrum", stack, "-w", "400:500:0"}, "--wavelengths: must have a step that leads"},
         {{"spectrum", stack, "-w", "400:500:-1"}, "--wavelengths: must have a step that leads"},
