@@ -118,7 +118,7 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
 /// Numbers, more or less, that are computed and written at a time.
 constexpr std::size_t kBlockNumbers = 1U << 20U;
 /// Of index tables: 64 MB.
-constexpr std::size_t kKeptNumbers = 1U << 23U;
+constexpr std::size_t kKeptIndices = 1U << 23U;
 
 template <class Value>
 std::vector<Value> part_of(const std::vector<Value>& all, std::size_t begin, std::size_t count) {
@@ -386,7 +386,7 @@ void SpectrumQuestion::each_part_of_angle(const StackDocument& document, std::si
     const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
     // what all angles and polarizations have in common, as far as there is room for it
     std::vector<std::unique_ptr<const SpectrumStack>> kept((all + most - 1) / most);
-    const bool has_room = all * (2 * document.stack.materials.size() + 2) <= kKeptNumbers;
+    const bool has_room = all * (2 * document.stack.materials.size() + 2) <= kKeptIndices;
     std::unique_ptr<const SpectrumStack> passing;
     const auto prepared = [&](std::size_t w) -> const SpectrumStack& {
         auto& part = has_room ? kept[w / most] : passing;

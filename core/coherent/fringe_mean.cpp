@@ -26,23 +26,23 @@ constexpr double kPassage = 40, kSoftness = 8, kFarPassage = 5;
 constexpr double kMostBounce = 1 - 1e-12;
 
 /// Tangential fields, up to a factor.
-struct Fields {
+struct FieldPair {
     Complex b, c;
     double flux() const { return (std::conj(b) * c).real(); }
 };
 
-Fields operator*(const Matrix& m, const Fields& v) {
+FieldPair operator*(const Matrix& m, const FieldPair& v) {
     return {m.identity() * v.b + (m.a * v.b + m.b * v.c),
             m.identity() * v.c + (m.c * v.b + m.d * v.c)};
 }
 
-Complex cross(const Fields& u, const Fields& v) {
+Complex cross(const FieldPair& u, const FieldPair& v) {
     return u.b * v.c - u.c * v.b;
 }
 
 /// The waves in an element, and what one of its periods does to them.
 struct Waves {
-    Fields down, up;
+    FieldPair down, up;
     double phase = 0, growth = 0;  ///< of a period, the real and the imaginary part of K
     double from_edge = std::numeric_limits<double>::infinity();  ///< |K| or |pi - K|
     /// exp(log_scale) edges = sin(K)^2 (1 + cos(K)^2): zero at edges of gaps, and in the complex
@@ -64,7 +64,7 @@ Waves waves_of(const Layer& layer, double repeat, std::span<const Medium> media,
 }
 
 /// Eigenvector of the traceless matrix [[t, b], [c, -t]] with the eigenvalue s.
-Fields eigenvector(Complex t, Complex b, Complex c, Complex s) {
+FieldPair eigenvector(Complex t, Complex b, Complex c, Complex s) {
     if (std::norm(s - t) > std::norm(s + t)) return {b, s - t};
     return {s + t, c};
 }
@@ -124,18 +124,18 @@ FringeMean fringe_mean(const Stack& stack, std::size_t fast, std::span<const Med
     const Waves waves = waves_of(elements[fast], media, k0, polarization);
     const Wave in = outgoing_wave(media.back(), polarization);
     const Wave out = outgoing_wave(media[stack.substrate], polarization);
-    const auto incident = [&](const Fields& v) { return (v.b / in.b + v.c / in.c) / 2.0; };
-    const auto reflected = [&](const Fields& v) { return (v.b / in.b - v.c / in.c) / 2.0; };
+    const auto incident = [&](const FieldPair& v) { return (v.b / in.b + v.c / in.c) / 2.0; };
+    const auto reflected = [&](const FieldPair& v) { return (v.b / in.b - v.c / in.c) / 2.0; };
 
     FringeMean mean;
     mean.phase = 2 * waves.repeat * waves.phase;
     const Matrix others = above * below;
-    mean.denominator = waves.edges * incident(others * Fields{out.b, out.c});
+    mean.denominator = waves.edges * incident(others * FieldPair{out.b, out.c});
     mean.log_scale = waves.log_scale + others.log_scale;
 
     // without the factors exp(log_scale) of above and below
-    const Fields down = above * waves.down, up = above * waves.up;
-    const Fields bottom = below * Fields{out.b, out.c};
+    const FieldPair down = above * waves.down, up = above * waves.up;
+    const FieldPair bottom = below * FieldPair{out.b, out.c};
     const Complex area = cross(waves.down, waves.up);
     const double attenuation = std::exp(-2 * waves.repeat * waves.growth);
     const double Z = std::abs(cross(waves.down, bottom) / cross(bottom, waves.up)) * attenuation;
@@ -155,7 +155,7 @@ FringeMean fringe_mean(const Stack& stack, std::size_t fast, std::span<const Med
     if (edge > kPassage + kFarPassage * kSoftness) return mean;
     const double share = std::erfc((edge - kPassage) / kSoftness) / 2;
     const Matrix all = matrix_of(elements, media, k0, polarization);
-    const Fields top = all * Fields{out.b, out.c};
+    const FieldPair top = all * FieldPair{out.b, out.c};
     const double R = std::norm(reflected(top) / incident(top));
     const double T = out.flux / in.flux * std::exp(-2 * all.log_scale) / std::norm(incident(top));
     mean.R += share * (R - mean.R);
