@@ -93,6 +93,6 @@ commit=$(sed -n 's/.*(\([0-9a-f]\{7,40\}[^ ,)]*\).*/\1/p' <<<"$version" | head -
 if [ -n "$commit" ]; then
     find "$folder" -type f -print0 | xargs -0 sed -i "s/$commit/$(sed 's/./0/g' <<<"$commit")/g"
 fi
-find "$folder" -name '*manifest*.json' -print0 |
-    xargs -0 -r sed -i -E 's/("(checksum|sha256|id)": *")[0-9a-f:a-z0-9]+"/\1"/g'
+find "$folder" -type f -print0 |
+    xargs -0 sed -i -E 's/(checksum": ?"sha256:)[0-9a-f]{64}/\1/g'
 find "$folder" -type f | wc -l

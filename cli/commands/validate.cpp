@@ -14,6 +14,7 @@
 #include "tables/files/atomic_file.hpp"
 #include "tables/lut/lut_metadata.hpp"
 #include "tables/shaders/scene/bake.hpp"
+#include "tables/shaders/scene/manifest.hpp"
 
 namespace irido {
 

@@ -12,7 +12,6 @@ namespace irido {
 
 namespace {
 
-
 constexpr double kLargestIndex = 1e4;
 constexpr double kSmallestModulus = 1e-6;
 

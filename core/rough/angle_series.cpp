@@ -26,13 +26,15 @@ std::array<double, AngleSeries::kPanelDegree + 1> nodes_of(const AngleSeries::Pa
 }
 
 double last_of(const AngleSeries::Coefficients& series) {
-    return std::abs(series[AngleSeries::kPanelDegree - 2]) + std::abs(series[AngleSeries::kPanelDegree - 1]) +
+    return std::abs(series[AngleSeries::kPanelDegree - 2]) +
+           std::abs(series[AngleSeries::kPanelDegree - 1]) +
            std::abs(series[AngleSeries::kPanelDegree]);
 }
 
 double sum_of_products(const AngleSeries::Coefficients& a, const AngleSeries::Coefficients& b) {
     // four sums, so that no step waits for the one before
-    std::array<double, 4> sums{a[AngleSeries::kPanelDegree] * b[AngleSeries::kPanelDegree], 0, 0, 0};
+    std::array<double, 4> sums{a[AngleSeries::kPanelDegree] * b[AngleSeries::kPanelDegree], 0, 0,
+                               0};
     for (std::size_t k = 0; k < AngleSeries::kPanelDegree; k += 4)
         for (std::size_t j = 0; j < 4; ++j) sums[j] += a[k + j] * b[k + j];
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);

@@ -252,7 +252,6 @@ double shifted(double value, int power) {
     return parse_number({text.data(), end}).value_or(value);
 }
 
-
 using Spelling = std::pair<std::string_view, std::string_view>;
 
 /// Letters and marks of names of columns that are not ASCII, or that are more than a letter.

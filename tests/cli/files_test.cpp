@@ -152,7 +152,7 @@ TEST_CASE("links to files, devices, pipes and files without a name are written t
         expected);
 }
 
-TEST_CASE("inputs that never end are refused", "[cli][files]") {
+TEST_CASE("inputs that never end are refused", "[cli][files][slow]") {
     const InputFolder folder;
     const std::string stack = " '" + kWithMetal + "' ";
     for (const std::string& command : std::vector<std::string>{
@@ -185,7 +185,7 @@ TEST_CASE("a stack may come from a pipe", "[cli][files]") {
     CHECK_FALSE(expected.empty());
 }
 
-TEST_CASE("whatever the names are, what is written is well formed", "[cli][files]") {
+TEST_CASE("whatever the names are, what is written is well formed", "[cli][files][slow]") {
     const InputFolder folder;
     const std::string odd =
         R"("\u0001 ]]> & < \uFFFE \uFFFF \u001b \" \u00b5m \ud83c\udf08\u0000")";
@@ -271,7 +271,7 @@ TEST_CASE("an empty word is refused where it was typed", "[cli][files]") {
     }
 }
 
-TEST_CASE("odd names leave tables, manifests and journals well formed", "[cli][files]") {
+TEST_CASE("odd names leave tables, manifests and journals well formed", "[cli][files][slow]") {
     const TemporaryFolder folder;
     const std::string odd = R"("\u0001 ]]> \" \\ \n \uFFFE \uFFFF \u00b5m\u0000")";
     write_text(folder / "odd.json", "{\"name\": " + odd +
@@ -341,7 +341,7 @@ for file in sys.argv[1:]:
         "'y\x01\xFF.csv.sweep'");
 }
 
-TEST_CASE("rows of many blocks are those of one", "[cli][files]") {
+TEST_CASE("rows of many blocks are those of one", "[cli][files][slow]") {
     const TemporaryFolder folder;
     const std::string run = "\"$IRIDO\" spectrum 'air | SiO2@300 | TiO2@100 | Si' -p s,p ";
     SECTION("angles") {
@@ -366,7 +366,7 @@ TEST_CASE("rows of many blocks are those of one", "[cli][files]") {
     }
 }
 
-TEST_CASE("memory does not grow with the rows of a spectrum", "[cli][files]") {
+TEST_CASE("memory does not grow with the rows of a spectrum", "[cli][files][slow]") {
     const TemporaryFolder folder;
     const auto peak_mib = [&](const std::string& angles) {
         const Outcome outcome = run_shell(

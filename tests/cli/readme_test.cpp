@@ -85,7 +85,7 @@ TEST_CASE("fields are compared whole", "[readme]") {
     CHECK_FALSE(same_field("nan", "0"));
 }
 
-TEST_CASE("the README's commands print what it shows, at every SIMD level", "[cli][readme]") {
+TEST_CASE("the README's commands print what it shows, at every SIMD level", "[cli][readme][slow]") {
     const auto all = examples();
     REQUIRE(all.size() >= 5);
     for (const SimdLevel level : kSimdLevels) {

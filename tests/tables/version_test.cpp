@@ -44,7 +44,7 @@ TEST_CASE("a build is told by version and commit", "[version]") {
     CHECK_THAT(run_irido({"--version"}).out, StartsWith("irido " + to_text(build) + ", "));
 }
 
-TEST_CASE("the commit is that of a checkout, its changes counted in", "[version]") {
+TEST_CASE("the commit is that of a checkout, its changes counted in", "[version][slow]") {
     const TemporaryFolder folder;
     const std::string& at = folder.path();
     const auto git = [&](const std::string& command) {

@@ -98,13 +98,4 @@ ValueRange served_angles(const ScenePlan& plan, const MaterialPlan& material,
 nlohmann::json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& entries,
                            const MaterialFaults& faults);
 
-/// What is wrong with a manifest, one line each: broken rules of manifest.schema.json; else a
-/// checksum that is not its own and tables that are not there; in a `folder` that is not empty,
-/// files that are not what the manifest says.
-std::vector<std::string> manifest_problems(const nlohmann::json& document, const std::string& file,
-                                           const std::string& folder = "");
-
-/// The text of manifest.schema.json.
-const char* manifest_schema_text();
-
 }  // namespace irido

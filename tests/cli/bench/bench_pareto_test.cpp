@@ -77,7 +77,7 @@ TEST_CASE("bench pareto has every method of a case with time and error", "[cli][
     }
 }
 
-TEST_CASE("bench pareto names the worst stack so that color shows it again", "[cli][bench]") {
+TEST_CASE("bench pareto names the worst stack so that color shows it again", "[cli][bench][slow]") {
     for (const Fields& row : rows_of(pareto({"--cases", "dispersive,bragg,conductor"}).out)) {
         if (row.at("method") != "naive" && row.at("parameter") != "8") continue;
         const Outcome again =
@@ -88,7 +88,8 @@ TEST_CASE("bench pareto names the worst stack so that color shows it again", "[c
     }
 }
 
-TEST_CASE("bench pareto's errors depend on the seed, its times do not matter", "[cli][bench]") {
+TEST_CASE("bench pareto's errors depend on the seed, its times do not matter",
+          "[cli][bench][slow]") {
     const auto errors = [](const std::string& seed) {
         std::vector<std::string> result;
         for (const Fields& row : rows_of(pareto({"--cases", "multilayer", "--seed", seed}).out))
@@ -100,7 +101,7 @@ TEST_CASE("bench pareto's errors depend on the seed, its times do not matter", "
     CHECK(errors("7") != errors("8"));
 }
 
-TEST_CASE("bench pareto draws its rows", "[cli][bench]") {
+TEST_CASE("bench pareto draws its rows", "[cli][bench][slow]") {
     const TemporaryFolder folder;
     CHECK(pareto({"--cases", "leather,bragg", "--plot", folder / "front.svg", "-o",
                   folder / "front.json"})

@@ -352,7 +352,7 @@ TEST_CASE("a changed scene makes only what changed", "[cli][bake]") {
     CHECK(files_in(bakery.path("a")) == bakery.baked("b"));
 }
 
-TEST_CASE("a bake that was killed goes on and ends with the same bytes", "[cli][bake]") {
+TEST_CASE("a bake that was killed goes on and ends with the same bytes", "[cli][bake][slow]") {
     const Bakery bakery;
     const Files whole = bakery.baked("whole");
     int killed = 0;
@@ -548,7 +548,7 @@ TEST_CASE("other formats bake and are kept", "[cli][bake]") {
     }
 }
 
-TEST_CASE("the example scenes bake, and their tables are right", "[cli][bake]") {
+TEST_CASE("the example scenes bake, and their tables are right", "[cli][bake][slow]") {
     for (const std::string name : {"beetle", "soap-bubbles", "vehicle"}) {
         const TemporaryFolder folder;
         std::string scene = "schemas/examples/scenes/" + name + ".json";

@@ -216,7 +216,7 @@ TEST_CASE("landmarks that are not unique are refused", "[cli][bands][refused]") 
     CHECK(run_irido({"bands", "-", "--range", "800:880"}, stack).status == 0);
 }
 
-TEST_CASE("periods of spread thicknesses are counted as far as they can be", "[cli][bands]") {
+TEST_CASE("periods of spread thicknesses are counted as far as they can be", "[cli][bands][slow]") {
     const Outcome outcome = run_irido({"bands", "-", "-p", "s", "--gaps"}, R"({"incident": 1,
         "layers": [{"repeat": 5, "layers": [
             {"material": 1, "thickness_nm": 200, "thickness_sigma_nm": 5},

@@ -132,7 +132,7 @@ TEST_CASE("carrier and table give back the sensitivity", "[cli][lut]") {
     }
 }
 
-TEST_CASE("a tolerance is kept by the smallest power of two", "[cli][lut]") {
+TEST_CASE("a tolerance is kept by the smallest power of two", "[cli][lut][slow]") {
     TemporaryFolder folder;
     const std::vector<std::string> request{"lut", "color", kFilm, "--vary",
                                            "layers.0.thickness_nm=0:1000/2"};
@@ -179,7 +179,7 @@ TEST_CASE("the stated error is what interpolation is off by", "[cli][lut]") {
     CHECK(worst > stated * 0.9);
 }
 
-TEST_CASE("fringes that are gone end a table early, and it says so", "[cli][lut]") {
+TEST_CASE("fringes that are gone end a table early, and it says so", "[cli][lut][slow]") {
     TemporaryFolder folder;
     const Outcome outcome =
         run_irido({"lut", "color", "1 | 1.5@400 | 1.9+1.5i", "--theta", "0:60/8", "--vary",

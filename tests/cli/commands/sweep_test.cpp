@@ -148,7 +148,7 @@ TEST_CASE("points are combinations that a file lists", "[cli][sweep]") {
     CHECK(Words(rows[4].end() - 11, rows[4].end()) == Words(single[1].end() - 11, single[1].end()));
 }
 
-TEST_CASE("a sweep's bytes do not depend on threads", "[cli][sweep]") {
+TEST_CASE("a sweep's bytes do not depend on threads", "[cli][sweep][slow]") {
     const TemporaryFolder folder;
     for (const std::string& format : kFormats) {
         std::string first;
@@ -177,7 +177,7 @@ TEST_CASE("standard output has the bytes of the file", "[cli][sweep]") {
     check_refused(run_irido(sweep + Words{"-f", "h5"}), "--output");
 }
 
-TEST_CASE("a killed sweep is resumed to the same bytes", "[cli][sweep]") {
+TEST_CASE("a killed sweep is resumed to the same bytes", "[cli][sweep][slow]") {
     const int kills = count_from_environment("IRIDO_TEST_KILLS", 12);
     std::mt19937 random(20);
     for (const std::string& format : kFormats) {
@@ -211,7 +211,7 @@ TEST_CASE("a killed sweep is resumed to the same bytes", "[cli][sweep]") {
     }
 }
 
-TEST_CASE("a part is resumed by its own command only", "[cli][sweep]") {
+TEST_CASE("a part is resumed by its own command only", "[cli][sweep][slow]") {
     const TemporaryFolder folder;
     const std::string file = folder / "f.csv";
     const Words sweep{"sweep",     kFilm,   "--vary",   "layers.0.thickness_nm=0:1e6:20",
@@ -232,7 +232,7 @@ TEST_CASE("a part is resumed by its own command only", "[cli][sweep]") {
     CHECK(read_file(file + ".part") == part);
 }
 
-TEST_CASE("shards put together are the whole sweep", "[cli][sweep]") {
+TEST_CASE("shards put together are the whole sweep", "[cli][sweep][slow]") {
     const TemporaryFolder folder;
     const Words sweep{
         "sweep",    kMirror,          "--vary", "layers.0.layers.0.thickness_nm=100:400:50",
@@ -264,7 +264,7 @@ TEST_CASE("shards put together are the whole sweep", "[cli][sweep]") {
     }
 }
 
-TEST_CASE("shards take about as much work each", "[cli][sweep]") {
+TEST_CASE("shards take about as much work each", "[cli][sweep][slow]") {
     constexpr int kShards = 8;
     const Words sweep{"sweep",    kFilm,        "--vary",    "layers.0.thickness_nm=100:100000:300",
                       "-a",       "0:80:10",    "--compute", "color",
@@ -475,7 +475,7 @@ TEST_CASE("a sweep that cannot be written leaves nothing", "[cli][sweep]") {
     CHECK(run_shell(command + " -o /proc/f.csv; echo $?", folder.path()).out == "2\n");
 }
 
-TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep]") {
+TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
     const auto refused = [](const Words& options, const std::string& error) {
         check_refused(run_irido(Words{"sweep", kFilm} + options), error);
     };
@@ -508,7 +508,7 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep]") {
     refused(color + some + Words{"--shard", "0/2"}, "--shard");
     refused(color + some + Words{"--shard", "2"}, "must be K/N");
     refused(color + some + Words{"--resume"}, "needs --output FILE");
-    refused(color + some + Words{"-f", "svg"}, "must be one of csv, json, npy, h5");
+    refused(color + some + Words{"-f", "svg"}, "must be one of csv, h5, json, npy");
     refused(color + Words{"--points", "tests/data/glass.csv"}, "");
     const TemporaryFolder folder;
     const std::string points = folder / "points.csv";

@@ -106,7 +106,7 @@ private:
 
 }  // namespace
 
-TEST_CASE("spectra and colours that take long say so first", "[cli][long-work]") {
+TEST_CASE("spectra and colours that take long say so first", "[cli][long-work][slow]") {
     const Long work;
     work.check("spectrum two.json -w 400:700/20000 -a 0:80/20000");
     work.check("color three.json -a 0:80/2000");

@@ -211,7 +211,7 @@ TEST_CASE("nested and mixed groups") {
     check(b.over({0.3, 3}), 530, 25);
 }
 
-TEST_CASE("a thousand random layers") {
+TEST_CASE("a thousand random layers", "[slow]") {
     for (const bool absorbing : {false, true}) {
         oracle::Random random(absorbing ? 31 : 32);
         StackBuilder b;

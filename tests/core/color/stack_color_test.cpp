@@ -113,7 +113,7 @@ TEST_CASE("what is not reflected by a lossless stack is transmitted") {
     }
 }
 
-TEST_CASE("the error stays below the tolerance") {
+TEST_CASE("the error stays below the tolerance", "[slow]") {
     const double tolerance = GENERATE(1e-3, 1e-6, 1e-9);
     const auto kind = static_cast<Kind>(GENERATE(range(0, static_cast<int>(oracle::kKinds))));
     CAPTURE(tolerance, oracle::name_of(kind));
@@ -319,7 +319,7 @@ TEST_CASE("auto sums the series where quadrature would take long") {
     CHECK(method_of(spread, 1) == fourier);
 }
 
-TEST_CASE("fringes past all resolution are an honest failure") {
+TEST_CASE("fringes past all resolution are an honest failure", "[slow]") {
     StackBuilder b;  // two thick layers: the mean over one phase still has the other's fringes
     b.add(b.layer(1.5, 1e9));
     b.add(b.layer(2, 1e9));
@@ -475,7 +475,7 @@ TEST_CASE("a line in front of an opaque mirror is not missed") {
     }
 }
 
-TEST_CASE("fringes too fine for the wavelengths are the mean of those that are not") {
+TEST_CASE("fringes too fine for the wavelengths are the mean of those that are not", "[slow]") {
     // with few wavelengths they are left out, with many they are resolved
     oracle::Random random(7);
     const ColorTables tables(d65());
@@ -524,7 +524,7 @@ TEST_CASE("a billion periods and a metre of glass have their colours") {
     }
 }
 
-TEST_CASE("stacks of every regime have their colour within the tolerance") {
+TEST_CASE("stacks of every regime have their colour within the tolerance", "[slow]") {
     // IRIDO_TEST_TOLERANCES: stacks of each regime, 400 of which take hours. Those left out have
     // two places with fringes that a million wavelengths do not resolve, or so many layers.
     constexpr std::array<std::string_view, 5> kLong{"thousand_layers", "nested", "brewster",

@@ -93,7 +93,7 @@ std::size_t mirrors_to_try() {
 
 }  // namespace
 
-TEST_CASE("edges and Airy points agree with 50 digits", "[bragg]") {
+TEST_CASE("edges and Airy points agree with 50 digits", "[bragg][slow]") {
     Random random(5);
     double worst_edge = 0, worst_airy = 0;
     const std::size_t mirrors = mirrors_to_try();

@@ -48,7 +48,7 @@ bool agree(const std::vector<Power>& a, const std::vector<Power>& b) {
 }  // namespace
 
 TEST_CASE("levels that differ are within the bounds of the question, in every regime",
-          "[stability]") {
+          "[stability][slow]") {
     std::vector<SimdLevel> levels;
     for (const SimdLevel level : kSimdLevels)
         if (is_available(level)) levels.push_back(level);

@@ -204,7 +204,7 @@ TEST_CASE("a case depends on its regime and its seed only", "[stability]") {
     CHECK_THROWS_AS(measure_stability(regime, 1000001, 1), DomainError);
 }
 
-TEST_CASE("a short sweep of every regime stays within its bounds", "[stability]") {
+TEST_CASE("a short sweep of every regime stays within its bounds", "[stability][slow]") {
     for (const SimdLevel kernel : {SimdLevel::plain, best_simd_level()}) {
         for (const Regime& regime : regimes()) {
             const std::uint64_t count = regime.name == "thousand_layers" ? 3 : 20;

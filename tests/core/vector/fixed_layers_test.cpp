@@ -111,7 +111,7 @@ std::vector<SimdLevel> vector_levels() {
 
 }  // namespace
 
-TEST_CASE("stored layers do what they do one by one") {
+TEST_CASE("stored layers do what they do one by one", "[slow]") {
     Random random(31);
     int shared = 0;
     for (int i = 0; i < 400; ++i) {

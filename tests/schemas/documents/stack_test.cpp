@@ -355,7 +355,8 @@ TEST_CASE("validate lists what the schema and what the reader finds") {
     std::filesystem::remove(file);
 }
 
-TEST_CASE("A hundred thousand layers, each of its own material, are read in about a second") {
+TEST_CASE("A hundred thousand layers, each of its own material, are read in about a second",
+          "[slow]") {
     json layers = json::array();
     for (int i = 0; i < 100000; ++i) {
         layers.push_back({{"material", 1.3 + 1e-6 * i}, {"thickness_nm", i}});

@@ -122,7 +122,7 @@ TEST_CASE("a journal with any byte altered never makes a wrong part", "[tables][
     CHECK(refused >= left.journal.find('\n'));  // whatever the first line is
 }
 
-TEST_CASE("a part torn at any byte goes back to a block that fits", "[tables][stream]") {
+TEST_CASE("a part torn at any byte goes back to a block that fits", "[tables][stream][slow]") {
     for (const RecordFormat* const format : record_formats()) {
         INFO(format->name);
         const Left left(*format);

@@ -77,7 +77,7 @@ TEST_CASE("merged shards are the bytes of one run", "[tables][stream]") {
         }
 }
 
-TEST_CASE("a merging of long HDF5 shards", "[tables][stream]") {
+TEST_CASE("a merging of long HDF5 shards", "[tables][stream][slow]") {
     const TemporaryFolder folder;
     const RecordFormat& h5 = *find_record_format("h5");
     constexpr std::uint64_t rows = 1200000;  // a column of a shard is larger than a buffer

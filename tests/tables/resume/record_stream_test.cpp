@@ -52,7 +52,8 @@ TEST_CASE("a stream's file does not depend on its blocks", "[tables][stream]") {
         }
 }
 
-TEST_CASE("a stream that is killed again and again ends with the same bytes", "[tables][stream]") {
+TEST_CASE("a stream that is killed again and again ends with the same bytes",
+          "[tables][stream][slow]") {
     for (const RecordFormat* const format : record_formats())
         for (const std::uint64_t shards : {1, 2}) {
             const TemporaryFolder folder;

@@ -354,7 +354,8 @@ TEST_CASE("plan: what a shader's constant indices lose is measured", "[scene][pl
     CHECK(dispersion_difference(constant.scene, constant.scene.materials[0], {}) == 0);
 }
 
-TEST_CASE("plan: errors of mip levels are estimated near those of the table", "[scene][plan]") {
+TEST_CASE("plan: errors of mip levels are estimated near those of the table",
+          "[scene][plan][slow]") {
     const Planned film = planned(R"({"stack": "1 | 1.33@400 | 1.5+3i", "angles_deg": [0, 60],
         "vary": {"layers.0.thickness_nm": [250, 450]}, "thickness_spread_nm": 10})",
                                  {{"tolerance", {{"delta_e", 2}}}});

@@ -6,7 +6,7 @@
 using namespace irido;
 using namespace irido::test;
 
-TEST_CASE("numpy reads a table", "[tables][lut]") {
+TEST_CASE("numpy reads a table", "[tables][lut][slow]") {
     const TemporaryFolder folder;
     for (const LutType type : {LutType::f16, LutType::f32, LutType::f64})
         for (const std::size_t channels : {1, 3})

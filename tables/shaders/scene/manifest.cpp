@@ -1,0 +1,132 @@
+#include "tables/shaders/scene/manifest.hpp"
+
+#include <filesystem>
+#include <regex>
+
+#include "schemas/documents/schema_check.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/text_file.hpp"
+#include "tables/files/hash.hpp"
+#include "tables/lut/lut_file.hpp"
+#include "tables/lut/lut_metadata.hpp"
+
+namespace irido {
+
+using nlohmann::json;
+
+bool is_regular(const std::string& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(fs::symlink_status(path, ignored));
+}
+
+bool is_table_file(const std::string& name) {
+    static const std::regex pattern("[a-z]+-[0-9a-f]{16}\\.(ktx2|exr|npy|bin|csv)(\\.json)?");
+    return std::regex_match(name, pattern);
+}
+
+bool is_one_sample(const Lut& lut) {
+    return std::ranges::all_of(lut.axes, [](const LutAxis& axis) { return axis.count() == 1; });
+}
+
+json entry_of(const Lut& lut, const json& metadata) {
+    json entry = {{"kind", lut.kind}};
+    for (const char* key : {"axes", "channels", "dtype", "mips", "error", "notes", "color_space",
+                            "request", "checksum"})
+        if (metadata.contains(key)) entry[key] = metadata[key];
+    return entry;
+}
+
+json found_entry(const std::string& folder, const std::string& file, const std::string& id) {
+    const std::string path = folder + "/" + file;
+    const std::size_t bytes = size_of_table(path);
+    if (bytes == 0) throw LutError("its file is not there, or not a regular file");
+    const Lut lut = read_lut(path);
+    const std::string own_id = lut.facts.value("id", "");
+    if (own_id.empty()) throw LutError("its file has a table without an id (" + lut.kind + ")");
+    if (own_id != id)
+        throw LutError("its file has another table (" + lut.kind + " " + own_id + ")");
+    if (const auto problems = lut_problems(lut); !problems.empty())
+        throw LutError("its file is damaged: " + problems.front());
+    json entry = entry_of(lut, metadata_of(lut));
+    entry["file"] = file;
+    entry["bytes"] = bytes;
+    return entry;
+}
+
+std::string checksum_of(json manifest) {
+    manifest.erase("checksum");
+    return "sha256:" + sha256_of(manifest.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+json read_manifest(const std::string& path) {
+    if (!is_regular(path)) return nullptr;
+    static const Schema schema(json::parse(manifest_schema_text()));
+    try {
+        json manifest = json::parse(read_own_file(path));
+        const std::vector<Problem> problems = check(schema, manifest);
+        const bool is_old = manifest.is_object() && !manifest.contains("checksum");
+        if (problems.size() <= (is_old ? 1 : 0)) return manifest;
+    } catch (const InputError&) {
+    } catch (const json::exception&) {
+    }
+    return nullptr;
+}
+
+std::vector<std::string> files_of(const json& manifest) {
+    std::vector<std::string> files;
+    for (const json& table : manifest["tables"])
+        if (table.contains("file")) files.push_back(table["file"].get<std::string>());
+    for (const json& file : manifest.value("stale", json::array()))
+        files.push_back(file.get<std::string>());
+    return files;
+}
+
+const char* manifest_schema_text() {
+    return
+#include "manifest_schema.inc"
+        ;
+}
+
+namespace {
+
+/// What is wrong with a table's entry and its file, in words; "" for nothing.
+std::string fault_of_entry(const json& entry, const std::string& id, const std::string& folder) {
+    if (!entry.contains("file")) return "";
+    try {
+        const json found = found_entry(folder, entry["file"].get<std::string>(), id);
+        for (const auto& [key, value] : found.items())
+            if (entry.value(key, json()) != value)
+                return "its file has another \"" + key + "\" than the manifest";
+    } catch (const std::exception& error) {  // LutError, InputError
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+std::vector<std::string> manifest_problems(const json& document, const std::string& file,
+                                           const std::string& folder) {
+    static const Schema schema(json::parse(manifest_schema_text()));
+    std::vector<std::string> lines;
+    const auto add = [&](const std::string& pointer, const std::string& message) {
+        lines.emplace_back(InputError(file, pointer, message).what());
+    };
+    for (const Problem& problem : check(schema, document)) add(problem.pointer, problem.message);
+    if (!lines.empty()) return lines;
+    if (document["checksum"] != checksum_of(document))
+        add("/checksum",
+            "is not that of the manifest, which was edited (irido bake makes it anew)");
+    for (const auto& [name, material] : document["materials"].items())
+        for (const auto& [role, id] : material["tables"].items())
+            if (!id.is_string() || !document["tables"].contains(id.get<std::string>()))
+                add("/materials/" + name + "/tables/" + role,
+                    "must be the id of a table (got " + short_text(id) + ")");
+    if (folder.empty()) return lines;
+    for (const auto& [id, entry] : document["tables"].items())
+        if (const std::string fault = fault_of_entry(entry, id, folder); !fault.empty())
+            add("/tables" + pointer_step(id), fault);
+    return lines;
+}
+
+}  // namespace irido
