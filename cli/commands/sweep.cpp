@@ -211,9 +211,12 @@ std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const Rec
         return record_file(command.output.file, format, engine.layout(), identity, command.resume,
                            rows);
     if (command.resume) throw UsageError("--resume: needs --output FILE");
-    if (format.name == "npy" && !is_known)
-        throw UsageError(
-            "--format: npy needs --output FILE where the number of rows is not known before");
+    const RecordLayout layout = engine.layout();
+    const bool counts =
+        format.head(layout, 0, HeadKind::final) != format.head(layout, 1, HeadKind::final);
+    if (counts && !is_known)
+        throw UsageError("--format: " + std::string(format.name) +
+                         " needs --output FILE where the number of rows is not known before");
     return record_output(format, engine.layout(), rows);
 }
 

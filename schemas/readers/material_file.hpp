@@ -21,7 +21,7 @@ struct MaterialFile {
 /// .yaml, in capitals or not. The format is told by the content, whatever the ending.
 bool is_material_file(const std::string& path);
 
-/// The material in a text of any format (material_formats/). Throws InputError with file `name`.
+/// The material in a text of any format (readers/materials/). Throws InputError with file `name`.
 MaterialFile read_material_file(std::string_view text, const std::string& name);
 
 /// Material files, each read once. Safe from many threads.

@@ -42,7 +42,7 @@ struct LutFormat {
     Lut (*read)(std::string_view bytes, std::string_view companion) = nullptr;
 };
 
-/// All formats, by name. The list is made from the files in tables/formats/lut/.
+/// All formats, by name. The list is made from the files in tables/lut/formats/.
 std::span<const LutFormat* const> lut_formats();
 
 /// nullptr if there is none of that name.

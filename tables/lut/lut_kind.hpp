@@ -121,7 +121,7 @@ struct LutKind {
     std::vector<std::string> (*problems)(const Lut&) = nullptr;
 };
 
-/// All kinds, by name. The list is made from the files in tables/kinds/.
+/// All kinds, by name. The list is made from the files in tables/lut/kinds/.
 std::span<const LutKind* const> lut_kinds();
 
 /// nullptr if there is none of that name.

@@ -12,7 +12,7 @@ namespace irido {
 /// Throws OutputError if HDF5 cannot have a dataset of the name of a column.
 void check_h5_names(const RecordLayout& layout);
 
-/// Makes an HDF5 file, `to`, of the packed rows (stream/packed_rows.hpp, texts as UTF-8) that the
+/// Makes an HDF5 file, `to`, of the packed rows (packed_rows.hpp, texts as UTF-8) that the
 /// file `part` holds: one contiguous dataset for each column, in their order; texts are of fixed
 /// length in UTF-8, null-padded; flags the boolean enumeration of h5py. No times: the bytes follow
 /// from the rows. In constant memory. Throws OutputError.

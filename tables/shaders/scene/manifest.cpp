@@ -1,5 +1,6 @@
 #include "tables/shaders/scene/manifest.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 
@@ -13,6 +14,7 @@
 namespace irido {
 
 using nlohmann::json;
+namespace fs = std::filesystem;
 
 bool is_regular(const std::string& path) {
     std::error_code ignored;
@@ -20,7 +22,12 @@ bool is_regular(const std::string& path) {
 }
 
 bool is_table_file(const std::string& name) {
-    static const std::regex pattern("[a-z]+-[0-9a-f]{16}\\.(ktx2|exr|npy|bin|csv)(\\.json)?");
+    static const std::regex pattern = [] {
+        std::string formats;
+        for (const LutFormat* const format : lut_formats())
+            formats.append(formats.empty() ? "" : "|").append(format->name);
+        return std::regex("[a-z]+-[0-9a-f]{16}\\.(" + formats + ")(\\.json)?");
+    }();
     return std::regex_match(name, pattern);
 }
 

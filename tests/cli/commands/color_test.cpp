@@ -115,7 +115,7 @@ TEST_CASE("a tolerance that cannot be met is exit status 1 with the best value",
     CHECK(outcome.out.empty());
     CHECK_THAT(outcome.err, StartsWith("irido: error: ") &&
                                 Contains("the tolerance 1e-06 cannot be met") &&
-                                Contains("X, Y, Z = 0.073"));
+                                Contains("X, Y, Z = 0.15"));
 }
 
 TEST_CASE("what colour refuses", "[cli][refused]") {
