@@ -23,7 +23,7 @@ int fail(const std::string& text, int status = kBadInput) {
     return status;
 }
 
-int run_program(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
     CLI::App program("What a stack of thin films does to light: spectra and colours.", "irido");
     program.require_subcommand(1);
     program.set_version_flag("--version", version_text, "version, commit, compiler and SIMD level");
@@ -62,7 +62,7 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
     handle_signals();
     try {
-        return run_program(argc, argv);
+        return run_command_line(argc, argv);
     } catch (const BrokenPipe&) {
         return 0;
     } catch (const CheckFailed& error) {
