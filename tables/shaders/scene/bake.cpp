@@ -83,15 +83,6 @@ std::size_t size_of_files(const std::vector<LutFile>& files) {
     return bytes;
 }
 
-/// Bytes of a table's file and of its companion, 0 if they are not both regular files.
-std::size_t size_of_table(const std::string& path) {
-    std::error_code ignored;
-    if (!is_regular(path)) return 0;
-    const std::string companion = path + kCompanion;
-    if (!fs::exists(fs::symlink_status(companion, ignored))) return fs::file_size(path);
-    return is_regular(companion) ? fs::file_size(path) + fs::file_size(companion) : 0;
-}
-
 /// When a file was last written or renamed, in nanoseconds; the largest number if it is not there.
 std::int64_t time_of(const std::string& path) {
     struct stat status {};

@@ -21,6 +21,14 @@ bool is_regular(const std::string& path) {
     return fs::is_regular_file(fs::symlink_status(path, ignored));
 }
 
+std::size_t size_of_table(const std::string& path) {
+    std::error_code ignored;
+    if (!is_regular(path)) return 0;
+    const std::string companion = path + kCompanion;
+    if (!fs::exists(fs::symlink_status(companion, ignored))) return fs::file_size(path);
+    return is_regular(companion) ? fs::file_size(path) + fs::file_size(companion) : 0;
+}
+
 bool is_table_file(const std::string& name) {
     static const std::regex pattern = [] {
         std::string formats;

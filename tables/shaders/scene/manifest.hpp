@@ -14,6 +14,9 @@ inline constexpr const char* kCompanion = ".json";
 /// Whether there is a file of that name that is no symbolic link.
 bool is_regular(const std::string& path);
 
+/// Bytes of a table's file and of its companion, 0 if they are not both regular files.
+std::size_t size_of_table(const std::string& path);
+
 /// Whether a file may be a table of a bake: KIND-ID.FORMAT or its companion.
 bool is_table_file(const std::string& name);
 
