@@ -58,7 +58,7 @@ for level in $levels; do
             keep_file "sensitivity.$dtype.$format" lut sensitivity --dtype $dtype --size 1x64
         done
         keep_file "albedo.$format" lut albedo "$film" --alpha 0.1,0.4 --size 9
-        keep_file "transmissivity.$format" lut transmissivity "air | 1.5@300 | 1.3" --alpha 0.1 --size 9
+        keep_file "transmissivity.$format" lut transmissivity "air | 1.5@300 | 1.3" --alpha 0.1 --size 1x9x9
         keep_file "tolerance.$format" lut color "$film" --tolerance 0.5 \
             --vary layers.0.thickness_nm=0:500/2
     done

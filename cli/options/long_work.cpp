@@ -62,7 +62,7 @@ double tried_seconds(double units, double first,
         for (double tried = first; tried <= kLittle * units; tried *= 2) {
             const double seconds = seconds_of(tried);
             all = seconds * units / tried;
-            if (seconds >= kTold_s || all < long_s) break;
+            if (seconds >= kTold_s || (seconds > 0 && all < long_s)) break;
         }
     } catch (const std::exception&) {
         return 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -205,7 +206,9 @@ double ColorQuestion::try_share(const StackDocument& document, const Incidence& 
     const ColorTables& tables = lightings_.front()->tables;
     const auto lightings = static_cast<double>(lightings_.size());
     const StackPower power(document.stack);
-    if (power.spread_layers() == 0 || share >= 1) {
+    if (power.spread_layers() == 0 && share < 1)
+        return std::numeric_limits<double>::infinity();  // costs as much as all
+    if (share >= 1) {
         const auto algorithm =
             base_color_ ? approximate_color(tables, document.stack, method_, request_, base_color_)
                         : color_algorithm(tables, document.stack, method_, request_);
