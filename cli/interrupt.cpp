@@ -8,7 +8,7 @@
 
 #include "tables/files/atomic_file.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -24,7 +24,7 @@ extern "C" void stop_on_signal(int signal) {
         asked = signal;
         return;
     }
-    remove_unfinished_file();
+    tables::remove_unfinished_file();
     _exit(128 + signal);
 }
 
@@ -49,4 +49,4 @@ int OrderlyEnd::signal() const {
     return asked;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

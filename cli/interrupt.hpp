@@ -1,6 +1,6 @@
 #pragma once
 
-namespace irido {
+namespace irido::cli {
 
 /// SIGINT, SIGTERM and SIGHUP end the program with 128 + the signal's number and leave no temporary
 /// file; a closed pipe and a file that grows too large are errors of write().
@@ -19,4 +19,4 @@ public:
     int signal() const;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -12,10 +12,11 @@
 namespace {
 
 using namespace irido;
+using namespace irido::cli;
 
 std::string version_text() {
-    return "irido " + to_text(this_build()) + ", " + IRIDO_COMPILER + ", SIMD " +
-           std::string(name_of(execution_of().simd));
+    return "irido " + tables::version_text(tables::this_build()) + ", " + IRIDO_COMPILER +
+           ", SIMD " + std::string(name_of(execution_of().simd));
 }
 
 int fail(const std::string& text, int status = kBadInput) {
@@ -63,7 +64,7 @@ int main(int argc, char** argv) {
     handle_signals();
     try {
         return run_command_line(argc, argv);
-    } catch (const BrokenPipe&) {
+    } catch (const tables::BrokenPipe&) {
         return 0;
     } catch (const CheckFailed& error) {
         return fail(error.what(), kCheckFailed);

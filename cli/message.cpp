@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <iostream>
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -103,4 +103,4 @@ void note(const std::string& text, bool quiet) {
     if (!quiet) std::cerr << "irido: note: " << message_line(text) << '\n';
 }
 
-}  // namespace irido
+}  // namespace irido::cli

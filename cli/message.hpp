@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace irido {
+namespace irido::cli {
 
 /// `text` on one line that a terminal shows as it is: control characters, those that reverse the
 /// direction of a text and bytes that are not UTF-8 become \n, \x1B, \u202E.
@@ -22,4 +22,4 @@ void print_error(std::string_view text);
 /// "irido: note: TEXT" on standard error, unless quiet.
 void note(const std::string& text, bool quiet);
 
-}  // namespace irido
+}  // namespace irido::cli

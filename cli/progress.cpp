@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -39,4 +39,4 @@ void Progress::clear() {
     is_shown_ = false;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-namespace irido {
+namespace irido::cli {
 
 /// A bar on standard error, if that is a terminal and the work takes more than a second.
 class Progress {
@@ -30,4 +30,4 @@ private:
     bool is_shown_ = false;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

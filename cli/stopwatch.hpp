@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace irido {
+namespace irido::cli {
 
 inline double seconds_of(const auto& work) {
     const auto start = std::chrono::steady_clock::now();
@@ -22,4 +22,4 @@ double best_seconds(double budget, const auto& work) {
     return best;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// Bad input: one line for the user. `where` is a JSON pointer, "line:column" or empty.
 /// what() is "FILE: WHERE: message" with empty parts left out.
@@ -22,4 +22,4 @@ struct InputError : Error {
     std::string message;
 };
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -2,15 +2,15 @@
 
 #include "version.inc"
 
-namespace irido {
+namespace irido::tables {
 
 const Build& this_build() {
     static const Build build{IRIDO_VERSION, IRIDO_COMMIT};
     return build;
 }
 
-std::string to_text(const Build& build) {
+std::string version_text(const Build& build) {
     return build.commit.empty() ? build.version : build.version + " (" + build.commit + ")";
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace irido {
+namespace irido::tables {
 
 /// Which sources a program was built from.
 struct Build {
@@ -18,6 +18,6 @@ struct Build {
 const Build& this_build();
 
 /// "0.1.0 (cc98dd7a1b2c)", or the version alone.
-std::string to_text(const Build& build);
+std::string version_text(const Build& build);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -80,6 +80,25 @@ TEST_CASE("includes run one way: cli -> tables -> schemas -> core", "[architectu
     }
 }
 
+TEST_CASE("each room has its namespace", "[architecture]") {
+    const std::map<std::string, std::string> named{{"core", "irido"},
+                                                   {"schemas", "irido::schemas"},
+                                                   {"tables", "irido::tables"},
+                                                   {"cli", "irido::cli"}};
+    const std::set<std::string> others{"valijson", "irido::HWY_NAMESPACE", "irido::textbook"};
+    for (const auto& [room, name] : named)
+        for (const std::string& file : sources_below(room)) {
+            std::ifstream stream(fs::path(IRIDO_SOURCE_DIR) / file);
+            for (std::string line; std::getline(stream, line);) {
+                if (!line.starts_with("namespace ") || !line.ends_with(" {")) continue;
+                const std::string opened = line.substr(10, line.size() - 12);
+                if (opened.empty() || others.contains(opened)) continue;
+                INFO(file << " opens namespace " << opened);
+                CHECK(opened == name);
+            }
+        }
+}
+
 // Each may include those that stand before it, and itself. Only the main program includes all.
 TEST_CASE("includes run one way between the rooms inside a room", "[architecture]") {
     const std::map<std::string, std::vector<std::string>> order{

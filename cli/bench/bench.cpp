@@ -1,6 +1,6 @@
 #include "cli/bench/bench.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 void add_bench_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
@@ -15,4 +15,4 @@ void add_bench_command(CLI::App& program, Run& run) {
                             "irido bench stability --count 10"});
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -6,7 +6,7 @@
 #include "cli/options/command.hpp"
 #include "schemas/readers/nearest.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 inline constexpr double kLargestSeed = 0x1p53;
 
@@ -32,7 +32,8 @@ std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> al
         std::vector<std::string> names;
         for (const Case& one : all) names.emplace_back(one.name);
         throw UsageError("--cases: there is no case '" + std::string(name) + "'" +
-                         did_you_mean(name, names) + " (see irido bench " + bench + " --help)");
+                         schemas::did_you_mean(name, names) + " (see irido bench " + bench +
+                         " --help)");
     }
     return chosen;
 }
@@ -48,11 +49,11 @@ std::string cases_help(std::span<const Case> all) {
 
 /// A column of value(row) for every row.
 template <class Row, class Value>
-void add_numbers(Records& records, std::string name, const std::vector<Row>& rows,
+void add_numbers(tables::Records& records, std::string name, const std::vector<Row>& rows,
                  const Value& value) {
-    Column::Numbers numbers(rows.size());
+    tables::Column::Numbers numbers(rows.size());
     std::ranges::transform(rows, numbers.begin(), value);
     records.columns.push_back({std::move(name), std::move(numbers)});
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -8,7 +8,7 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "tables/pictures/plot.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -88,8 +88,8 @@ std::vector<ParetoRow> rows_of(const ColorCase& one, ColorComparison comparison)
     return rows;
 }
 
-Records to_records(const std::vector<ParetoRow>& rows) {
-    Column::Texts cases, methods, stacks, hexes, exact;
+tables::Records to_records(const std::vector<ParetoRow>& rows) {
+    tables::Column::Texts cases, methods, stacks, hexes, exact;
     for (const ParetoRow& row : rows) {
         cases.emplace_back(row.of);
         methods.push_back(candidates()[row.candidate].name());
@@ -97,7 +97,7 @@ Records to_records(const std::vector<ParetoRow>& rows) {
         hexes.push_back(row.report.worst_hex);
         exact.push_back(row.report.exact_hex);
     }
-    Records records{{{"case", std::move(cases)}, {"method", std::move(methods)}}};
+    tables::Records records{{{"case", std::move(cases)}, {"method", std::move(methods)}}};
     const auto add = [&](std::string name, auto value) {
         add_numbers(records, std::move(name), rows, value);
     };
@@ -121,16 +121,16 @@ Records to_records(const std::vector<ParetoRow>& rows) {
     return records;
 }
 
-Plot::Point point_of(const ParetoRow& row) {
+tables::Plot::Point point_of(const ParetoRow& row) {
     return {row.report.ns_per_color, row.report.max_error};
 }
 
 /// The steps along which nothing is both faster and more exact.
-std::vector<Plot::Point> front(const std::vector<ParetoRow>& rows) {
-    std::vector<Plot::Point> points, steps;
+std::vector<tables::Plot::Point> front(const std::vector<ParetoRow>& rows) {
+    std::vector<tables::Plot::Point> points, steps;
     for (const ParetoRow& row : rows) points.push_back(point_of(row));
-    std::ranges::sort(points, {}, &Plot::Point::x);
-    for (const Plot::Point& point : points) {
+    std::ranges::sort(points, {}, &tables::Plot::Point::x);
+    for (const tables::Plot::Point& point : points) {
         if (!steps.empty() && point.y >= steps.back().y) continue;
         if (!steps.empty()) steps.push_back({point.x, steps.back().y});
         steps.push_back(point);
@@ -139,8 +139,8 @@ std::vector<Plot::Point> front(const std::vector<ParetoRow>& rows) {
 }
 
 /// `names` of the methods so far; those that are new are added.
-Plot::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::string>& names) {
-    Plot::Panel panel{std::string(rows.front().of), front(rows), {}};
+tables::Plot::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::string>& names) {
+    tables::Plot::Panel panel{std::string(rows.front().of), front(rows), {}};
     for (const ParetoRow& row : rows) {
         const std::string name = candidates()[row.candidate].name();
         const auto known = std::ranges::find(names, name);
@@ -157,7 +157,7 @@ Plot::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::string
 constexpr int kSmallestErrorPower = -13;
 
 std::string picture(const std::vector<std::vector<ParetoRow>>& cases) {
-    Plot plot;
+    tables::Plot plot;
     plot.title = "Colours of thin films: run time against error";
     double fastest = 1e9, slowest = 1;
     for (const std::vector<ParetoRow>& rows : cases) {
@@ -171,7 +171,7 @@ std::string picture(const std::vector<std::vector<ParetoRow>>& cases) {
               static_cast<int>(std::ceil(std::log10(slowest)))};
     plot.y = {"largest error of X, Y, Z (white Y = 1)", kSmallestErrorPower, 0};
     plot.highlight = "best for its time";
-    return write_plot(plot);
+    return tables::write_plot(plot);
 }
 
 int run_pareto(const ParetoOptions& options) {
@@ -245,4 +245,4 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
     command->callback([options, &run] { run = [options] { return run_pareto(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -13,7 +13,7 @@
 #include "tables/shaders/scene/bake.hpp"
 #include "tables/shaders/scene/scene_error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -68,7 +68,7 @@ class Workplace {
 public:
     Workplace() {
         std::string name = (fs::temp_directory_path() / "irido-bench-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw OutputError(name + ": cannot be made");
+        if (!mkdtemp(name.data())) throw tables::OutputError(name + ": cannot be made");
         path_ = name;
     }
     ~Workplace() {
@@ -91,27 +91,27 @@ struct SceneRow {
     std::size_t written = 0;
 };
 
-bool is_in_delta_e(const LutPlan& plan) {
+bool is_in_delta_e(const tables::LutPlan& plan) {
     return plan.measure.name == "delta_e_2000";
 }
 
 /// Bakes into `folder`; the worst Delta E is left out.
-SceneRow baked(const std::string& name, const Scene& scene, const std::string& folder,
+SceneRow baked(const std::string& name, const schemas::Scene& scene, const std::string& folder,
                const SceneBenchOptions& options) {
     SceneRow row{name, "irido", 0, 0, 0, 0, 0, 0};
-    BakeResult result;
+    tables::BakeResult result;
     row.seconds = seconds_of([&] {
-        const Scene again = read_scene(scene.file);
-        const ScenePlan plan = plan_scene(again, execution_of(options.threads));
-        BakeRequest request;
+        const schemas::Scene again = schemas::read_scene(scene.file);
+        const tables::ScenePlan plan = tables::plan_scene(again, execution_of(options.threads));
+        tables::BakeRequest request;
         request.place.folder = folder;
         request.threads = options.threads;
-        result = bake(again, plan, request);
+        result = tables::bake(again, plan, request);
         row.tables = plan.tables.size();
     });
     if (!result.faults.empty())
-        throw DomainError(
-            fault_text(scene, result.faults.begin()->first, result.faults.begin()->second.front()));
+        throw DomainError(schemas::fault_text(scene, result.faults.begin()->first,
+                                              result.faults.begin()->second.front()));
     row.written = result.manifest_written ? 1 : 0;
     for (const std::string& made : result.made) row.written += made.ends_with(")") ? 0 : 1;
     for (const auto& file : fs::directory_iterator(folder))
@@ -120,80 +120,84 @@ SceneRow baked(const std::string& name, const Scene& scene, const std::string& f
 }
 
 /// The values of a table of a bake, from its file or from the manifest.
-Lut lut_of(const SceneTable& table, const nlohmann::json& entry, const std::string& folder) {
-    if (entry.contains("file")) return read_lut(folder + "/" + table.file);
-    return make_lut(*table.kind, table.kind->plan(table.request), table.making);
+tables::Lut lut_of(const tables::SceneTable& table, const nlohmann::json& entry,
+                   const std::string& folder) {
+    if (entry.contains("file")) return tables::read_lut(folder + "/" + table.file);
+    return tables::make_lut(*table.kind, table.kind->plan(table.request), table.making);
 }
 
-double worst_of_bake(const Scene& scene, const std::string& folder, const Execution& execution,
-                     const RandomPoints& points) {
-    const ScenePlan plan = plan_scene(scene, execution);
-    const TableEntries entries = baked_scene({folder}, scene).tables;
+double worst_of_bake(const schemas::Scene& scene, const std::string& folder,
+                     const Execution& execution, const tables::RandomPoints& points) {
+    const tables::ScenePlan plan = tables::plan_scene(scene, execution);
+    const tables::TableEntries entries = tables::baked_scene({folder}, scene).tables;
     double worst = 0;
-    for (const SceneTable& table : plan.tables) {
-        const LutPlan function = table.kind->plan(table.request);
+    for (const tables::SceneTable& table : plan.tables) {
+        const tables::LutPlan function = table.kind->plan(table.request);
         if (!is_in_delta_e(function)) continue;
-        const Lut lut = lut_of(table, entries.at(table.id), folder);
-        worst = std::max(worst, worst_difference(function, lut, points));
+        const tables::Lut lut = lut_of(table, entries.at(table.id), folder);
+        worst = std::max(worst, tables::worst_difference(function, lut, points));
     }
     for (std::size_t m = 0; m < plan.materials.size(); ++m) {
-        const MaterialPlan& material = plan.materials[m];
-        if (material.shading != Shading::fourier) continue;
-        std::unique_ptr<Lut> lut;
-        for (const MaterialPlan::Use& use : material.tables) {
-            const SceneTable& table = plan.tables[use.table];
-            lut = std::make_unique<Lut>(lut_of(table, entries.at(table.id), folder));
+        const tables::MaterialPlan& material = plan.materials[m];
+        if (material.shading != schemas::Shading::fourier) continue;
+        std::unique_ptr<tables::Lut> lut;
+        for (const tables::MaterialPlan::Use& use : material.tables) {
+            const tables::SceneTable& table = plan.tables[use.table];
+            lut = std::make_unique<tables::Lut>(lut_of(table, entries.at(table.id), folder));
         }
-        worst = std::max(worst, worst_fourier_difference(scene, scene.materials[m], material,
-                                                         lut.get(), execution, points));
+        worst =
+            std::max(worst, tables::worst_fourier_difference(scene, scene.materials[m], material,
+                                                             lut.get(), execution, points));
     }
     return worst;
 }
 
 /// Tables of all colours of every material, of both polarizations and both sides, 256 samples
 /// along the angle from 0 to 90 degrees and along the first value that varies.
-SceneRow fixed(const std::string& name, const Scene& scene, const SceneBenchOptions& options,
-               const RandomPoints& points) {
+SceneRow fixed(const std::string& name, const schemas::Scene& scene,
+               const SceneBenchOptions& options, const tables::RandomPoints& points) {
     SceneRow row{name, "fixed 256", 0, 0, 0, 0, 0, 0};
     const Execution execution = execution_of(options.threads);
-    const LutKind& kind = *find_lut_kind("color");
-    for (const SceneMaterial& material : scene.materials) {
-        LutRequest request = color_request_of(scene, material, execution);
+    const tables::LutKind& kind = *tables::find_lut_kind("color");
+    for (const schemas::SceneMaterial& material : scene.materials) {
+        tables::LutRequest request = tables::color_request_of(scene, material, execution);
         const std::vector<double> used = request.list("cos");
         for (const Side side : {Side::reflected, Side::transmitted})
             for (const Light light : {Light::s, Light::p}) {
-                request.options["cos"] = equally_spaced(0, 1, 2);
+                request.options["cos"] = tables::equally_spaced(0, 1, 2);
                 request.color.sides = {side};
                 request.color.light = light;
-                LutMaking making;
-                making.type = LutType::f16;
+                tables::LutMaking making;
+                making.type = tables::LutType::f16;
                 making.measure = false;
                 making.threads = options.threads;
                 making.sizing.counts.assign(1 + request.vary.size(), kFixedSize);
                 if (request.vary.size() > 1) making.sizing.counts.back() = kFixedSize / 16;
-                Lut lut;
+                tables::Lut lut;
                 row.seconds +=
-                    seconds_of([&] { lut = make_lut(kind, kind.plan(request), making); });
+                    seconds_of([&] { lut = tables::make_lut(kind, kind.plan(request), making); });
                 ++row.tables;
                 ++row.written;
                 // four halves a texel, and a third more for the mip levels
                 row.bytes += lut.values.size() / 3 * 8 * 4 / 3;
-                for (double& value : lut.values) value = rounded(value, LutType::f16);
+                for (double& value : lut.values)
+                    value = tables::rounded(value, tables::LutType::f16);
                 request.options["cos"] = used;
-                row.worst = std::max(row.worst, worst_difference(kind.plan(request), lut, points));
+                row.worst =
+                    std::max(row.worst, tables::worst_difference(kind.plan(request), lut, points));
                 row.worst_of_levels = row.worst;
             }
     }
     return row;
 }
 
-Records to_records(const std::vector<SceneRow>& rows) {
-    Column::Texts cases, methods;
+tables::Records to_records(const std::vector<SceneRow>& rows) {
+    tables::Column::Texts cases, methods;
     for (const SceneRow& row : rows) {
         cases.push_back(row.scene);
         methods.push_back(row.method);
     }
-    Records records{{{"case", std::move(cases)}, {"method", std::move(methods)}}};
+    tables::Records records{{{"case", std::move(cases)}, {"method", std::move(methods)}}};
     const auto add = [&](std::string name, auto value) {
         add_numbers(records, std::move(name), rows, value);
     };
@@ -216,7 +220,7 @@ std::vector<std::pair<std::string, std::string>> scenes_of(const SceneBenchOptio
     fs::create_directories(place / "scenes");
     for (const Document& example : kExamples) {
         const std::string file = place / example.path;
-        write_file(file, example.text);
+        tables::write_file(file, example.text);
         if (file.find("/scenes/") != std::string::npos)
             scenes.emplace_back(fs::path(file).stem().string(), file);
     }
@@ -226,7 +230,7 @@ std::vector<std::pair<std::string, std::string>> scenes_of(const SceneBenchOptio
 int run_scene(const SceneBenchOptions& options) {
     resolved_record_format(options.output);
     check_writable(options.output);
-    RandomPoints points;
+    tables::RandomPoints points;
     points.count = parse_whole_number("--count", options.count, 1, kMostScenePoints);
     points.seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
     points.threads = options.threads;
@@ -234,7 +238,7 @@ int run_scene(const SceneBenchOptions& options) {
     std::vector<SceneRow> rows;
     for (const auto& [name, file] : scenes_of(options, place)) {
         if (file == "-") throw UsageError("a scene that is baked twice must be a file");
-        const Scene scene = read_scene(file);
+        const schemas::Scene scene = schemas::read_scene(file);
         const std::string folder = place / ("tables-" + std::to_string(rows.size()));
         SceneRow first = baked(name, scene, folder, options);
         points.all_levels = false;
@@ -285,4 +289,4 @@ void add_bench_scene(CLI::App& bench, Run& run) {
     command->callback([options, &run] { run = [options] { return run_scene(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

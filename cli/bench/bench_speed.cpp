@@ -15,7 +15,7 @@
 #include "core/spectrum/spectrum.hpp"
 #include "core/truth/reference.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -344,13 +344,13 @@ SpeedRow landmarks_row(bool by_newton, double budget) {
     return row;
 }
 
-Records to_records(const std::vector<SpeedRow>& rows) {
-    Column::Texts names, methods;
+tables::Records to_records(const std::vector<SpeedRow>& rows) {
+    tables::Column::Texts names, methods;
     for (const SpeedRow& row : rows) {
         names.push_back(row.name);
         methods.push_back(row.method);
     }
-    Records records{{{"case", std::move(names)}, {"method", std::move(methods)}}};
+    tables::Records records{{{"case", std::move(names)}, {"method", std::move(methods)}}};
     const auto add = [&](std::string name, auto value) {
         add_numbers(records, std::move(name), rows, value);
     };
@@ -446,4 +446,4 @@ void add_bench_speed(CLI::App& bench, Run& run) {
     command->callback([options, &run] { run = [options] { return run_speed(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -6,7 +6,7 @@
 #include "core/math/simd_level.hpp"
 #include "core/stack/stack.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// What `irido bench speed` measures: a stack and what is asked of it, at 380:780:1 nm and the
 /// angles 0.5:89.5:1 or 0 degrees; or the transmission filter of a roughness alpha; or a table of
@@ -37,4 +37,4 @@ SpeedRow filter_sum_row(const SpeedCase& of, double budget);
 /// A whole table of colours.
 SpeedRow table_row(const SpeedCase& of, const Execution& execution, double budget);
 
-}  // namespace irido
+}  // namespace irido::cli

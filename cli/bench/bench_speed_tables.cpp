@@ -12,7 +12,7 @@
 #include "core/truth/filter_reference.hpp"
 #include "tables/lut/lut_maker.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -123,18 +123,18 @@ SpeedRow filter_sum_row(const SpeedCase& of, double budget) {
 
 SpeedRow table_row(const SpeedCase& of, const Execution& execution, double budget) {
     constexpr std::size_t angles = 64, values = 512;
-    const LutKind& kind = *find_lut_kind("color");
-    LutRequest request;
-    request.source = load_stack({std::string(of.expression), {}});
-    request.document = read_stack({std::string(of.expression), {}});
+    const tables::LutKind& kind = *tables::find_lut_kind("color");
+    tables::LutRequest request;
+    request.source = schemas::load_stack({std::string(of.expression), {}});
+    request.document = schemas::read_stack({std::string(of.expression), {}});
     request.sensitivity = std::make_shared<Sensitivity>(observer(2), illuminant("D65"));
     request.illuminant = "D65";
     request.observer = "2";
     request.space = &rgb_space("srgb");
     request.color.simd = execution.simd;
-    request.options["cos"] = equally_spaced(0, 1, angles);
-    request.vary = {{std::string(of.path), equally_spaced(of.first, of.last, values)}};
-    LutMaking making;
+    request.options["cos"] = tables::equally_spaced(0, 1, angles);
+    request.vary = {{std::string(of.path), tables::equally_spaced(of.first, of.last, values)}};
+    tables::LutMaking making;
     making.measure = false;
     making.threads = execution.threads;
     SpeedRow row;
@@ -143,9 +143,9 @@ SpeedRow table_row(const SpeedCase& of, const Execution& execution, double budge
     row.layers = of.layers;
     row.threads = execution.threads;
     row.points = angles * values;
-    row.rate =
-        row.points / best_seconds(budget, [&] { make_lut(kind, kind.plan(request), making); });
+    row.rate = row.points /
+               best_seconds(budget, [&] { tables::make_lut(kind, kind.plan(request), making); });
     return row;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

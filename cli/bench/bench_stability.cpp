@@ -8,7 +8,7 @@
 #include "core/truth/stability.hpp"
 #include "schemas/readers/nearest.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -25,7 +25,7 @@ const Regime& regime_named(std::string_view name) {
     std::vector<std::string> names;
     for (const Regime& regime : regimes()) names.emplace_back(regime.name);
     throw UsageError("--regime: there is no regime '" + std::string(name) + "'" +
-                     did_you_mean(name, names) + " (see irido bench stability --help)");
+                     schemas::did_you_mean(name, names) + " (see irido bench stability --help)");
 }
 
 /// The regimes of "a,b" in that order.
@@ -36,10 +36,10 @@ std::vector<Regime> parse_regimes(const std::string& text) {
     return chosen;
 }
 
-Records to_records(const std::vector<RegimeReport>& reports) {
-    Column::Texts names;
+tables::Records to_records(const std::vector<RegimeReport>& reports) {
+    tables::Column::Texts names;
     for (const RegimeReport& report : reports) names.emplace_back(report.regime);
-    Records records{{{"regime", std::move(names)}}};
+    tables::Records records{{{"regime", std::move(names)}}};
     const auto add = [&](std::string name, auto value) {
         add_numbers(records, std::move(name), reports, value);
     };
@@ -132,4 +132,4 @@ void add_bench_stability(CLI::App& bench, Run& run) {
     command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

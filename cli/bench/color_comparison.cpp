@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "schemas/readers/stack_expression.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -122,7 +122,7 @@ std::optional<MethodReport> ColorComparison::measure(const ColorMethod& method,
     auto family = families_.begin();
     for (; worst >= colors_of(*family); ++family) worst -= colors_of(*family);
     const std::size_t angles = family->angles_deg.size();
-    report.worst_stack = stack_expression(family->variants[worst / angles]).text;
+    report.worst_stack = schemas::stack_expression(family->variants[worst / angles]).text;
     report.worst_angle_deg = family->angles_deg[worst % angles];
     std::ranges::sort(differences);
     report.p95_de = differences[(differences.size() * 95 + 99) / 100 - 1];
@@ -153,4 +153,4 @@ EqualMatch ColorComparison::equal_match(double max_error) {
     return {static_cast<double>(enough), known->second};
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -8,7 +8,7 @@
 #include "core/color/stack_color.hpp"
 #include "core/truth/color_cases.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// How far a method's colours of one case are from the exact ones, and what one of them costs.
 struct MethodReport {
@@ -73,4 +73,4 @@ private:
     std::map<std::size_t, double> equal_errors_, equal_ns_;  ///< by count
 };
 
-}  // namespace irido
+}  // namespace irido::cli

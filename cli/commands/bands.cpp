@@ -11,32 +11,32 @@
 #include "tables/files/atomic_file.hpp"
 #include "tables/pictures/band_diagram.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
 struct BandsCommand {
-    StackRequest stack;
+    schemas::StackRequest stack;
     std::unique_ptr<QuestionOptions> typed;
     std::optional<std::string> plot;
     OutputOptions output;
     bool quiet = false;
 };
 
-BandDiagram::Edges wavelengths_of(const BandGap& gap) {
+tables::BandDiagram::Edges wavelengths_of(const BandGap& gap) {
     return {kTwoPi / gap.high_per_nm, kTwoPi / gap.low_per_nm};
 }
 
 std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
                     const std::string& title) {
     const std::span<const double> angles = question.angles_deg();
-    BandDiagram diagram{
+    tables::BandDiagram diagram{
         title, question.first_nm(), question.last_nm(), {angles.begin(), angles.end()}, {}};
     std::ranges::sort(diagram.angles_deg);
     const auto repeated = std::ranges::unique(diagram.angles_deg);
     diagram.angles_deg.erase(repeated.begin(), repeated.end());
     constexpr std::array kBoth{Polarization::s, Polarization::p};
-    std::map<double, BandDiagram::Gap> gaps;
+    std::map<double, tables::BandDiagram::Gap> gaps;
     for (const double angle_deg : diagram.angles_deg)
         for (const Polarization p : kBoth)
             for (const BandGap& gap : band_gaps(mirror.period_at(angle_deg, p), question.omega()))
@@ -48,16 +48,16 @@ std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
         }
         diagram.gaps.push_back(std::move(gap));
     }
-    return write_band_diagram(diagram);
+    return tables::write_band_diagram(diagram);
 }
 
-std::string picture(const BandsQuestion& question, const StackDocument& document,
+std::string picture(const BandsQuestion& question, const schemas::StackDocument& document,
                     const std::string& title) {
     try {
         return picture(question, question.mirror(document, document.stack),
                        document.name.empty() ? title : document.name);
     } catch (const DomainError& error) {
-        throw InputError(document.file, "", error.what());
+        throw schemas::InputError(document.file, "", error.what());
     }
 }
 
@@ -71,11 +71,11 @@ int run_bands(const BandsCommand& command) {
         throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
     check_plot(command.plot, command.output);
-    const Records records = records_of(question, *prepared);
+    const tables::Records records = records_of(question, *prepared);
     const std::string drawn =
         command.plot ? picture(question, prepared->document, command.stack.stack) : "";
     write_records(records, command.output);
-    if (command.plot) write_file(*command.plot, drawn);
+    if (command.plot) tables::write_file(*command.plot, drawn);
     return 0;
 }
 
@@ -112,4 +112,4 @@ void add_bands_command(CLI::App& program, Run& run) {
     command->callback([options, &run] { run = [options] { return run_bands(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

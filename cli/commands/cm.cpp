@@ -3,12 +3,12 @@
 #include "cli/options/command.hpp"
 #include "cli/queries/cm_question.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
 struct CmCommand {
-    StackRequest stack;
+    schemas::StackRequest stack;
     std::unique_ptr<QuestionOptions> typed;
     OutputOptions output;
     bool quiet = false;
@@ -43,4 +43,4 @@ void add_cm_command(CLI::App& program, Run& run) {
     command->callback([options, &run] { run = [options] { return run_cm(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

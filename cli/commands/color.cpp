@@ -5,12 +5,12 @@
 #include "cli/queries/color_question.hpp"
 #include "tables/pictures/swatches.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
 struct ColorCommand {
-    StackRequest stack;
+    schemas::StackRequest stack;
     std::unique_ptr<QuestionOptions> typed;
     OutputOptions output;
     unsigned threads = 0;
@@ -19,7 +19,7 @@ struct ColorCommand {
 
 std::string picture(const ColorQuestion& question, const StackColors& stack,
                     const std::string& title) {
-    Swatches swatches{title, "angle of incidence, degrees", stack.angles_deg, {}};
+    tables::Swatches swatches{title, "angle of incidence, degrees", stack.angles_deg, {}};
     const RgbSpace& space = rgb_space("srgb");
     const std::size_t sides = question.sides().size();
     for (std::size_t l = 0; l < stack.colors.size(); ++l) {
@@ -27,13 +27,14 @@ std::string picture(const ColorQuestion& question, const StackColors& stack,
         const RgbTransform transform = rgb_transform(space, lighting.white(), Adaptation::bradford);
         for (std::size_t s = 0; s < sides; ++s) {
             const std::string side(letter(question.sides()[s]));
-            Swatches::Strip strip{stack.colors.size() == 1 ? side : lighting.name + " " + side, {}};
+            tables::Swatches::Strip strip{
+                stack.colors.size() == 1 ? side : lighting.name + " " + side, {}};
             for (std::size_t i = s; i < stack.colors[l].size(); i += sides)
                 strip.colors.push_back(hex(space, transform(stack.colors[l][i].xyz)));
             swatches.strips.push_back(std::move(strip));
         }
     }
-    return write_swatches(swatches);
+    return tables::write_swatches(swatches);
 }
 
 int run_color(const ColorCommand& command) {
@@ -44,7 +45,7 @@ int run_color(const ColorCommand& command) {
                                  {.execution = execution_of(command.threads), .note = say});
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
     check_writable(command.output);
-    const StackDocument& document = prepared->document;
+    const schemas::StackDocument& document = prepared->document;
     note_long_work(seconds_of_rows(question, document, command.threads), false, say);
     const StackColors colors = question.colors(*prepared, document.stack, question.angles_deg());
     if (is_picture) {
@@ -72,4 +73,4 @@ void add_color_command(CLI::App& program, Run& run) {
     command->callback([options, &run] { run = [options] { return run_color(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -7,14 +7,14 @@
 #include "schemas/readers/stack_expression.hpp"
 #include "tables/files/atomic_file.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
 using nlohmann::json;
 
 struct ConvertCommand {
-    StackRequest stack;
+    schemas::StackRequest stack;
     OutputOptions output;
     bool quiet = false;
 };
@@ -45,14 +45,15 @@ void shorten_numbers(json& value) {
     }
 }
 
-std::string as_json(StackSource source, const std::string& file) {
-    move_files(source.document, source.folder, std::filesystem::path(file).parent_path().string());
+std::string as_json(schemas::StackSource source, const std::string& file) {
+    schemas::move_files(source.document, source.folder,
+                        std::filesystem::path(file).parent_path().string());
     shorten_numbers(source.document);
     return source.document.dump(2) + "\n";
 }
 
-std::string as_expression(const StackDocument& document, bool quiet) {
-    const StackExpression expression = stack_expression(document.stack);
+std::string as_expression(const schemas::StackDocument& document, bool quiet) {
+    const schemas::StackExpression expression = schemas::stack_expression(document.stack);
     for (const std::string& loss : expression.losses)
         note("an expression cannot say: " + loss, quiet);
     return expression.text + "\n";
@@ -60,8 +61,9 @@ std::string as_expression(const StackDocument& document, bool quiet) {
 
 int run_convert(const ConvertCommand& command) {
     const StackFormat format = resolved_stack_format(command.output);
-    StackSource source = load_stack(command.stack);
-    const StackDocument document = read_stack(source.document, source.file, source.folder);
+    schemas::StackSource source = schemas::load_stack(command.stack);
+    const schemas::StackDocument document =
+        schemas::read_stack(source.document, source.file, source.folder);
     for (const std::string& text : document.notes) note(text, command.quiet);
     const std::string text = format == StackFormat::document
                                  ? as_json(std::move(source), command.output.file)
@@ -89,4 +91,4 @@ void add_convert_command(CLI::App& program, Run& run) {
     command->callback([options, &run] { run = [options] { return run_convert(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -16,7 +16,7 @@
 #include "tables/lut/lut_maker.hpp"
 #include "tables/shaders/shader.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -25,7 +25,7 @@ constexpr std::size_t kMostVaried = 2;
 
 /// What was typed for one kind of table.
 struct LutCommand {
-    StackRequest stack;
+    schemas::StackRequest stack;
     ColorOptions color;
     std::vector<std::string> vary;
     std::map<std::string, std::string, std::less<>> options;  ///< of the kind
@@ -33,31 +33,32 @@ struct LutCommand {
     OutputOptions output;
     std::string type = "f32", size, tolerance;
     bool any_size = false;
-    LutLayout layout;
+    tables::LutLayout layout;
     unsigned threads = 0;
     bool quiet = false;
 };
 
 std::vector<std::string_view> format_names() {
     std::vector<std::string_view> names;
-    for (const LutFormat* format : lut_formats()) names.push_back(format->name);
+    for (const tables::LutFormat* format : tables::lut_formats()) names.push_back(format->name);
     return names;
 }
 
-const LutFormat& resolved_lut_format(const OutputOptions& output) {
+const tables::LutFormat& resolved_lut_format(const OutputOptions& output) {
     const std::string name = resolved_format(output);
     const std::size_t dot = output.file.find_last_of('.');
     const std::string extension = dot == std::string::npos ? "" : output.file.substr(dot + 1);
-    if (!output.format.empty() && extension != name && find_lut_format(extension))
+    if (!output.format.empty() && extension != name && tables::find_lut_format(extension))
         throw UsageError("--format: " + name + " into a file named ." + extension +
                          " could not be read again");
-    if (const LutFormat* format = find_lut_format(name)) return *format;
+    if (const tables::LutFormat* format = tables::find_lut_format(name)) return *format;
     throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                      not_one_of(format_names(), name));
 }
 
-LutType parse_type(const std::string& text) {
-    for (const LutType type : {LutType::f16, LutType::f32, LutType::f64})
+tables::LutType parse_type(const std::string& text) {
+    for (const tables::LutType type :
+         {tables::LutType::f16, tables::LutType::f32, tables::LutType::f64})
         if (name_of(type) == text) return type;
     throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + text + "')");
 }
@@ -74,13 +75,14 @@ std::vector<std::size_t> parse_size(std::string text, std::size_t axes) {
     return counts;
 }
 
-void parse_option(const LutOption& option, const std::string& text, LutOptions& values) {
+void parse_option(const tables::LutOption& option, const std::string& text,
+                  tables::LutOptions& values) {
     const std::string typed = "--" + std::string(option.name), name(option.name);
-    if (option.type == LutOption::Type::list) {
+    if (option.type == tables::LutOption::Type::list) {
         values[name] = parse_list(typed, text, option.lowest, option.highest);
-    } else if (option.type == LutOption::Type::number) {
+    } else if (option.type == tables::LutOption::Type::number) {
         values[name] = parse_one_number(typed, text, option.lowest, option.highest);
-    } else if (option.type == LutOption::Type::whole) {
+    } else if (option.type == tables::LutOption::Type::whole) {
         values[name] =
             static_cast<double>(parse_whole_number(typed, text, option.lowest, option.highest));
     } else {
@@ -90,10 +92,10 @@ void parse_option(const LutOption& option, const std::string& text, LutOptions& 
     }
 }
 
-LutOptions parse_options(const LutKind& kind, const LutCommand& command) {
-    LutOptions values;
-    for (const LutOption& option : kind.options) {
-        if (option.type == LutOption::Type::flag) {
+tables::LutOptions parse_options(const tables::LutKind& kind, const LutCommand& command) {
+    tables::LutOptions values;
+    for (const tables::LutOption& option : kind.options) {
+        if (option.type == tables::LutOption::Type::flag) {
             const auto flag = command.flags.find(option.name);
             if (flag != command.flags.end() && flag->second)
                 values[std::string(option.name)] = std::string("true");
@@ -108,7 +110,7 @@ LutOptions parse_options(const LutKind& kind, const LutCommand& command) {
     return values;
 }
 
-VariedValue parse_vary(const std::string& text) {
+tables::VariedValue parse_vary(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
         throw UsageError(
@@ -129,7 +131,8 @@ nlohmann::json name_or_rows(const std::string& typed, const Table& illuminant) {
     return {{"table", std::move(rows)}};
 }
 
-void parse_color(const LutKind& kind, const LutCommand& command, LutRequest& request) {
+void parse_color(const tables::LutKind& kind, const LutCommand& command,
+                 tables::LutRequest& request) {
     const ColorOptions& typed = command.color;
     if (kind.light) {
         request.observer = typed.observer;
@@ -147,19 +150,19 @@ void parse_color(const LutKind& kind, const LutCommand& command, LutRequest& req
     request.adaptation = parse_adaptation(typed.adaptation);
 }
 
-LutRequest parse(const LutKind& kind, const LutCommand& command) {
-    LutRequest request;
+tables::LutRequest parse(const tables::LutKind& kind, const LutCommand& command) {
+    tables::LutRequest request;
     request.execution = execution_of(command.threads);
     request.options = parse_options(kind, command);
     parse_color(kind, command, request);
     for (const std::string& text : command.vary) request.vary.push_back(parse_vary(text));
     if (request.vary.size() > kMostVaried) throw UsageError("--vary: at most two values may vary");
     if (!kind.stack) return request;
-    request.source = load_stack(command.stack);
-    for (const VariedValue& vary : request.vary)
-        set_value(request.source.document, vary.path, vary.values.front());
+    request.source = schemas::load_stack(command.stack);
+    for (const tables::VariedValue& vary : request.vary)
+        schemas::set_value(request.source.document, vary.path, vary.values.front());
     request.document =
-        read_stack(request.source.document, request.source.file, request.source.folder);
+        schemas::read_stack(request.source.document, request.source.file, request.source.folder);
     for (const std::string& text : request.document.notes) note(text, command.quiet);
     if (kind.light)
         report_held_ranges(request.document, *request.sensitivity, false,
@@ -167,17 +170,18 @@ LutRequest parse(const LutKind& kind, const LutCommand& command) {
     return request;
 }
 
-LutPlan plan_of(const LutKind& kind, const LutRequest& request) {
+tables::LutPlan plan_of(const tables::LutKind& kind, const tables::LutRequest& request) {
     try {
         return kind.plan(request);
     } catch (const DomainError& error) {
-        throw InputError(kind.stack ? request.document.file : std::string(kind.name), "",
-                         error.what());
+        throw schemas::InputError(kind.stack ? request.document.file : std::string(kind.name), "",
+                                  error.what());
     }
 }
 
-LutMaking making_of(const LutCommand& command, const LutFormat& format, std::size_t axes) {
-    LutMaking making;
+tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat& format,
+                            std::size_t axes) {
+    tables::LutMaking making;
     making.sizing.counts = parse_size(command.size, axes);
     making.sizing.power_of_two = !command.any_size;
     if (command.any_size && command.tolerance.empty())
@@ -194,21 +198,21 @@ LutMaking making_of(const LutCommand& command, const LutFormat& format, std::siz
     return making;
 }
 
-int run_lut(const LutKind& kind, const LutCommand& command) {
-    const LutFormat& format = resolved_lut_format(command.output);
-    const LutRequest request = parse(kind, command);
+int run_lut(const tables::LutKind& kind, const LutCommand& command) {
+    const tables::LutFormat& format = resolved_lut_format(command.output);
+    const tables::LutRequest request = parse(kind, command);
     check_writable(command.output);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     if (is_slow(kind, request)) say(kSlowNote);
-    LutPlan plan = plan_of(kind, request);
-    LutMaking making = making_of(command, format, plan.axes.size());
+    tables::LutPlan plan = plan_of(kind, request);
+    tables::LutMaking making = making_of(command, format, plan.axes.size());
     if (!is_slow(kind, request))
         note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     Progress progress(command.quiet);
     making.progress = [&progress](double done) { progress.set(done); };
-    Lut lut;
+    tables::Lut lut;
     try {
-        lut = make_lut(kind, std::move(plan), making);
+        lut = tables::make_lut(kind, std::move(plan), making);
     } catch (const ToleranceError& error) {
         progress.clear();
         print_error(error.what());
@@ -217,16 +221,16 @@ int run_lut(const LutKind& kind, const LutCommand& command) {
     progress.clear();
     for (const auto& text : lut.facts["notes"]) note(text.get<std::string>(), command.quiet);
     if (command.output.file.empty()) {
-        const std::vector<LutFile> files = format.write(lut, command.layout);
-        const auto table = std::ranges::find(files, std::string(), &LutFile::suffix);
+        const std::vector<tables::LutFile> files = format.write(lut, command.layout);
+        const auto table = std::ranges::find(files, std::string(), &tables::LutFile::suffix);
         write_bytes(table->bytes, command.output, format.is_binary);
     } else {
-        write_lut(lut, command.output.file, format, command.layout);
+        tables::write_lut(lut, command.output.file, format, command.layout);
     }
     if (command.layout.layers)
         note("three.js reads the first of a file's array layers only", command.quiet);
     if (format.name == "ktx2" || format.name == "exr")
-        for (const LutAxis& axis : lut.axes)
+        for (const tables::LutAxis& axis : lut.axes)
             if (!axis.is_linear() && !(lut.mips && &axis == &lut.axes.front()))
                 note(axis.name +
                          ": not equally spaced, so look its samples up one by one: nothing "
@@ -242,12 +246,12 @@ std::string formats_text() {
     return text;
 }
 
-void add_kind_options(CLI::App& command, const LutKind& kind, LutCommand& typed) {
-    for (const LutOption& option : kind.options) {
+void add_kind_options(CLI::App& command, const tables::LutKind& kind, LutCommand& typed) {
+    for (const tables::LutOption& option : kind.options) {
         const std::string name(option.name);
         const std::string spelled =
             (option.letter ? std::string("-") + option.letter + "," : "") + "--" + name;
-        if (option.type == LutOption::Type::flag) {
+        if (option.type == tables::LutOption::Type::flag) {
             command.add_flag(spelled, typed.flags[name], std::string(option.help));
             continue;
         }
@@ -257,7 +261,7 @@ void add_kind_options(CLI::App& command, const LutKind& kind, LutCommand& typed)
     }
 }
 
-void add_lut_kind(CLI::App& lut, const LutKind& kind, Run& run) {
+void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
     CLI::App* command = lut.add_subcommand(std::string(kind.name), std::string(kind.summary));
     const auto typed = std::make_shared<LutCommand>();
     if (kind.stack) add_stack_options(*command, typed->stack);
@@ -306,8 +310,8 @@ void add_lut_kind(CLI::App& lut, const LutKind& kind, Run& run) {
 }
 
 int list_kinds(const OutputOptions& output) {
-    Column::Texts names, axes, summaries;
-    for (const LutKind* kind : lut_kinds()) {
+    tables::Column::Texts names, axes, summaries;
+    for (const tables::LutKind* kind : tables::lut_kinds()) {
         names.emplace_back(kind->name);
         axes.emplace_back(kind->axes);
         summaries.emplace_back(kind->summary);
@@ -324,23 +328,23 @@ void add_list(CLI::App& lut, Run& run) {
 }
 
 int show_info(const std::string& file) {
-    const Lut lut = read_lut(file);
-    write_stdout(metadata_of(lut).dump(2) + "\n");
+    const tables::Lut lut = tables::read_lut(file);
+    tables::write_stdout(tables::metadata_of(lut).dump(2) + "\n");
     return 0;
 }
 
 /// What is wrong with a file, one line each.
 std::vector<std::string> problems_of_table(const std::string& file) {
     try {
-        const Lut lut = read_lut(file);
-        std::vector<std::string> problems = lut_problems(lut);
-        const LutKind* const kind = find_lut_kind(lut.kind);
+        const tables::Lut lut = tables::read_lut(file);
+        std::vector<std::string> problems = tables::lut_problems(lut);
+        const tables::LutKind* const kind = tables::find_lut_kind(lut.kind);
         if (!kind)
             problems.push_back("there is no kind '" + lut.kind + "'");
         else if (problems.empty() && kind->problems)
             problems = kind->problems(lut);
         return problems;
-    } catch (const LutError& error) {
+    } catch (const tables::LutError& error) {
         const std::string text = error.what(), name = file + ": ";
         return {text.starts_with(name) ? text.substr(name.size()) : text};
     } catch (const nlohmann::json::exception&) {
@@ -358,12 +362,12 @@ int check_files(const std::vector<std::string>& files) {
             for (const std::string& problem : problems)
                 text += message_line(file + ": " + problem) + "\n";
             if (!problems.empty()) status = std::max(status, kCheckFailed);
-        } catch (const InputError& error) {
+        } catch (const schemas::InputError& error) {
             print_error(error.what());
             status = kBadInput;
         }
     }
-    write_stdout(text);
+    tables::write_stdout(text);
     return status;
 }
 
@@ -392,7 +396,7 @@ void add_shader(CLI::App& lut, Run& run) {
     CLI::App* shader = lut.add_subcommand("shader", "Prints shader code that reads a table.");
     const auto typed = std::make_shared<Typed>();
     std::string names;
-    for (const std::string_view name : shader_names())
+    for (const std::string_view name : tables::shader_names())
         names += (names.empty() ? "" : ", ") + std::string(name);
     shader->add_option("NAME", typed->name, "one of " + names)->required();
     shader->add_option("--language", typed->language, "glsl or hlsl [glsl]")->type_name("NAME");
@@ -404,12 +408,12 @@ void add_shader(CLI::App& lut, Run& run) {
         "functions to compute with; the others look up the table of their name.");
     shader->callback([typed, &run] {
         run = [typed] {
-            const auto known = shader_names(), languages = shader_languages();
+            const auto known = tables::shader_names(), languages = tables::shader_languages();
             if (std::ranges::find(known, typed->name) == known.end())
                 throw UsageError("NAME: " + not_one_of(known, typed->name));
             if (std::ranges::find(languages, typed->language) == languages.end())
                 throw UsageError("--language: " + not_one_of(languages, typed->language));
-            write_stdout(shader_source(typed->name, typed->language));
+            tables::write_stdout(tables::shader_source(typed->name, typed->language));
             return 0;
         };
     });
@@ -420,7 +424,7 @@ void add_shader(CLI::App& lut, Run& run) {
 void add_lut_command(CLI::App& program, Run& run) {
     CLI::App* lut = program.add_subcommand("lut", "Tables for shaders and renderers.");
     lut->require_subcommand(1);
-    for (const LutKind* kind : lut_kinds()) add_lut_kind(*lut, *kind, run);
+    for (const tables::LutKind* kind : tables::lut_kinds()) add_lut_kind(*lut, *kind, run);
     add_list(*lut, run);
     add_info(*lut, run);
     add_check(*lut, run);
@@ -430,4 +434,4 @@ void add_lut_command(CLI::App& program, Run& run) {
                         "irido lut falpha --alpha 0.1 -o falpha.exr", "irido lut KIND --help"});
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -9,7 +9,7 @@
 #include "schemas/readers/nearest.hpp"
 #include "schemas/readers/text_file.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -25,14 +25,14 @@ struct MaterialsOptions {
 LibraryMaterial material_named(std::string_view name) {
     if (auto found = find_material(name)) return *std::move(found);
     throw UsageError("there is no material '" + std::string(name) + "'" +
-                     did_you_mean(name, library_names_and_aliases()) +
+                     schemas::did_you_mean(name, library_names_and_aliases()) +
                      ", see irido materials list");
 }
 
 int run_list(const MaterialsOptions& options) {
-    Column::Texts name, alias, source;
-    Column::Numbers first, last;
-    Column::Flags visible;
+    tables::Column::Texts name, alias, source;
+    tables::Column::Numbers first, last;
+    tables::Column::Flags visible;
     for (const std::string_view entry : library_names()) {
         const LibraryMaterial found = material_named(entry);
         const WavelengthRange range = range_of(found.material);
@@ -69,21 +69,21 @@ std::vector<double> wavelengths_of(const MaterialsOptions& options, WavelengthRa
 }
 
 /// A built-in material, or that of a file.
-MaterialFile shown_material(const std::string& name) {
+schemas::MaterialFile shown_material(const std::string& name) {
     if (auto found = find_material(name))
         return {std::move(found->material), {}, std::move(found->source)};
-    if (name == "-" || is_material_file(name))
-        return read_material_file(read_text(name), shown_path(name));
+    if (name == "-" || schemas::is_material_file(name))
+        return schemas::read_material_file(schemas::read_text(name), schemas::shown_path(name));
     throw UsageError("there is no material '" + name + "'" +
-                     did_you_mean(name, library_names_and_aliases()) +
+                     schemas::did_you_mean(name, library_names_and_aliases()) +
                      ", see irido materials list; files end in .csv, .txt, .tsv, .dat, .nk, .mat, "
                      ".yml or .yaml");
 }
 
 int run_show(const MaterialsOptions& options) {
-    const MaterialFile shown = shown_material(options.name);
+    const schemas::MaterialFile shown = shown_material(options.name);
     const WavelengthRange range = range_of(shown.material);
-    Column::Numbers wavelength, n, k;
+    tables::Column::Numbers wavelength, n, k;
     for (const double nm : wavelengths_of(options, range)) {
         const Complex index = index_at(shown.material, nm);
         wavelength.push_back(nm);
@@ -91,8 +91,8 @@ int run_show(const MaterialsOptions& options) {
         k.push_back(index.imag());
     }
     std::string lowest, highest;
-    append_number(lowest, range.first_nm);
-    append_number(highest, range.last_nm);
+    tables::append_number(lowest, range.first_nm);
+    tables::append_number(highest, range.last_nm);
     note(shown.material.name + ", " + lowest + " to " + highest + " nm" +
              (shown.source.empty() ? "" : ": " + shown.source),
          options.quiet);
@@ -136,4 +136,4 @@ void add_materials_command(CLI::App& program, Run& run) {
     set_examples(*command, {"irido materials list", "irido materials show Au -w 400:800:100"});
 }
 
-}  // namespace irido
+}  // namespace irido::cli

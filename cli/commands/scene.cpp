@@ -17,7 +17,7 @@
 #include "tables/shaders/scene/bake.hpp"
 #include "tables/shaders/scene/scene_error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -27,7 +27,7 @@ constexpr int kMaterialFailed = 1;
 
 struct SceneCommand {
     std::string scene;
-    BakePlace place;
+    tables::BakePlace place;
     std::string format = "text", explained;
     bool force = false, verify = false, prune = false;
     unsigned threads = 0;
@@ -74,47 +74,50 @@ struct PlanRow {
 };
 
 struct PlannedScene {
-    ScenePlan plan;
-    TableEntries entries;  ///< of tables that can be made
+    tables::ScenePlan plan;
+    tables::TableEntries entries;  ///< of tables that can be made
     std::vector<PlanRow> rows;
-    MaterialFaults faults;
+    tables::MaterialFaults faults;
     std::vector<std::string> stale, notes;
     double seconds = 0;  ///< that making what is new will take, an estimate
 };
 
-std::string role_of(const ScenePlan& plan, std::size_t table) {
-    for (const MaterialPlan& material : plan.materials)
-        for (const MaterialPlan::Use& use : material.tables)
+std::string role_of(const tables::ScenePlan& plan, std::size_t table) {
+    for (const tables::MaterialPlan& material : plan.materials)
+        for (const tables::MaterialPlan::Use& use : material.tables)
             if (use.table == table) return use.role;
     return "";
 }
 
 /// The largest difference of what the shader shows from the exact colour, for a loss.
-std::optional<double> delta_e_of(const Scene& scene, const ScenePlan& plan, std::size_t m,
-                                 const Omission& loss, const SceneCommand& command) {
+std::optional<double> delta_e_of(const schemas::Scene& scene, const tables::ScenePlan& plan,
+                                 std::size_t m, const tables::Omission& loss,
+                                 const SceneCommand& command) {
     constexpr std::size_t points = 300;
     const Execution execution = execution_of(command.threads);
     if (loss.delta_e) return loss.delta_e;
     if (loss.what == "dispersion")
-        return dispersion_difference(scene, scene.materials[m], execution);
-    if (plan.materials[m].shading != Shading::fourier || loss.what != kPastCriticalAngle)
+        return tables::dispersion_difference(scene, scene.materials[m], execution);
+    if (plan.materials[m].shading != schemas::Shading::fourier ||
+        loss.what != tables::kPastCriticalAngle)
         return std::nullopt;
-    const SceneTable& table = plan.tables[plan.materials[m].tables.front().table];
-    const Lut lut = make_lut(*table.kind, table.kind->plan(table.request), table.making);
-    return worst_fourier_difference(scene, scene.materials[m], plan.materials[m], &lut, execution,
-                                    {points, 1, command.threads, false});
+    const tables::SceneTable& table = plan.tables[plan.materials[m].tables.front().table];
+    const tables::Lut lut =
+        tables::make_lut(*table.kind, table.kind->plan(table.request), table.making);
+    return tables::worst_fourier_difference(scene, scene.materials[m], plan.materials[m], &lut,
+                                            execution, {points, 1, command.threads, false});
 }
 
 /// Plans one table: its row, and its entry.
-void plan_table(const Scene& scene, PlannedScene& result, std::size_t t, const Baked& before,
-                const SceneCommand& command) {
-    SceneTable& table = result.plan.tables[t];
+void plan_table(const schemas::Scene& scene, PlannedScene& result, std::size_t t,
+                const tables::Baked& before, const SceneCommand& command) {
+    tables::SceneTable& table = result.plan.tables[t];
     table.making.threads = command.threads;
-    Keeping keeping;
+    tables::Keeping keeping;
     if (!command.place.folder.empty() && !command.force)
-        keeping = keeping_of(scene, result.plan, table, before, command.place, false);
+        keeping = tables::keeping_of(scene, result.plan, table, before, command.place, false);
     const bool is_kept = !keeping.entry.is_null();
-    json entry = is_kept ? keeping.entry : planned_entry(table);
+    json entry = is_kept ? keeping.entry : tables::planned_entry(table);
     PlanRow row{joined(table.materials, ", "), role_of(result.plan, t), table.file,
                 size_text(entry["axes"])};
     row.state = entry.contains("values") ? "numbers" : is_kept ? "kept" : "new";
@@ -128,40 +131,41 @@ void plan_table(const Scene& scene, PlannedScene& result, std::size_t t, const B
     result.entries[table.id] = std::move(entry);
 }
 
-PlannedScene planned(const Scene& scene, const SceneCommand& command) {
+PlannedScene planned(const schemas::Scene& scene, const SceneCommand& command) {
     PlannedScene result;
     Progress progress(command.quiet);
-    result.plan = plan_scene(scene, execution_of(command.threads));
-    result.faults = faults_of(result.plan);
-    Baked before;
-    if (!command.place.folder.empty()) before = baked_scene(command.place, scene);
+    result.plan = tables::plan_scene(scene, execution_of(command.threads));
+    result.faults = tables::faults_of(result.plan);
+    tables::Baked before;
+    if (!command.place.folder.empty()) before = tables::baked_scene(command.place, scene);
     if (!before.note.empty()) result.notes.push_back(before.note);
     const std::size_t count = result.plan.tables.size();
     for (std::size_t t = 0; t < count; ++t) {
-        const SceneTable& table = result.plan.tables[t];
+        const tables::SceneTable& table = result.plan.tables[t];
         progress.set(static_cast<double>(t) / static_cast<double>(count), table.materials.front());
         try {
             plan_table(scene, result, t, before, command);
         } catch (const std::exception& error) {  // whatever it is, it is these materials'
-            add_faults(result.faults, scene, table, error);
+            tables::add_faults(result.faults, scene, table, error);
         }
     }
-    for (Omission& omission : result.plan.omissions) {
-        const auto m = std::ranges::find(scene.materials, omission.material, &SceneMaterial::name);
-        if (omission.kind == Omission::Kind::loss)
+    for (tables::Omission& omission : result.plan.omissions) {
+        const auto m =
+            std::ranges::find(scene.materials, omission.material, &schemas::SceneMaterial::name);
+        if (omission.kind == tables::Omission::Kind::loss)
             omission.delta_e = delta_e_of(scene, result.plan,
                                           static_cast<std::size_t>(m - scene.materials.begin()),
                                           omission, command);
     }
     if (!command.place.folder.empty())
-        result.stale = stale_files(command.place, before, result.entries);
+        result.stale = tables::stale_files(command.place, before, result.entries);
     return result;
 }
 
-std::vector<Omission> all_omissions(const PlannedScene& scene) {
-    std::vector<Omission> all;
-    for (const MaterialPlan& material : scene.plan.materials)
-        std::ranges::move(omissions_of(scene.plan, material, scene.entries),
+std::vector<tables::Omission> all_omissions(const PlannedScene& scene) {
+    std::vector<tables::Omission> all;
+    for (const tables::MaterialPlan& material : scene.plan.materials)
+        std::ranges::move(tables::omissions_of(scene.plan, material, scene.entries),
                           std::back_inserter(all));
     return all;
 }
@@ -173,7 +177,7 @@ std::string two_digits(double value) {
     return to_text(std::stod(text.data()));
 }
 
-std::string delta_e_text(const Omission& loss) {
+std::string delta_e_text(const tables::Omission& loss) {
     return loss.delta_e ? "Delta E " + two_digits(*loss.delta_e) : "";
 }
 
@@ -210,11 +214,11 @@ std::string text_of(const PlannedScene& scene) {
     cells.push_back({"total", "", "", "", to_text(bytes), to_text(samples), "", ""});
     std::string out = aligned(cells);
     std::vector<std::vector<std::string>> losses, skipped;
-    for (const Omission& omission : all_omissions(scene)) {
+    for (const tables::Omission& omission : all_omissions(scene)) {
         const std::string material = "  " + omission.material;
-        if (omission.kind == Omission::Kind::loss)
+        if (omission.kind == tables::Omission::Kind::loss)
             losses.push_back({material, omission.what, delta_e_text(omission), omission.reason});
-        if (omission.kind == Omission::Kind::skipped)
+        if (omission.kind == tables::Omission::Kind::skipped)
             skipped.push_back({material, omission.what, omission.reason});
     }
     if (!losses.empty()) out += "losses:\n" + aligned(losses);
@@ -235,15 +239,16 @@ json json_of(const PlannedScene& scene) {
                           {"cost", row.samples},
                           {"state", row.state},
                           {"why", row.why}});
-    for (const Omission& omission : all_omissions(scene)) {
+    for (const tables::Omission& omission : all_omissions(scene)) {
         json line = {
             {"material", omission.material}, {"what", omission.what}, {"reason", omission.reason}};
         if (omission.delta_e) line["delta_e"] = *omission.delta_e;
-        (omission.kind == Omission::Kind::loss ? losses : skipped).push_back(std::move(line));
+        (omission.kind == tables::Omission::Kind::loss ? losses : skipped)
+            .push_back(std::move(line));
     }
     json faults = json::object();
     for (const auto& [name, all] : scene.faults)
-        for (const SceneFault& fault : all)
+        for (const schemas::SceneFault& fault : all)
             faults[name].push_back({{"pointer", fault.pointer}, {"reason", fault.reason}});
     return {{"tables", tables},
             {"losses", losses},
@@ -261,25 +266,26 @@ std::string axis_text(const json& axis) {
 }
 
 /// The long form for one material.
-std::string explained(const Scene& scene, const PlannedScene& planned, const std::string& name) {
-    const auto material = std::ranges::find(scene.materials, name, &SceneMaterial::name);
+std::string explained(const schemas::Scene& scene, const PlannedScene& planned,
+                      const std::string& name) {
+    const auto material = std::ranges::find(scene.materials, name, &schemas::SceneMaterial::name);
     if (material == scene.materials.end()) {
         std::vector<std::string> names;
-        for (const SceneMaterial& m : scene.materials) names.push_back(m.name);
+        for (const schemas::SceneMaterial& m : scene.materials) names.push_back(m.name);
         throw UsageError("--explain: there is no material '" + name + "'" +
-                         did_you_mean(name, names));
+                         schemas::did_you_mean(name, names));
     }
-    const MaterialPlan& plan =
-        *std::ranges::find(planned.plan.materials, name, &MaterialPlan::name);
+    const tables::MaterialPlan& plan =
+        *std::ranges::find(planned.plan.materials, name, &tables::MaterialPlan::name);
     std::string out = name + ": shading " + std::string(name_of(plan.shading)) + ", angles " +
                       to_text(material->angles_deg.first) + " to " +
                       to_text(material->angles_deg.last) + " degrees\n";
-    out += "  stack " + canonical_stack(material->document.stack).dump() + "\n";
-    for (const VariedRange& vary : material->vary)
+    out += "  stack " + schemas::canonical_stack(material->document.stack).dump() + "\n";
+    for (const schemas::VariedRange& vary : material->vary)
         out += "  varies " + vary.path + " from " + to_text(vary.range.first) + " to " +
                to_text(vary.range.last) + "\n";
-    for (const MaterialPlan::Use& use : plan.tables) {
-        const SceneTable& table = planned.plan.tables[use.table];
+    for (const tables::MaterialPlan::Use& use : plan.tables) {
+        const tables::SceneTable& table = planned.plan.tables[use.table];
         const auto entry = planned.entries.find(table.id);
         out += "  table " + use.role + ": " + table.file + ", interpolation error at most " +
                to_text(*table.making.sizing.tolerance) + "\n";
@@ -296,9 +302,9 @@ std::string explained(const Scene& scene, const PlannedScene& planned, const std
     }
     if (!plan.constants.empty()) out += "  constants " + plan.constants.dump() + "\n";
     if (!plan.snippets.empty()) out += "  snippets " + joined(plan.snippets, ", ") + "\n";
-    for (const Omission& omission : all_omissions(planned)) {
+    for (const tables::Omission& omission : all_omissions(planned)) {
         if (omission.material != name) continue;
-        const bool is_loss = omission.kind == Omission::Kind::loss;
+        const bool is_loss = omission.kind == tables::Omission::Kind::loss;
         const std::string delta_e = delta_e_text(omission);
         out += (is_loss ? "  loss " : "  skipped ") + omission.what + ": " + omission.reason +
                (delta_e.empty() ? "" : ", " + delta_e) + "\n";
@@ -306,19 +312,19 @@ std::string explained(const Scene& scene, const PlannedScene& planned, const std
     return out;
 }
 
-int report_faults(const Scene& scene, const MaterialFaults& faults) {
+int report_faults(const schemas::Scene& scene, const tables::MaterialFaults& faults) {
     if (faults.empty()) return 0;
-    for (const SceneMaterial& material : scene.materials)
+    for (const schemas::SceneMaterial& material : scene.materials)
         if (const auto found = faults.find(material.name); found != faults.end())
-            for (const SceneFault& fault : found->second)
-                print_error(fault_text(scene, material.name, fault));
+            for (const schemas::SceneFault& fault : found->second)
+                print_error(schemas::fault_text(scene, material.name, fault));
     print_error(scene.file + ": " + std::to_string(faults.size()) + " of " +
                 std::to_string(scene.materials.size()) + " materials failed");
     return kMaterialFailed;
 }
 
-Scene scene_of(const SceneCommand& command) {
-    Scene scene = read_scene(command.scene);
+schemas::Scene scene_of(const SceneCommand& command) {
+    schemas::Scene scene = schemas::read_scene(command.scene);
     for (const std::string& text : scene.notes) note(text, command.quiet);
     return scene;
 }
@@ -326,7 +332,7 @@ Scene scene_of(const SceneCommand& command) {
 int run_plan(const SceneCommand& command) {
     if (command.format != "text" && command.format != "json")
         throw UsageError("--format: must be one of text, json (got '" + command.format + "')");
-    const Scene scene = scene_of(command);
+    const schemas::Scene scene = scene_of(command);
     const PlannedScene result = planned(scene, command);
     for (const std::string& text : result.notes) note(text, command.quiet);
     std::string text;
@@ -336,23 +342,24 @@ int run_plan(const SceneCommand& command) {
         text = command.format == "json"
                    ? json_of(result).dump(2, ' ', false, json::error_handler_t::replace) + "\n"
                    : text_of(result);
-    write_stdout(text);
+    tables::write_stdout(text);
     if (result.seconds > 0)
         note("making what is new will take about " + coarse_time(result.seconds), command.quiet);
     return report_faults(scene, result.faults);
 }
 
 /// Says so if what is new will take long.
-void note_long_bake(const Scene& scene, const ScenePlan& plan, const SceneCommand& command) {
+void note_long_bake(const schemas::Scene& scene, const tables::ScenePlan& plan,
+                    const SceneCommand& command) {
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const Baked before = baked_scene(command.place, scene);
+    const tables::Baked before = tables::baked_scene(command.place, scene);
     const double share = 1 / static_cast<double>(std::max<std::size_t>(1, plan.tables.size()));
     double seconds = 0;
-    for (const SceneTable& table : plan.tables) {
+    for (const tables::SceneTable& table : plan.tables) {
         if (!command.force && before.tables.contains(table.id)) continue;
         if (is_slow(*table.kind, table.request)) return say(kSlowNote);
         try {
-            LutMaking making = table.making;
+            tables::LutMaking making = table.making;
             making.threads = command.threads;
             seconds += least_seconds(table.kind->plan(table.request), making, share);
         } catch (const std::exception&) {  // for the bake to find
@@ -362,18 +369,18 @@ void note_long_bake(const Scene& scene, const ScenePlan& plan, const SceneComman
 }
 
 int run_bake(const SceneCommand& command) {
-    const Scene scene = scene_of(command);
-    const ScenePlan plan = plan_scene(scene, execution_of(command.threads));
+    const schemas::Scene scene = scene_of(command);
+    const tables::ScenePlan plan = tables::plan_scene(scene, execution_of(command.threads));
     note_long_bake(scene, plan, command);
     Progress progress(command.quiet);
-    const BakeRequest request{command.place,
-                              command.force,
-                              command.verify,
-                              command.prune,
-                              command.threads,
-                              [&progress](double done, const std::string& text) {
+    const tables::BakeRequest request{command.place,
+                                      command.force,
+                                      command.verify,
+                                      command.prune,
+                                      command.threads,
+                                      [&progress](double done, const std::string& text) {
             progress.set(done, text); }};
-    const BakeResult result = bake(scene, plan, request);
+    const tables::BakeResult result = tables::bake(scene, plan, request);
     progress.clear();
     for (const std::string& text : result.notes) note(text, command.quiet);
     if (!command.quiet) {
@@ -475,4 +482,4 @@ void add_bake_command(CLI::App& program, Run& run) {
     command->callback([typed, &run] { run = [typed] { return run_bake(*typed); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -6,12 +6,12 @@
 #include "cli/queries/spectrum_question.hpp"
 #include "tables/resume/record_stream.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
 struct SpectrumCommand {
-    StackRequest stack;
+    schemas::StackRequest stack;
     std::unique_ptr<QuestionOptions> typed;
     OutputOptions output;
     unsigned threads = 0;
@@ -20,15 +20,16 @@ struct SpectrumCommand {
 };
 
 int run_spectrum(const SpectrumCommand& command) {
-    const RecordFormat& format = resolved_record_format(command.output);
+    const tables::RecordFormat& format = resolved_record_format(command.output);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
                                     {.execution = execution_of(command.threads), .note = say});
-    const StackDocument document = read_noted_stack(command.stack, command.quiet);
-    const RecordLayout layout = question.layout(document);
-    const auto stream = counted_output(command.output.file, format, layout, question.rows());
+    const schemas::StackDocument document = read_noted_stack(command.stack, command.quiet);
+    const tables::RecordLayout layout = question.layout(document);
+    const auto stream =
+        tables::counted_output(command.output.file, format, layout, question.rows());
     note_long_work(seconds_of_rows(question, document, command.threads), false, say);
-    question.each_block(document, [&](const Records& rows) {
+    question.each_block(document, [&](const tables::Records& rows) {
         stream->append(format.rows(layout, rows), 0, rows.rows());
     });
     stream->finish();
@@ -58,4 +59,4 @@ void add_spectrum_command(CLI::App& program, Run& run) {
     command->callback([options, &run] { run = [options] { return run_spectrum(*options); }; });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

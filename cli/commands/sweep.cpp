@@ -17,12 +17,12 @@
 #include "tables/files/atomic_file.hpp"
 #include "tables/files/hash.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
 struct SweepCommand {
-    StackRequest stack;
+    schemas::StackRequest stack;
     std::vector<std::string> vary;
     std::string points;
     const QuestionKind* kind = nullptr;
@@ -73,7 +73,7 @@ private:
 
 /// Whether stacks that differ in it only are of one structure.
 bool is_shared(const SweptColumn& column) {
-    return column.is_light() || VariedStack::is_thickness(column.path);
+    return column.is_light() || schemas::VariedStack::is_thickness(column.path);
 }
 
 /// Stacks of one structure, as far as that is known before.
@@ -102,8 +102,8 @@ std::size_t structures_together(const SweepSpace& space) {
 std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
     std::vector<LayerPlace> places;
     for (const SweptColumn& column : space.columns())
-        if (VariedStack::is_thickness(column.path))
-            places.push_back(VariedStack::place_of(column.path));
+        if (schemas::VariedStack::is_thickness(column.path))
+            places.push_back(schemas::VariedStack::place_of(column.path));
     return places;
 }
 
@@ -124,7 +124,7 @@ bool varies_wavelength(const SweepSpace& space) {
 
 /// All that the rows depend on, but for the machine.
 std::string request_hash(const SweepCommand& command, const Question& question,
-                         const StackSource& source, const StackDocument& first,
+                         const schemas::StackSource& source, const schemas::StackDocument& first,
                          const SweepSpace& space) {
     nlohmann::json vary = nlohmann::json::array();
     for (const SweptColumn& column : space.columns())
@@ -133,9 +133,10 @@ std::string request_hash(const SweepCommand& command, const Question& question,
                                  {"options", command.typed->typed()},
                                  {"data", question.data()},
                                  {"stack", source.document},
-                                 {"first", canonical_stack(first.stack)},
+                                 {"first", schemas::canonical_stack(first.stack)},
                                  {"vary", std::move(vary)}};
-    return sha256_of(request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    return tables::sha256_of(
+        request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string in_words(double seconds) {
@@ -201,36 +202,37 @@ void print_stats(const SweepEngine& engine, const SweptStacks& stacks,
                  static_cast<unsigned long long>(stacks.prepared()));
 }
 
-std::unique_ptr<RecordStream> open_stream(const SweepCommand& command, const RecordFormat& format,
-                                          const SweepEngine& engine,
-                                          const StreamIdentity& identity) {
+std::unique_ptr<tables::RecordStream> open_stream(const SweepCommand& command,
+                                                  const tables::RecordFormat& format,
+                                                  const SweepEngine& engine,
+                                                  const tables::StreamIdentity& identity) {
     const bool is_known = engine.rows_per_unit() > 0 && !command.keep_going;
     const std::uint64_t rows =
         is_known ? engine.rows_per_unit() * (identity.end - identity.begin) : 0;
     if (!command.output.file.empty())
-        return record_file(command.output.file, format, engine.layout(), identity, command.resume,
-                           rows);
+        return tables::record_file(command.output.file, format, engine.layout(), identity,
+                                   command.resume, rows);
     if (command.resume) throw UsageError("--resume: needs --output FILE");
-    const RecordLayout layout = engine.layout();
-    const bool counts =
-        format.head(layout, 0, HeadKind::final) != format.head(layout, 1, HeadKind::final);
+    const tables::RecordLayout layout = engine.layout();
+    const bool counts = format.head(layout, 0, tables::HeadKind::final) !=
+                        format.head(layout, 1, tables::HeadKind::final);
     if (counts && !is_known)
         throw UsageError("--format: " + std::string(format.name) +
                          " needs --output FILE where the number of rows is not known before");
-    return record_output(format, engine.layout(), rows);
+    return tables::record_output(format, engine.layout(), rows);
 }
 
 int run_merge(const SweepCommand& command) {
     if (command.output.file.empty()) throw UsageError("--merge: needs --output FILE");
-    merge_streams(command.merge, command.output.file,
-                  resolved_record_format(command.output, RecordTarget::any));
+    tables::merge_streams(command.merge, command.output.file,
+                          resolved_record_format(command.output, RecordTarget::any));
     return 0;
 }
 
 /// Writes what is left of a stream's units. Returns the exit status.
 int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& stacks,
-               const RecordFormat& format, const StreamIdentity& identity, RecordStream& stream,
-               const OrderlyEnd* orderly) {
+               const tables::RecordFormat& format, const tables::StreamIdentity& identity,
+               tables::RecordStream& stream, const OrderlyEnd* orderly) {
     const std::uint64_t begin = identity.begin + stream.units_done();
     SweepProgress progress(command.quiet, identity.end - begin, engine.counts());
     const auto proceed = [&](std::uint64_t done) {
@@ -263,7 +265,7 @@ int run_sweep(const SweepCommand& command) {
     if (!command.merge.empty()) return run_merge(command);
     if (command.stack.stack.empty()) throw UsageError("STACK is required (see irido sweep --help)");
     if (!command.kind) throw UsageError("--compute: is required: spectrum, color, bands or cm");
-    const RecordFormat& format = resolved_record_format(command.output, RecordTarget::any);
+    const tables::RecordFormat& format = resolved_record_format(command.output, RecordTarget::any);
     const Shard shard = parse_shard(command.shard);
     check_writable(command.output);
     Notes notes(command.quiet);
@@ -278,19 +280,20 @@ int run_sweep(const SweepCommand& command) {
                               .structures = structures_together(space),
                               .varies_wavelength = varies_wavelength(space),
                               .in_sweep = true});
-    const StackSource source = load_stack(command.stack);
+    const schemas::StackSource source = schemas::load_stack(command.stack);
     SweptStacks stacks(source, space, *question);
     SweepEngine engine(stacks, space, *question, command.keep_going);
     const std::vector<std::uint64_t> ends =
         shard.of > 1 ? engine.shard_ends(shard.of) : std::vector<std::uint64_t>{0, engine.units()};
-    const StreamIdentity identity{request_hash(command, *question, source, stacks.first(), space),
-                                  std::string(name_of(machine.simd)),
-                                  shard.number,
-                                  shard.of,
-                                  ends[shard.number - 1],
-                                  ends[shard.number],
-                                  engine.units(),
-                                  !command.shard.empty()};
+    const tables::StreamIdentity identity{
+        request_hash(command, *question, source, stacks.first(), space),
+        std::string(name_of(machine.simd)),
+        shard.number,
+        shard.of,
+        ends[shard.number - 1],
+        ends[shard.number],
+        engine.units(),
+        !command.shard.empty()};
     std::optional<OrderlyEnd> orderly;
     if (!command.output.file.empty()) orderly.emplace();  // before there is a part
     std::error_code ignored;
@@ -298,7 +301,8 @@ int run_sweep(const SweepCommand& command) {
         note(command.output.file +
                  ".part of an earlier run is begun anew; --resume would have gone on",
              command.quiet);
-    const std::unique_ptr<RecordStream> stream = open_stream(command, format, engine, identity);
+    const std::unique_ptr<tables::RecordStream> stream =
+        open_stream(command, format, engine, identity);
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
         note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
@@ -422,4 +426,4 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
     });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -16,7 +16,7 @@
 #include "tables/shaders/scene/bake.hpp"
 #include "tables/shaders/scene/manifest.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -27,10 +27,10 @@ struct SchemaText {
     const char* (*text)();
 };
 
-constexpr std::array<SchemaText, 4> kSchemas{{{"stack", stack_schema_text},
-                                              {"scene", scene_schema_text},
-                                              {"manifest", manifest_schema_text},
-                                              {"lut", lut_schema_text}}};
+constexpr std::array<SchemaText, 4> kSchemas{{{"stack", schemas::stack_schema_text},
+                                              {"scene", schemas::scene_schema_text},
+                                              {"manifest", tables::manifest_schema_text},
+                                              {"lut", tables::lut_schema_text}}};
 
 /// What has keys of a stack is one, whatever else is in it by mistake.
 bool is_stack(const json& document) {
@@ -41,8 +41,8 @@ bool is_stack(const json& document) {
 
 std::vector<std::string> material_problems(const std::string& text, const std::string& file) {
     try {
-        read_material_file(text, file);
-    } catch (const InputError& error) {
+        schemas::read_material_file(text, file);
+    } catch (const schemas::InputError& error) {
         return {error.what()};
     }
     return {};
@@ -50,28 +50,31 @@ std::vector<std::string> material_problems(const std::string& text, const std::s
 
 std::vector<std::string> expression_problems(const std::string& expression) {
     try {
-        const StackSource source = load_stack({expression, {}});
-        return stack_problems(source.document, source.file, source.folder);
-    } catch (const InputError& error) {
+        const schemas::StackSource source = schemas::load_stack({expression, {}});
+        return schemas::stack_problems(source.document, source.file, source.folder);
+    } catch (const schemas::InputError& error) {
         return {error.what()};
     }
 }
 
 std::vector<std::string> problems_of(const std::string& path) {
     if (path.find('|') != std::string::npos) return expression_problems(path);
-    const std::string text = read_text(path), file = shown_path(path);
-    if (is_material_file(path)) return material_problems(text, file);
+    const std::string text = schemas::read_text(path), file = schemas::shown_path(path);
+    if (schemas::is_material_file(path)) return material_problems(text, file);
     const std::string folder = std::filesystem::path(path).parent_path().string();
     json document;
     try {
-        document = parse_json(text, file);
-    } catch (const InputError& error) {
+        document = schemas::parse_json(text, file);
+    } catch (const schemas::InputError& error) {
         return {error.what()};
     }
-    if (is_stack(document)) return stack_problems(document, file, folder);
+    if (is_stack(document)) return schemas::stack_problems(document, file, folder);
     if (document.contains("tables"))
-        return manifest_problems(document, file, path == "-" ? "" : folder.empty() ? "." : folder);
-    return problems_of_scene(document, file, folder, execution_of());
+        return tables::manifest_problems(document, file,
+                                         path == "-"      ? ""
+                                         : folder.empty() ? "."
+                                                          : folder);
+    return tables::problems_of_scene(document, file, folder, execution_of());
 }
 
 int run_validate(const std::vector<std::string>& files) {
@@ -83,12 +86,12 @@ int run_validate(const std::vector<std::string>& files) {
             for (const std::string& line : problems) out += message_line(line) + '\n';
             if (problems.empty()) out += escaped(file) + ": ok\n";
             if (!problems.empty()) status = std::max(status, kCheckFailed);
-        } catch (const InputError& error) {
+        } catch (const schemas::InputError& error) {
             print_error(error.what());
             status = kBadInput;
         }
     }
-    write_stdout(out);
+    tables::write_stdout(out);
     return status;
 }
 
@@ -98,9 +101,9 @@ int print_schema(const std::string& name) {
         std::vector<std::string> names;
         for (const SchemaText& schema : kSchemas) names.emplace_back(schema.name);
         throw UsageError("--schema: must be one of stack, scene, manifest, lut (got '" + name +
-                         "')" + did_you_mean(name, names));
+                         "')" + schemas::did_you_mean(name, names));
     }
-    write_stdout(found->text());
+    tables::write_stdout(found->text());
     return 0;
 }
 
@@ -144,4 +147,4 @@ void add_validate_command(CLI::App& program, Run& run) {
     });
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -11,7 +11,7 @@
 #include "schemas/readers/spectrum_csv.hpp"
 #include "schemas/readers/text_file.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -98,7 +98,7 @@ ColorMethod parse_method(const std::string& text) {
     if (method == kMethods.end()) {
         const std::vector<std::string_view> names = method_names();
         throw UsageError("--method: " + not_one_of(names, name) +
-                         did_you_mean(name, {names.begin(), names.end()}));
+                         schemas::did_you_mean(name, {names.begin(), names.end()}));
     }
     if (slash == std::string::npos) return {method->kind, method->by_itself};
     if (method->most == 0)
@@ -144,8 +144,8 @@ std::optional<Triple> parse_base_color(const ColorOptions& options) {
 Table parse_illuminant(const std::string& text) {
     if (contains(illuminant_names(), text)) return illuminant(text);
     try {
-        return read_spectrum_csv(read_text(text), text);
-    } catch (const InputError& error) {
+        return schemas::read_spectrum_csv(schemas::read_text(text), text);
+    } catch (const schemas::InputError& error) {
         if (text.find_first_of("./") != std::string::npos || text == "-") throw;
         throw UsageError("--illuminant: " + not_one_of(illuminant_names(), text) + ", or a file");
     }
@@ -163,7 +163,7 @@ std::string_view letter(Side side) {
 
 namespace {
 
-std::string in_words(const HeldRange& held, const StackDocument& document) {
+std::string in_words(const HeldRange& held, const schemas::StackDocument& document) {
     const std::string& name = document.stack.materials[held.material].name;
     return (name.empty() ? "the material" : name) + " is known from " +
            to_text(held.range.first_nm) + " to " + to_text(held.range.last_nm) + " nm";
@@ -178,18 +178,18 @@ std::string percent(double fraction) {
 
 }  // namespace
 
-void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity, bool strict,
-                        const std::function<void(const std::string&)>& say) {
+void report_held_ranges(const schemas::StackDocument& document, const Sensitivity& sensitivity,
+                        bool strict, const std::function<void(const std::string&)>& say) {
     for (const HeldRange& held : held_ranges(document.stack, sensitivity)) {
         const std::string& pointer = document.material_pointers[held.material];
         if (!held.usable)
-            throw InputError(document.file, pointer,
-                             in_words(held, document) + ", a colour needs 400 to 700 nm");
+            throw schemas::InputError(document.file, pointer,
+                                      in_words(held, document) + ", a colour needs 400 to 700 nm");
         const std::string text = in_words(held, document) + ", its end values are held for " +
                                  percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
                                  percent(held.weight[2]) + " of the X, Y, Z weight";
-        if (strict) throw InputError(document.file, pointer, text);
-        say(InputError(document.file, pointer, text).what());
+        if (strict) throw schemas::InputError(document.file, pointer, text);
+        say(schemas::InputError(document.file, pointer, text).what());
     }
 }
 
@@ -270,4 +270,4 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
         ->type_name("T");
 }
 
-}  // namespace irido
+}  // namespace irido::cli

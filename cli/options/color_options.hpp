@@ -11,7 +11,7 @@
 #include "core/colorimetry/sensitivity.hpp"
 #include "core/colorimetry/space.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// How a colour is asked for, as typed.
 struct ColorOptions {
@@ -67,7 +67,7 @@ std::string_view letter(Side side);
 
 /// Says where a material holds its end values in colours, or refuses what no colour can be made of.
 /// strict  refuses both. Throws InputError.
-void report_held_ranges(const StackDocument& document, const Sensitivity& sensitivity, bool strict,
-                        const std::function<void(const std::string&)>& say);
+void report_held_ranges(const schemas::StackDocument& document, const Sensitivity& sensitivity,
+                        bool strict, const std::function<void(const std::string&)>& say);
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -12,9 +12,9 @@
 #include "schemas/readers/number.hpp"
 #include "tables/files/atomic_file.hpp"
 
-namespace irido {
+namespace irido::cli {
 
-void add_stack_options(CLI::App& command, StackRequest& request) {
+void add_stack_options(CLI::App& command, schemas::StackRequest& request) {
     command
         .add_option("STACK", request.stack,
                     "stack file (.json; irido validate --schema explains it),\n"
@@ -39,8 +39,8 @@ void add_stack_options(CLI::App& command, StackRequest& request) {
         ->allow_extra_args(false);
 }
 
-StackDocument read_noted_stack(const StackRequest& request, bool quiet) {
-    StackDocument document = read_stack(request);
+schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bool quiet) {
+    schemas::StackDocument document = schemas::read_stack(request);
     for (const std::string& text : document.notes) note(text, quiet);
     return document;
 }
@@ -60,7 +60,7 @@ namespace {
 
 std::vector<std::string_view> names_of_formats(RecordTarget target) {
     std::vector<std::string_view> names;
-    for (const RecordFormat* const format : record_formats())
+    for (const tables::RecordFormat* const format : tables::record_formats())
         if (!format->finish || target == RecordTarget::any) names.push_back(format->name);
     if (target == RecordTarget::stream_or_svg) names.push_back("svg");
     return names;
@@ -85,7 +85,7 @@ void add_angles_option(CLI::App& command, std::string& angles) {
 }
 
 unsigned parse_threads(const std::string& text) {
-    const double typed = parse_number(text).value_or(0);
+    const double typed = schemas::parse_number(text).value_or(0);
     if (typed > kMostThreads) return kMostThreads;
     return static_cast<unsigned>(parse_whole_number("--threads", text, 1, kMostThreads));
 }
@@ -148,10 +148,11 @@ std::string resolved_format(const OutputOptions& output) {
     return extension == "hdf5" ? "h5" : extension;
 }
 
-const RecordFormat& resolved_record_format(const OutputOptions& output, RecordTarget target) {
+const tables::RecordFormat& resolved_record_format(const OutputOptions& output,
+                                                   RecordTarget target) {
     const std::string name = resolved_format(output);
     const std::vector<std::string_view> names = names_of_formats(target);
-    const RecordFormat* const format = find_record_format(name);
+    const tables::RecordFormat* const format = tables::find_record_format(name);
     if (format && std::ranges::count(names, name) > 0) return *format;
     throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                      not_one_of(names, name));
@@ -163,7 +164,7 @@ void check_writable(const OutputOptions& output) {
     const std::string name = folder.empty() ? "." : folder.string();
     if (access(name.c_str(), W_OK | X_OK) != 0)
         throw UsageError(output.file + ": cannot be written: " + std::strerror(errno));
-    check_outputs({output.file});
+    tables::check_outputs({output.file});
 }
 
 void check_plot(const std::optional<std::string>& plot, const OutputOptions& output) {
@@ -171,18 +172,18 @@ void check_plot(const std::optional<std::string>& plot, const OutputOptions& out
     if (!plot->ends_with(".svg"))
         throw UsageError("--plot: must end in .svg (got '" + *plot + "')");
     check_writable({*plot, "svg"});
-    if (!output.file.empty()) check_outputs({output.file, *plot});
+    if (!output.file.empty()) tables::check_outputs({output.file, *plot});
 }
 
-void write_records(const Records& records, const OutputOptions& output) {
-    const RecordFormat& format = resolved_record_format(output);
-    write_bytes(written(format, records), output, format.is_binary);
+void write_records(const tables::Records& records, const OutputOptions& output) {
+    const tables::RecordFormat& format = resolved_record_format(output);
+    write_bytes(tables::written(format, records), output, format.is_binary);
 }
 
 void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary) {
-    if (!output.file.empty()) return write_file(output.file, bytes);
-    if (is_binary) check_binary_stdout();
-    write_stdout(bytes);
+    if (!output.file.empty()) return tables::write_file(output.file, bytes);
+    if (is_binary) tables::check_binary_stdout();
+    tables::write_stdout(bytes);
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -13,7 +13,7 @@
 #include "schemas/documents/stack_document.hpp"
 #include "tables/records/record_format.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// What main runs once the command line is parsed; returns the exit status.
 using Run = std::function<int()>;
@@ -40,10 +40,10 @@ struct OutputOptions {
 };
 
 /// STACK, --set and --material.
-void add_stack_options(CLI::App& command, StackRequest& request);
+void add_stack_options(CLI::App& command, schemas::StackRequest& request);
 
 /// Reads the stack and says what is to be noted. Throws InputError.
-StackDocument read_noted_stack(const StackRequest& request, bool quiet);
+schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bool quiet);
 
 /// -o and -f; `formats` as the help shows them.
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
@@ -86,8 +86,8 @@ void set_examples(CLI::App& command, const std::vector<std::string>& examples,
 std::string resolved_format(const OutputOptions& output);
 
 /// The record format of that name. Throws UsageError that names those which there are.
-const RecordFormat& resolved_record_format(const OutputOptions& output,
-                                           RecordTarget target = RecordTarget::stream);
+const tables::RecordFormat& resolved_record_format(const OutputOptions& output,
+                                                   RecordTarget target = RecordTarget::stream);
 
 /// Throws UsageError or OutputError if a file could not be written there: before a long
 /// computation, and after the inputs are read, of which it must not be one.
@@ -97,9 +97,9 @@ void check_writable(const OutputOptions& output);
 void check_plot(const std::optional<std::string>& plot, const OutputOptions& output);
 
 /// Writes records to the file or to standard output.
-void write_records(const Records& records, const OutputOptions& output);
+void write_records(const tables::Records& records, const OutputOptions& output);
 
 /// Writes bytes of a text or binary format to the file or to standard output.
 void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary);
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -6,7 +6,7 @@
 #include "cli/options/command.hpp"
 #include "schemas/readers/nearest.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -132,7 +132,8 @@ private:
         std::vector<std::string> names;
         for (const CLI::Option* option : command_.get_options())
             for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-        const std::string guess = typed.starts_with("--") ? did_you_mean(typed, names) : "";
+        const std::string guess =
+            typed.starts_with("--") ? schemas::did_you_mean(typed, names) : "";
         // options that follow from another one
         const CLI::Option* const compute = command_.get_option_no_throw("--compute");
         const bool is_computing = std::ranges::any_of(words_, [](std::string_view other) {
@@ -193,8 +194,8 @@ void check(const CLI::App& parent, const std::string& path, std::span<char* cons
     if (typed.starts_with('-'))
         throw UsageError("a command must follow " + path + ", before " + typed + " (see " + help +
                          ")");
-    throw UsageError("there is no command '" + typed + "'" + did_you_mean(typed, names) + " (see " +
-                     help + ")");
+    throw UsageError("there is no command '" + typed + "'" + schemas::did_you_mean(typed, names) +
+                     " (see " + help + ")");
 }
 
 /// The command that was typed, below all groups of commands.
@@ -242,4 +243,4 @@ void note_fallbacks(const CLI::App& program) {
              is_quiet);
 }
 
-}  // namespace irido
+}  // namespace irido::cli

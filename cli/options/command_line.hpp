@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <span>
 
-namespace irido {
+namespace irido::cli {
 
 /// Adds -j and --quiet to the commands that lack them: every command takes both.
 void add_missing_options(CLI::App& program);
@@ -18,4 +18,4 @@ void check_command_line(const CLI::App& program, std::span<char* const> words);
 /// that there is not.
 void note_fallbacks(const CLI::App& program);
 
-}  // namespace irido
+}  // namespace irido::cli

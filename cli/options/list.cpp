@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "schemas/readers/number.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -45,7 +45,7 @@ private:
     }
 
     double number(std::string_view text) const {
-        const auto value = parse_number(trimmed(text));
+        const auto value = schemas::parse_number(schemas::trimmed(text));
         if (!value) fail("must be a number (got '" + std::string(text) + "')");
         return *value;
     }
@@ -92,9 +92,11 @@ private:
         if (count >= static_cast<double>(kMostValues))
             fail("must have at most " + std::to_string(kMostValues) + " values");
         // whole multiples of the last decimal place, so that no rounding piles up
-        const int places = std::max(decimals(trimmed(start_text)), decimals(trimmed(step_text)));
-        const bool exact = places >= 0 && places <= 12 && decimals(trimmed(start_text)) >= 0 &&
-                           decimals(trimmed(step_text)) >= 0;
+        const int places =
+            std::max(decimals(schemas::trimmed(start_text)), decimals(schemas::trimmed(step_text)));
+        const bool exact = places >= 0 && places <= 12 &&
+                           decimals(schemas::trimmed(start_text)) >= 0 &&
+                           decimals(schemas::trimmed(step_text)) >= 0;
         const double scale = exact ? std::pow(10.0, places) : 1;
         const double a = exact ? std::round(start * scale) : start;
         const double b = exact ? std::round(step * scale) : step;
@@ -144,4 +146,4 @@ std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
     return whole;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// Thrown for what the user typed on the command line; the text is the whole message.
 struct UsageError : Error {
@@ -30,4 +30,4 @@ double parse_one_number(std::string_view option, std::string_view text, double l
 std::uint64_t parse_whole_number(std::string_view option, std::string_view text, double lowest,
                                  double highest);
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/spectrum/stack_power.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -22,7 +22,7 @@ std::vector<double> some_of(const std::vector<double>& samples, std::size_t coun
 }
 
 /// A part of the plan's own grid with at least so many samples, or all.
-std::vector<LutAxis> part_of_grid(const LutPlan& plan, double samples) {
+std::vector<tables::LutAxis> part_of_grid(const tables::LutPlan& plan, double samples) {
     std::vector<std::size_t> counts(plan.axes.size(), 1);
     double product = 1;
     for (bool grows = true; grows && product < samples;) {
@@ -34,7 +34,7 @@ std::vector<LutAxis> part_of_grid(const LutPlan& plan, double samples) {
             counts[a] = more;
         }
     }
-    std::vector<LutAxis> part;
+    std::vector<tables::LutAxis> part;
     for (std::size_t a = 0; a < counts.size(); ++a) {
         part.push_back(plan.axes[a].axis);
         part.back().values = some_of(part.back().values, counts[a]);
@@ -42,9 +42,9 @@ std::vector<LutAxis> part_of_grid(const LutPlan& plan, double samples) {
     return part;
 }
 
-double samples_of(const std::vector<LutAxis>& axes) {
+double samples_of(const std::vector<tables::LutAxis>& axes) {
     double samples = 1;
-    for (const LutAxis& axis : axes) samples *= static_cast<double>(axis.count());
+    for (const tables::LutAxis& axis : axes) samples *= static_cast<double>(axis.count());
     return samples;
 }
 
@@ -70,7 +70,7 @@ double tried_seconds(double units, double first,
     return all;
 }
 
-bool is_slow(const LutKind& kind, const LutRequest& request) {
+bool is_slow(const tables::LutKind& kind, const tables::LutRequest& request) {
     try {
         return kind.color && StackPower(request.document.stack).spread_layers() ==
                                  StackPower::kLargestSpreadLayers;
@@ -79,13 +79,14 @@ bool is_slow(const LutKind& kind, const LutRequest& request) {
     }
 }
 
-double least_seconds(const LutPlan& plan, const LutMaking& making, double share) {
+double least_seconds(const tables::LutPlan& plan, const tables::LutMaking& making, double share) {
     const auto seconds_of = [&](double samples) {
-        const std::vector<LutAxis> axes = part_of_grid(plan, samples);
+        const std::vector<tables::LutAxis> axes = part_of_grid(plan, samples);
         return processor_seconds([&] { plan.evaluate(axes); }) * samples / samples_of(axes) /
                threads_used(making.threads);
     };
-    return tried_seconds(least_evaluations(plan, making), 1, seconds_of, share * kLongWork_s);
+    return tried_seconds(tables::least_evaluations(plan, making), 1, seconds_of,
+                         share * kLongWork_s);
 }
 
 std::string coarse_time(double seconds) {
@@ -110,4 +111,4 @@ void note_long_work(double seconds, bool is_least,
     say("this will take about " + coarse_time(seconds) + (is_least ? ", or longer" : ""));
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -6,7 +6,7 @@
 
 #include "tables/lut/lut_maker.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// Work that is announced takes more than this.
 inline constexpr double kLongWork_s = 60;
@@ -34,13 +34,14 @@ double tried_seconds(double units, double first,
                      double long_s = kLongWork_s);
 
 /// Whether even a trial of a table takes long: colours of three spread layers.
-bool is_slow(const LutKind& kind, const LutRequest& request);
+bool is_slow(const tables::LutKind& kind, const tables::LutRequest& request);
 inline constexpr const char* kSlowNote =
     "colours of three layers with a thickness_sigma_nm take seconds each: this may take hours";
 
 /// The seconds that a table will take, or, with a tolerance, the fewest; tried_seconds() with
 /// `share` of kLongWork_s.
-double least_seconds(const LutPlan& plan, const LutMaking& making, double share = 1);
+double least_seconds(const tables::LutPlan& plan, const tables::LutMaking& making,
+                     double share = 1);
 
 /// "1 s", "20 s", "3 minutes", "5 hours", "2 days": one digit, or two.
 std::string coarse_time(double seconds);
@@ -49,4 +50,4 @@ std::string coarse_time(double seconds);
 void note_long_work(double seconds, bool is_least,
                     const std::function<void(const std::string&)>& say);
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -11,7 +11,7 @@
 #include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -75,14 +75,14 @@ public:
         try {
             append(mirror, incidence, rows);
         } catch (const DomainError& error) {
-            throw InputError(prepared.document.file, "", error.what());
+            throw schemas::InputError(prepared.document.file, "", error.what());
         }
         const std::size_t count = rows.angle.size();
         all_.append(to_records(std::move(rows)));
         return count;
     }
 
-    Records records() override {
+    tables::Records records() override {
         if (all_.columns.empty()) return to_records({});
         return std::exchange(all_, {});
     }
@@ -90,17 +90,17 @@ public:
 protected:
     virtual void append(const BraggMirror& mirror, const Incidence& incidence,
                         Rows& rows) const = 0;
-    virtual Records to_records(Rows rows) const = 0;
+    virtual tables::Records to_records(Rows rows) const = 0;
 
     const BandsQuestion& question_;
 
 private:
-    Records all_;
+    tables::Records all_;
 };
 
 struct LandmarkRows {
-    Column::Numbers angle, order, omega, wavelength;
-    Column::Texts polarization, kind;
+    tables::Column::Numbers angle, order, omega, wavelength;
+    tables::Column::Texts polarization, kind;
 };
 
 class LandmarkAnswers : public BandsAnswers<LandmarkRows> {
@@ -128,7 +128,7 @@ private:
         }
     }
 
-    Records to_records(LandmarkRows rows) const override {
+    tables::Records to_records(LandmarkRows rows) const override {
         return {{{"angle_deg", std::move(rows.angle)},
                  {"polarization", std::move(rows.polarization)},
                  {"kind", std::move(rows.kind)},
@@ -139,10 +139,10 @@ private:
 };
 
 struct GapRows {
-    Column::Numbers angle, order, shorter, longer, width, R, centre;
-    std::array<Column::Numbers, BraggMirror::kReflectances.size()> periods;
-    Column::Texts polarization;
-    Column::Flags omnidirectional;
+    tables::Column::Numbers angle, order, shorter, longer, width, R, centre;
+    std::array<tables::Column::Numbers, BraggMirror::kReflectances.size()> periods;
+    tables::Column::Texts polarization;
+    tables::Column::Flags omnidirectional;
 };
 
 class GapAnswers : public BandsAnswers<GapRows> {
@@ -185,7 +185,7 @@ private:
         for (std::size_t i = 0; i < needed.size(); ++i) rows.periods[i].push_back(needed[i]);
     }
 
-    Records to_records(GapRows rows) const override {
+    tables::Records to_records(GapRows rows) const override {
         return {{{"angle_deg", std::move(rows.angle)},
                  {"polarization", std::move(rows.polarization)},
                  {"order", std::move(rows.order)},
@@ -213,16 +213,17 @@ OmegaRange BandsQuestion::omega() const {
     return {kTwoPi / last_nm_ * (1 - 1e-15), kTwoPi / first_nm_ * (1 + 1e-15)};
 }
 
-BraggMirror BandsQuestion::mirror(const StackDocument& document, const Stack& stack) const {
+BraggMirror BandsQuestion::mirror(const schemas::StackDocument& document,
+                                  const Stack& stack) const {
     try {
         return {stack, first_nm_, last_nm_};
     } catch (const DomainError& error) {
-        throw InputError(document.file, "", error.what());
+        throw schemas::InputError(document.file, "", error.what());
     }
 }
 
-RecordLayout BandsQuestion::layout(const StackDocument&) const {
-    using enum RecordField::Type;
+tables::RecordLayout BandsQuestion::layout(const schemas::StackDocument&) const {
+    using enum tables::RecordField::Type;
     constexpr std::size_t longest_kind = 4;
     if (!gaps_)
         return {{"angle_deg"}, {"polarization", text, 1}, {"kind", text, longest_kind},
@@ -235,7 +236,7 @@ RecordLayout BandsQuestion::layout(const StackDocument&) const {
             {"N_999"},     {"omnidirectional", flag}};
 }
 
-std::unique_ptr<const PreparedStack> BandsQuestion::prepare(StackDocument document) const {
+std::unique_ptr<const PreparedStack> BandsQuestion::prepare(schemas::StackDocument document) const {
     const double k = mirror(document, document.stack).left_out_k();
     if (k > 0)
         answering_.note("the absorption of the two layers (k up to " + to_text(k) +
@@ -286,4 +287,4 @@ nlohmann::json BandsOptions::typed() const {
     return {{"angles", angles}, {"polarization", polarization}, {"range", range}, {"gaps", gaps}};
 }
 
-}  // namespace irido
+}  // namespace irido::cli

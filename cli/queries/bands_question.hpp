@@ -6,7 +6,7 @@
 #include "cli/queries/question.hpp"
 #include "core/periodic/bragg_mirror.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// What irido bands is asked, as typed.
 struct BandsOptions : QuestionOptions {
@@ -28,8 +28,8 @@ public:
     std::span<const double> angles_deg() const override { return angles_deg_; }
     bool splits_angles() const override { return !gaps_; }  // what all angles say of a gap
     std::size_t rows_per_angle() const override { return 0; }
-    RecordLayout layout(const StackDocument& document) const override;
-    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    tables::RecordLayout layout(const schemas::StackDocument& document) const override;
+    std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
@@ -39,7 +39,7 @@ public:
     /// A little wider than asked, against the roundings of 2 pi / wavelength.
     OmegaRange omega() const;
     /// The mirror that a stack is. Throws InputError.
-    BraggMirror mirror(const StackDocument& document, const Stack& stack) const;
+    BraggMirror mirror(const schemas::StackDocument& document, const Stack& stack) const;
 
 private:
     friend class LandmarkAnswers;
@@ -52,4 +52,4 @@ private:
     Answering answering_;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

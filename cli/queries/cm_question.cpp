@@ -11,7 +11,7 @@
 #include "core/stack/index_table.hpp"
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -38,39 +38,40 @@ std::vector<double> parse_orders(const std::string& text) {
 }
 
 /// The film's media at the wavelength asked for.
-Film film_of(const StackDocument& document, double at_nm) {
+Film film_of(const schemas::StackDocument& document, double at_nm) {
     const Stack& stack = document.stack;
     const std::string fault = stack.elements.empty() ? "no layer" : film_fault(stack);
     if (!fault.empty())
-        throw InputError(document.file, "",
-                         "cm needs one coherent film of a real index (got " + fault + ")");
+        throw schemas::InputError(document.file, "",
+                                  "cm needs one coherent film of a real index (got " + fault + ")");
     const Layer layer = only_film(stack);
     try {
         const IndexTable table(stack, {at_nm});
         return {table.n(stack.incident)[0], table.n(layer.material)[0],
                 table.index(stack.substrate, 0), layer.thickness_nm};
     } catch (const DomainError& error) {
-        throw InputError(document.file, "", error.what());
+        throw schemas::InputError(document.file, "", error.what());
     }
 }
 
 struct CmStack : PreparedStack {
-    CmStack(StackDocument read, double at_nm)
+    CmStack(schemas::StackDocument read, double at_nm)
         : PreparedStack(std::move(read)), film(film_of(document, at_nm)) {}
 
     Film film;
 };
 
-FilmSeries series_at(const StackDocument& document, const Film& film, double angle_deg,
+FilmSeries series_at(const schemas::StackDocument& document, const Film& film, double angle_deg,
                      char polarization) {
     const auto series = film_series(film, incident_angle(angle_deg),
                                     polarization == 's' ? Polarization::s : Polarization::p);
     if (series) return *series;
-    throw InputError(document.file, "",
-                     "there is no series at " + to_text(angle_deg) + " degrees, where " +
-                         (film.base.imag() < 0 ? "the film is past its critical angle or the base "
-                                                 "amplifies without bound"
-                                               : "the film is past its critical angle"));
+    throw schemas::InputError(
+        document.file, "",
+        "there is no series at " + to_text(angle_deg) + " degrees, where " +
+            (film.base.imag() < 0 ? "the film is past its critical angle or the base "
+                                    "amplifies without bound"
+                                  : "the film is past its critical angle"));
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ public:
         return rows;
     }
 
-    Records records() override {
+    tables::Records records() override {
         Rows rows = std::exchange(rows_, {});
         return {{{"angle_deg", std::move(rows.angle)},
                  {"polarization", std::move(rows.polarization)},
@@ -109,8 +110,8 @@ public:
 
 private:
     struct Rows {
-        Column::Numbers angle, order, C, opd, phi;
-        Column::Texts polarization, side;
+        tables::Column::Numbers angle, order, C, opd, phi;
+        tables::Column::Texts polarization, side;
     };
 
     std::size_t append(const FilmSeries& series, double angle_deg, char polarization) {
@@ -147,14 +148,14 @@ CmQuestion::CmQuestion(const CmOptions& typed)
                          to_text(kMostRows));
 }
 
-RecordLayout CmQuestion::layout(const StackDocument&) const {
-    using enum RecordField::Type;
+tables::RecordLayout CmQuestion::layout(const schemas::StackDocument&) const {
+    using enum tables::RecordField::Type;
     return {
         {"angle_deg"}, {"polarization", text, 1}, {"side", text, 1}, {"order"}, {"C"}, {"opd_nm"},
         {"phi_rad"}};
 }
 
-std::unique_ptr<const PreparedStack> CmQuestion::prepare(StackDocument document) const {
+std::unique_ptr<const PreparedStack> CmQuestion::prepare(schemas::StackDocument document) const {
     return std::make_unique<CmStack>(std::move(document), at_nm_);
 }
 
@@ -199,4 +200,4 @@ nlohmann::json CmOptions::typed() const {
             {"at", at}};
 }
 
-}  // namespace irido
+}  // namespace irido::cli

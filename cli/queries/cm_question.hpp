@@ -5,7 +5,7 @@
 
 #include "cli/queries/question.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// What irido cm is asked, as typed.
 struct CmOptions : QuestionOptions {
@@ -29,8 +29,8 @@ public:
     std::size_t rows_per_angle() const override {
         return polarizations_.size() * sides_.size() * orders_.size();
     }
-    RecordLayout layout(const StackDocument& document) const override;
-    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    tables::RecordLayout layout(const schemas::StackDocument& document) const override;
+    std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
@@ -45,4 +45,4 @@ private:
     double at_nm_ = 0;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

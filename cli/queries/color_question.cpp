@@ -18,7 +18,7 @@
 #include "schemas/input_error.hpp"
 #include "schemas/readers/utf8.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -40,17 +40,17 @@ struct ColorStack : PreparedStack {
 
 /// Columns of rows that are filled one after another.
 struct ColorRows {
-    std::array<Column::Numbers, 9> numbers;  ///< angle, X Y Z, x y, r g b
-    Column::CodedTexts side;
-    Column::Texts hexes;
-    Column::Flags gamut;
-    Column::Texts method;
-    Column::Numbers evaluations, error;
-    Column::CodedTexts illuminant;
-    Column::Numbers delta_e;
+    std::array<tables::Column::Numbers, 9> numbers;  ///< angle, X Y Z, x y, r g b
+    tables::Column::CodedTexts side;
+    tables::Column::Texts hexes;
+    tables::Column::Flags gamut;
+    tables::Column::Texts method;
+    tables::Column::Numbers evaluations, error;
+    tables::Column::CodedTexts illuminant;
+    tables::Column::Numbers delta_e;
 
     void reserve(std::size_t rows) {
-        for (Column::Numbers& column : numbers) column.reserve(rows);
+        for (tables::Column::Numbers& column : numbers) column.reserve(rows);
         hexes.reserve(rows);
         gamut.reserve(rows);
         side.codes.reserve(rows);
@@ -103,7 +103,7 @@ public:
         return incidence.angles_deg.size() * question_.rows_per_angle();
     }
 
-    Records records() override { return question_.records(std::exchange(stacks_, {})); }
+    tables::Records records() override { return question_.records(std::exchange(stacks_, {})); }
 
 private:
     const ColorQuestion& question_;
@@ -131,7 +131,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
                                      kKeptNumbers / std::max<std::size_t>(1, answering.structures));
     request_.simd = answering.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
-    const std::string first = well_formed(typed.color.illuminant);  // perhaps a file's
+    const std::string first = schemas::well_formed(typed.color.illuminant);  // perhaps a file's
     lightings_.push_back(
         std::make_unique<Illumination>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
     if (!typed.compare) return;
@@ -141,10 +141,10 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
                 std::string(name), Sensitivity(eye, illuminant(name)), *space_, adaptation));
 }
 
-RecordLayout ColorQuestion::layout(const StackDocument&) const {
-    using enum RecordField::Type;
+tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const {
+    using enum tables::RecordField::Type;
     constexpr std::size_t hex_width = 7, longest_method = 24;
-    RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
+    tables::RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
     for (const char* name : {"X", "Y", "Z", "x", "y", "r", "g", "b"}) layout.push_back({name});
     layout.push_back({"hex", text, hex_width});
     layout.push_back({"in_gamut", flag});
@@ -165,7 +165,7 @@ nlohmann::json ColorQuestion::data() const {
     return {illuminant_.wavelength_nm, illuminant_.value};
 }
 
-std::unique_ptr<const PreparedStack> ColorQuestion::prepare(StackDocument document) const {
+std::unique_ptr<const PreparedStack> ColorQuestion::prepare(schemas::StackDocument document) const {
     report_held_ranges(document, lightings_.front()->tables.sensitivity(), strict_,
                        answering_.note);
     const std::string file = document.file;
@@ -181,7 +181,7 @@ std::unique_ptr<const PreparedStack> ColorQuestion::prepare(StackDocument docume
                                               request_));
         return prepared;
     } catch (const DomainError& error) {
-        throw InputError(file, "", error.what());
+        throw schemas::InputError(file, "", error.what());
     }
 }
 
@@ -200,7 +200,7 @@ double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
            (kColor + kLayer * quadrature_work(stack, indices, pieces, incident_angle(angle_deg)));
 }
 
-double ColorQuestion::try_share(const StackDocument& document, const Incidence& incidence,
+double ColorQuestion::try_share(const schemas::StackDocument& document, const Incidence& incidence,
                                 double share) const {
     constexpr double kUsualWavelengths = 1000;  // of a colour, as --stats says
     const ColorTables& tables = lightings_.front()->tables;
@@ -242,7 +242,7 @@ StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& st
                                           threads, result.colors.back());
         }
     } catch (const DomainError& error) {
-        throw InputError(prepared.document.file, "", error.what());
+        throw schemas::InputError(prepared.document.file, "", error.what());
     }
     check_errors(prepared.document, result, approximate);
     return result;
@@ -250,7 +250,7 @@ StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& st
 
 /// Methods that are not exact are held to nothing by themselves: a note says how far they are off
 /// if it is more than the default tolerance.
-void ColorQuestion::check_errors(const StackDocument& document, const StackColors& colors,
+void ColorQuestion::check_errors(const schemas::StackDocument& document, const StackColors& colors,
                                  bool approximate) const {
     for (const std::vector<StackColor>& lit : colors.colors) {
         const auto worst = std::ranges::max_element(lit, {}, &StackColor::error);
@@ -274,7 +274,7 @@ void ColorQuestion::check_errors(const StackDocument& document, const StackColor
     }
 }
 
-Records ColorQuestion::records(const std::vector<StackColors>& stacks) const {
+tables::Records ColorQuestion::records(const std::vector<StackColors>& stacks) const {
     ColorRows rows;
     for (const Side side : sides()) rows.side.values.emplace_back(letter(side));
     for (const auto& lighting : lightings_) rows.illuminant.values.push_back(lighting->name);
@@ -301,7 +301,8 @@ Records ColorQuestion::records(const std::vector<StackColors>& stacks) const {
             }
         }
     }
-    Records records{{{"angle_deg", std::move(rows.numbers[0])}, {"side", std::move(rows.side)}}};
+    tables::Records records{
+        {{"angle_deg", std::move(rows.numbers[0])}, {"side", std::move(rows.side)}}};
     constexpr std::array names{"X", "Y", "Z", "x", "y", "r", "g", "b"};
     for (std::size_t c = 0; c < names.size(); ++c)
         records.columns.push_back({names[c], std::move(rows.numbers[c + 1])});
@@ -355,4 +356,4 @@ nlohmann::json ColorQuestionOptions::typed() const {
             {"strict", strict}};
 }
 
-}  // namespace irido
+}  // namespace irido::cli

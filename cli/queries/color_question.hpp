@@ -9,7 +9,7 @@
 #include "core/color/color_tables.hpp"
 #include "core/color/stack_color.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// What irido color is asked, as typed.
 struct ColorQuestionOptions : QuestionOptions {
@@ -53,13 +53,13 @@ public:
     std::span<const double> angles_deg() const override { return angles_deg_; }
     bool splits_angles() const override { return lightings_.size() == 1; }
     std::size_t rows_per_angle() const override { return lightings_.size() * sides().size(); }
-    RecordLayout layout(const StackDocument& document) const override;
+    tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     nlohmann::json data() const override;
-    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
-    double try_share(const StackDocument& document, const Incidence& incidence,
+    double try_share(const schemas::StackDocument& document, const Incidence& incidence,
                      double share) const override;
 
     std::span<const Side> sides() const { return request_.sides; }
@@ -68,10 +68,10 @@ public:
     /// Throws InputError, or ToleranceError if a colour is not as exact as asked.
     StackColors colors(const PreparedStack& prepared, const Stack& stack,
                        std::span<const double> angles_deg) const;
-    Records records(const std::vector<StackColors>& stacks) const;
+    tables::Records records(const std::vector<StackColors>& stacks) const;
 
 private:
-    void check_errors(const StackDocument& document, const StackColors& colors,
+    void check_errors(const schemas::StackDocument& document, const StackColors& colors,
                       bool approximate) const;
 
     std::vector<double> angles_deg_;
@@ -86,4 +86,4 @@ private:
     Answering answering_;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -11,7 +11,7 @@
 #include "cli/queries/color_question.hpp"
 #include "cli/queries/spectrum_question.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -24,28 +24,29 @@ nlohmann::json Question::data() const {
     return nullptr;
 }
 
-double Question::try_share(const StackDocument& document, const Incidence& incidence,
+double Question::try_share(const schemas::StackDocument& document, const Incidence& incidence,
                            double) const {
     const std::unique_ptr<const PreparedStack> prepared = prepare(document);
     answers()->add(*prepared, document.stack, incidence);
     return 1;
 }
 
-void note_incident(const StackDocument& document, const IndexTable& table,
+void note_incident(const schemas::StackDocument& document, const IndexTable& table,
                    const std::function<void(const std::string&)>& say) {
     if (is_constant(document.stack.materials[document.stack.incident])) return;  // said when read
     double largest = 0;
     for (const double k : table.k(table.incident())) largest = std::max(largest, std::abs(k));
-    if (largest > 0) say(document.file + ": /incident: " + incident_note(largest));
+    if (largest > 0) say(document.file + ": /incident: " + schemas::incident_note(largest));
 }
 
-Records records_of(const Question& question, const PreparedStack& prepared) {
+tables::Records records_of(const Question& question, const PreparedStack& prepared) {
     const std::unique_ptr<Answers> answers = question.answers();
     answers->add(prepared, prepared.document.stack, {question.angles_deg()});
     return answers->records();
 }
 
-double seconds_of_rows(const Question& question, const StackDocument& document, unsigned threads) {
+double seconds_of_rows(const Question& question, const schemas::StackDocument& document,
+                       unsigned threads) {
     const std::span<const double> all = question.angles_deg();
     const auto seconds_of = [&](double angles) {
         const auto count = static_cast<std::size_t>(std::max(1.0, std::round(angles)));
@@ -72,4 +73,4 @@ std::span<const QuestionKind> question_kinds() {
     return kinds;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -16,7 +16,7 @@
 #include "tables/records/record_layout.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// How a question is answered, besides what is asked.
 struct Answering {
@@ -43,10 +43,10 @@ struct Incidence {
 
 /// A stack document with all that its stacks have in common, whatever their thicknesses.
 struct PreparedStack {
-    explicit PreparedStack(StackDocument read) : document(std::move(read)) {}
+    explicit PreparedStack(schemas::StackDocument read) : document(std::move(read)) {}
     virtual ~PreparedStack() = default;
 
-    StackDocument document;
+    schemas::StackDocument document;
 };
 
 /// Rows of one stack after another, on one thread.
@@ -60,7 +60,7 @@ public:
     virtual std::size_t add(const PreparedStack& prepared, const Stack& stack,
                             const Incidence& incidence) = 0;
     /// All rows since the last call.
-    virtual Records records() = 0;
+    virtual tables::Records records() = 0;
 };
 
 /// What a command asks of a stack, parsed from its options.
@@ -76,13 +76,13 @@ public:
     /// Rows of one stack at one angle; 0 if their number is not known before.
     virtual std::size_t rows_per_angle() const = 0;
     /// Names and types of the rows' columns.
-    virtual RecordLayout layout(const StackDocument& document) const = 0;
+    virtual tables::RecordLayout layout(const schemas::StackDocument& document) const = 0;
 
     /// What the answers depend on that was read from files.
     virtual nlohmann::json data() const;
 
     /// Throws InputError or UsageError. Safe from many threads.
-    virtual std::unique_ptr<const PreparedStack> prepare(StackDocument document) const = 0;
+    virtual std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const = 0;
     virtual std::unique_ptr<Answers> answers() const = 0;
     /// Microseconds of one stack at one angle, more or less: a function of its arguments that is
     /// the same on every machine.
@@ -90,19 +90,20 @@ public:
                            std::optional<double> wavelength_nm) const = 0;
     /// Computes a share, (0, 1], of what is asked about the document's stack and forgets it, to see
     /// how long that takes; returns the share that it was. Throws as prepare() and Answers::add().
-    virtual double try_share(const StackDocument& document, const Incidence& incidence,
+    virtual double try_share(const schemas::StackDocument& document, const Incidence& incidence,
                              double share) const;
 };
 
 /// Says so if an incident medium that has k is taken as transparent at the table's wavelengths.
-void note_incident(const StackDocument& document, const IndexTable& table,
+void note_incident(const schemas::StackDocument& document, const IndexTable& table,
                    const std::function<void(const std::string&)>& say);
 
 /// The rows of the prepared stack itself at the question's angles.
-Records records_of(const Question& question, const PreparedStack& prepared);
+tables::Records records_of(const Question& question, const PreparedStack& prepared);
 
 /// Seconds that the question's rows of a stack will take on so many threads; see tried_seconds().
-double seconds_of_rows(const Question& question, const StackDocument& document, unsigned threads);
+double seconds_of_rows(const Question& question, const schemas::StackDocument& document,
+                       unsigned threads);
 
 /// Options of one kind of question, as typed.
 class QuestionOptions {
@@ -125,4 +126,4 @@ struct QuestionKind {
 /// spectrum, color, bands and cm.
 std::span<const QuestionKind> question_kinds();
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -8,7 +8,7 @@
 #include "core/spectrum/ellipsometry.hpp"
 #include "schemas/readers/nearest.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -24,7 +24,7 @@ SpectrumColumn column_of(std::string_view name) {
     const auto found = std::ranges::find(kNames, name);
     if (found != kNames.end()) return static_cast<SpectrumColumn>(found - kNames.begin());
     throw UsageError("--columns: " + not_one_of(kNames, name) +
-                     did_you_mean(name, {kNames.begin(), kNames.end()}));
+                     schemas::did_you_mean(name, {kNames.begin(), kNames.end()}));
 }
 
 bool is_ellipsometric(SpectrumColumn column) {
@@ -34,7 +34,7 @@ bool is_ellipsometric(SpectrumColumn column) {
 /// Appends values of the rows of a table to a column, in their order.
 class RowValues {
 public:
-    RowValues(const SpectrumShape& shape, const Spectra& spectra, Column::Numbers& to)
+    RowValues(const SpectrumShape& shape, const Spectra& spectra, tables::Column::Numbers& to)
         : shape_(shape), spectra_(spectra), to_(to) {}
 
     /// value(polarization, point), points being [angle][wavelength].
@@ -74,7 +74,7 @@ public:
 private:
     const SpectrumShape& shape_;
     const Spectra& spectra_;
-    Column::Numbers& to_;
+    tables::Column::Numbers& to_;
 };
 
 double real_part(const Complex& z) {
@@ -162,7 +162,7 @@ std::vector<std::string> spectrum_number_names(const std::vector<SpectrumColumn>
 
 void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<SpectrumColumn>& columns,
                              std::size_t layers, const Spectra& spectra,
-                             std::vector<Column::Numbers>& to) {
+                             std::vector<tables::Column::Numbers>& to) {
     auto next = to.begin();
     const auto values = [&] { return RowValues(shape, spectra, *next++); };
     for (const auto quantity : {&Spectrum::R, &Spectrum::T, &Spectrum::A}) values().power(quantity);
@@ -176,4 +176,4 @@ void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<Spect
     }
 }
 
-}  // namespace irido
+}  // namespace irido::cli

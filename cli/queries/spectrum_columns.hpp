@@ -7,7 +7,7 @@
 #include "core/spectrum/spectrum.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// The columns that can be asked for beside R, T and A.
 enum class SpectrumColumn { r_re, r_im, t_re, t_im, psi_deg, delta_deg, A_layers };
@@ -37,6 +37,6 @@ struct SpectrumShape {
 /// Appends the numbers of rows to columns, one of each name above.
 void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<SpectrumColumn>& columns,
                              std::size_t layers, const Spectra& spectra,
-                             std::vector<Column::Numbers>& to);
+                             std::vector<tables::Column::Numbers>& to);
 
-}  // namespace irido
+}  // namespace irido::cli

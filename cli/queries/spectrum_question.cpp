@@ -11,7 +11,7 @@
 #include "core/stack/index_table.hpp"
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -28,7 +28,7 @@ std::string parse_polarizations(std::string_view text) {
 }
 
 /// The error of the first material that has no index at one of the wavelengths, with its place.
-[[noreturn]] void throw_material_error(const StackDocument& document,
+[[noreturn]] void throw_material_error(const schemas::StackDocument& document,
                                        const std::vector<double>& wavelengths_nm,
                                        const DomainError& fallback) {
     for (std::size_t m = 0; m < document.stack.materials.size(); ++m) {
@@ -36,14 +36,15 @@ std::string parse_polarizations(std::string_view text) {
             for (const double wavelength : wavelengths_nm)
                 index_at(document.stack.materials[m], wavelength);
         } catch (const DomainError& error) {
-            throw InputError(document.file, document.material_pointers[m], error.what());
+            throw schemas::InputError(document.file, document.material_pointers[m], error.what());
         }
     }
-    throw InputError(document.file, document.material_pointers[document.stack.incident],
-                     fallback.what());
+    throw schemas::InputError(document.file, document.material_pointers[document.stack.incident],
+                              fallback.what());
 }
 
-IndexTable index_table(const StackDocument& document, const std::vector<double>& wavelengths_nm) {
+IndexTable index_table(const schemas::StackDocument& document,
+                       const std::vector<double>& wavelengths_nm) {
     try {
         return {document.stack, wavelengths_nm};
     } catch (const DomainError& error) {
@@ -51,16 +52,16 @@ IndexTable index_table(const StackDocument& document, const std::vector<double>&
     }
 }
 
-StackPower stack_power(const StackDocument& document, const Stack& stack) {
+StackPower stack_power(const schemas::StackDocument& document, const Stack& stack) {
     try {
         return StackPower(stack);
     } catch (const DomainError& error) {
-        throw InputError(document.file, "", error.what());
+        throw schemas::InputError(document.file, "", error.what());
     }
 }
 
 struct SpectrumStack : PreparedStack {
-    SpectrumStack(StackDocument read, const std::vector<double>& wavelengths_nm)
+    SpectrumStack(schemas::StackDocument read, const std::vector<double>& wavelengths_nm)
         : PreparedStack(std::move(read)), table(index_table(document, wavelengths_nm)) {}
 
     IndexTable table;
@@ -179,8 +180,8 @@ private:
 };
 
 /// Leaves the first rows of each column.
-void cut(Records& records, std::size_t rows) {
-    for (Column& column : records.columns)
+void cut(tables::Records& records, std::size_t rows) {
+    for (tables::Column& column : records.columns)
         std::visit(
             [&](auto& values) {
                 if constexpr (requires { values.codes; })
@@ -224,7 +225,7 @@ public:
             spectra(power, table, incident_angles_of(incidence.angles_deg), needs,
                     question_.execution_, spectra_);
         } catch (const DomainError& error) {
-            throw InputError(prepared.document.file, "", error.what());
+            throw schemas::InputError(prepared.document.file, "", error.what());
         }
         const std::size_t layers = needs.layers ? power.layer_count() : 0;
         if (numbers_.empty()) begin(layers);
@@ -233,10 +234,10 @@ public:
         return append(incidence, table.wavelength_nm());
     }
 
-    Records records() override {
-        Records records{{{"wavelength_nm", std::move(wavelength_)},
-                         {"angle_deg", std::move(angle_)},
-                         {"polarization", std::move(polarization_)}}};
+    tables::Records records() override {
+        tables::Records records{{{"wavelength_nm", std::move(wavelength_)},
+                                 {"angle_deg", std::move(angle_)},
+                                 {"polarization", std::move(polarization_)}}};
         for (std::size_t c = 0; c < names_.size(); ++c)
             records.columns.push_back({names_[c], std::move(numbers_[c])});
         numbers_.clear();
@@ -284,9 +285,9 @@ private:
     std::optional<IndexTable> other_;
     std::size_t layers_ = 0;
     std::vector<std::string> names_;
-    std::vector<Column::Numbers> numbers_;
-    Column::CodedNumbers wavelength_, angle_;
-    Column::CodedTexts polarization_;
+    std::vector<tables::Column::Numbers> numbers_;
+    tables::Column::CodedNumbers wavelength_, angle_;
+    tables::Column::CodedTexts polarization_;
     bool shared_wavelengths_ = false;  ///< the last values are those of the question
     std::uint32_t first_wavelength_ = 0;
 };
@@ -303,17 +304,18 @@ SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering
       execution_(answering.execution),
       note_(answering.note) {}
 
-RecordLayout SpectrumQuestion::layout(const StackDocument& document) const {
+tables::RecordLayout SpectrumQuestion::layout(const schemas::StackDocument& document) const {
     const StackPower power = stack_power(document, document.stack);
     const bool by_layer = spectrum_needs(polarizations_, columns_, power).layers;
-    RecordLayout layout{
-        {"wavelength_nm"}, {"angle_deg"}, {"polarization", RecordField::Type::text, 1}};
+    tables::RecordLayout layout{
+        {"wavelength_nm"}, {"angle_deg"}, {"polarization", tables::RecordField::Type::text, 1}};
     for (std::string& name : spectrum_number_names(columns_, by_layer ? power.layer_count() : 0))
         layout.push_back({std::move(name)});
     return layout;
 }
 
-std::unique_ptr<const PreparedStack> SpectrumQuestion::prepare(StackDocument document) const {
+std::unique_ptr<const PreparedStack> SpectrumQuestion::prepare(
+    schemas::StackDocument document) const {
     spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));
     auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
     note_incident(prepared->document, prepared->table, note_);
@@ -345,8 +347,8 @@ std::uint64_t SpectrumQuestion::rows() const {
     return std::uint64_t{rows_per_angle()} * angles_deg_.size();
 }
 
-double SpectrumQuestion::try_share(const StackDocument& document, const Incidence& incidence,
-                                   double share) const {
+double SpectrumQuestion::try_share(const schemas::StackDocument& document,
+                                   const Incidence& incidence, double share) const {
     const std::size_t all = wavelengths_nm_.size();
     if (incidence.wavelength_nm || all == 0) return Question::try_share(document, incidence, share);
     const auto wanted = static_cast<std::size_t>(std::round(share * static_cast<double>(all)));
@@ -359,8 +361,8 @@ double SpectrumQuestion::try_share(const StackDocument& document, const Incidenc
     return static_cast<double>(count) / static_cast<double>(all);
 }
 
-void SpectrumQuestion::each_block(const StackDocument& document,
-                                  const std::function<void(const Records&)>& take) const {
+void SpectrumQuestion::each_block(const schemas::StackDocument& document,
+                                  const std::function<void(const tables::Records&)>& take) const {
     const std::size_t most = std::max<std::size_t>(1, kBlockNumbers / layout(document).size());
     if (rows_per_angle() > most) return each_part_of_angle(document, most, take);
     const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
@@ -374,8 +376,9 @@ void SpectrumQuestion::each_block(const StackDocument& document,
     }
 }
 
-void SpectrumQuestion::each_part_of_angle(const StackDocument& document, std::size_t most,
-                                          const std::function<void(const Records&)>& take) const {
+void SpectrumQuestion::each_part_of_angle(
+    const schemas::StackDocument& document, std::size_t most,
+    const std::function<void(const tables::Records&)>& take) const {
     const std::size_t all = wavelengths_nm_.size();
     Witnesses witnesses;
     for (std::size_t w = 0; w < all; w += most) {
@@ -403,7 +406,7 @@ void SpectrumQuestion::each_part_of_angle(const StackDocument& document, std::si
         for (SpectrumAnswers& of_polarization : answers)
             for (std::size_t w = 0; w < all; w += most) {
                 of_polarization.add(prepared(w), document.stack, {{&angle_deg, 1}});
-                Records rows = of_polarization.records();
+                tables::Records rows = of_polarization.records();
                 cut(rows, std::min(most, all - w));
                 take(rows);
             }
@@ -454,4 +457,4 @@ nlohmann::json SpectrumOptions::typed() const {
             {"columns", columns}};
 }
 
-}  // namespace irido
+}  // namespace irido::cli

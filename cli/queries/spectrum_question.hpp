@@ -6,7 +6,7 @@
 #include "cli/queries/question.hpp"
 #include "cli/queries/spectrum_columns.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// What irido spectrum is asked, as typed.
 struct SpectrumOptions : QuestionOptions {
@@ -30,20 +30,20 @@ public:
     std::size_t rows_per_angle() const override {
         return polarizations_.size() * (varies_wavelength_ ? 1 : wavelengths_nm_.size());
     }
-    RecordLayout layout(const StackDocument& document) const override;
-    std::unique_ptr<const PreparedStack> prepare(StackDocument document) const override;
+    tables::RecordLayout layout(const schemas::StackDocument& document) const override;
+    std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
-    double try_share(const StackDocument& document, const Incidence& incidence,
+    double try_share(const schemas::StackDocument& document, const Incidence& incidence,
                      double share) const override;
 
     /// Rows of all wavelengths, angles and polarizations.
     std::uint64_t rows() const;
     /// Gives all rows of a stack in their order, block after block, in memory that does not grow
     /// with their number: the values of prepare() and answers(). Throws as these.
-    void each_block(const StackDocument& document,
-                    const std::function<void(const Records&)>& take) const;
+    void each_block(const schemas::StackDocument& document,
+                    const std::function<void(const tables::Records&)>& take) const;
 
     /// How a stack was computed, and what its physics spared, in lines.
     std::vector<std::string> stats(const PreparedStack& prepared) const;
@@ -51,8 +51,8 @@ public:
 private:
     friend class SpectrumAnswers;
 
-    void each_part_of_angle(const StackDocument& document, std::size_t most,
-                            const std::function<void(const Records&)>& take) const;
+    void each_part_of_angle(const schemas::StackDocument& document, std::size_t most,
+                            const std::function<void(const tables::Records&)>& take) const;
 
     bool varies_wavelength_;
     std::vector<double> wavelengths_nm_;  ///< none if they vary
@@ -63,4 +63,4 @@ private:
     std::function<void(const std::string&)> note_;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

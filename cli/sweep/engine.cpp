@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -34,9 +34,11 @@ public:
         : space_(space), columns_(columns), last_(columns.size(), kNone) {
         for (const std::size_t c : columns_) {
             if (space_.columns()[c].is_text()) {
-                records_.columns.push_back({space_.columns()[c].path, Column::CodedTexts{}});
+                records_.columns.push_back(
+                    {space_.columns()[c].path, tables::Column::CodedTexts{}});
             } else {
-                records_.columns.push_back({space_.columns()[c].path, Column::CodedNumbers{}});
+                records_.columns.push_back(
+                    {space_.columns()[c].path, tables::Column::CodedNumbers{}});
             }
         }
     }
@@ -47,31 +49,32 @@ public:
             const SweptColumn& column = space_.columns()[columns_[i]];
             const bool is_new = index != last_[i];
             last_[i] = index;
-            if (auto* texts = std::get_if<Column::CodedTexts>(&records_.columns[i].values)) {
+            if (auto* texts =
+                    std::get_if<tables::Column::CodedTexts>(&records_.columns[i].values)) {
                 if (is_new) texts->values.push_back(column.texts[index]);
                 append(*texts, rows);
             } else {
-                auto& numbers = std::get<Column::CodedNumbers>(records_.columns[i].values);
+                auto& numbers = std::get<tables::Column::CodedNumbers>(records_.columns[i].values);
                 if (is_new) numbers.values.push_back(column.numbers[index]);
                 append(numbers, rows);
             }
         }
     }
 
-    Records take() { return std::move(records_); }
+    tables::Records take() { return std::move(records_); }
 
 private:
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
     template <class Value>
-    static void append(Column::Coded<Value>& to, std::size_t rows) {
+    static void append(tables::Column::Coded<Value>& to, std::size_t rows) {
         to.codes.insert(to.codes.end(), rows, static_cast<std::uint32_t>(to.values.size() - 1));
     }
 
     const SweepSpace& space_;
     const std::vector<std::size_t>& columns_;
     std::vector<std::size_t> last_;
-    Records records_;
+    tables::Records records_;
 };
 
 /// The most bytes that a value of a column has.
@@ -81,13 +84,13 @@ std::size_t width_of(const SweptColumn& column) {
     return width;
 }
 
-RecordField field_of(const SweptColumn& column) {
-    if (column.is_text()) return {column.path, RecordField::Type::text, width_of(column)};
+tables::RecordField field_of(const SweptColumn& column) {
+    if (column.is_text()) return {column.path, tables::RecordField::Type::text, width_of(column)};
     return {column.path};
 }
 
-bool has_field(const RecordLayout& layout, const std::string& name) {
-    return std::ranges::find(layout, name, &RecordField::name) != layout.end();
+bool has_field(const tables::RecordLayout& layout, const std::string& name) {
+    return std::ranges::find(layout, name, &tables::RecordField::name) != layout.end();
 }
 
 /// Runs `work`; what it throws says where: at place().
@@ -98,7 +101,7 @@ auto at_place(const Place& place, const Work& work) {
     } catch (const ToleranceError& error) {
         throw ToleranceError("at " + place() + ": " + error.what());
     } catch (const Error& error) {
-        throw InputError("", "", "at " + place() + ": " + error.what());
+        throw schemas::InputError("", "", "at " + place() + ": " + error.what());
     }
 }
 
@@ -196,9 +199,9 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
     }
     rows_per_unit_ = question.rows_per_angle();
     if (!angle_column_ && !question.splits_angles()) rows_per_unit_ *= question.angles_deg().size();
-    const RecordLayout answered = question.layout(stacks_.first());
+    const tables::RecordLayout answered = question.layout(stacks_.first());
     for (const SweptColumn& column : columns) layout_.push_back(field_of(column));
-    for (const RecordField& field : answered)
+    for (const tables::RecordField& field : answered)
         if (!has_field(layout_, field.name)) layout_.push_back(field);
 }
 
@@ -275,11 +278,11 @@ std::size_t SweepEngine::add(std::uint64_t unit, std::size_t count, SweptStacks:
     return at_place(place, work);
 }
 
-Records SweepEngine::assembled(Records leading, Records answered) const {
-    Records all;
-    for (Column& column : leading.columns) all.columns.push_back(std::move(column));
+tables::Records SweepEngine::assembled(tables::Records leading, tables::Records answered) const {
+    tables::Records all;
+    for (tables::Column& column : leading.columns) all.columns.push_back(std::move(column));
     const auto move_here = [&](const std::string& name) {
-        const auto found = std::ranges::find(answered.columns, name, &Column::name);
+        const auto found = std::ranges::find(answered.columns, name, &tables::Column::name);
         all.columns.push_back(std::move(*found));
         answered.columns.erase(found);
     };
@@ -289,7 +292,7 @@ Records SweepEngine::assembled(Records leading, Records answered) const {
         std::rotate(all.columns.begin() + static_cast<std::ptrdiff_t>(c), all.columns.end() - 1,
                     all.columns.end());
     }
-    for (Column& column : answered.columns) all.columns.push_back(std::move(column));
+    for (tables::Column& column : answered.columns) all.columns.push_back(std::move(column));
     if (all.columns.size() != layout_.size())
         throw UsageError("--columns: A_layers needs as many layers in every stack of a sweep");
     return all;
@@ -308,7 +311,7 @@ void SweepEngine::take_alone(std::uint64_t unit, const std::function<void()>& ta
     }
 }
 
-void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const RecordFormat& format,
+void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const tables::RecordFormat& format,
                           const std::atomic<bool>& stopped) {
     LeadingColumns leading(space_, led_by_);
     const std::unique_ptr<Answers> answers = question_.answers();
@@ -343,7 +346,7 @@ double SweepEngine::try_units(std::uint64_t first, double units) {
     }
     const std::uint64_t combination = combination_of(first);
     const auto& place = walk.at(combination);
-    StackDocument document = place.prepared->document;
+    schemas::StackDocument document = place.prepared->document;
     document.stack = place.stack;
     double angle_deg = angles_[first % angles_.size()];
     if (angle_column_) angle_deg = number_at(*angle_column_, combination);
@@ -363,8 +366,8 @@ double SweepEngine::seconds_of(std::uint64_t begin, std::uint64_t end, unsigned 
     return tried_seconds(static_cast<double>(end - begin), kFirstShare, seconds);
 }
 
-bool SweepEngine::run(std::uint64_t begin, std::uint64_t end, const RecordFormat& format,
-                      RecordStream& stream, unsigned threads,
+bool SweepEngine::run(std::uint64_t begin, std::uint64_t end, const tables::RecordFormat& format,
+                      tables::RecordStream& stream, unsigned threads,
                       const std::function<bool(std::uint64_t)>& proceed) {
     threads = threads_used(threads);
     const std::uint64_t rows = std::max<std::uint64_t>(1, rows_per_unit_);
@@ -402,4 +405,4 @@ bool SweepEngine::run(std::uint64_t begin, std::uint64_t end, const RecordFormat
     return true;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

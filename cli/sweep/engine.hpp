@@ -8,7 +8,7 @@
 #include "cli/sweep/stacks.hpp"
 #include "tables/resume/record_stream.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// What is computed once and handed out many times, and how often.
 struct SweepCounts {
@@ -26,7 +26,7 @@ public:
                 bool keep_going);
 
     std::uint64_t units() const { return units_; }
-    const RecordLayout& layout() const { return layout_; }
+    const tables::RecordLayout& layout() const { return layout_; }
     /// Rows of one unit; 0 if their number is not known before.
     std::uint64_t rows_per_unit() const { return rows_per_unit_; }
     /// Where the part of shard K of N ends, for K in [0, N]: parts of the same cost, more or less,
@@ -39,8 +39,8 @@ public:
     /// Writes the rows of units in [begin, end) in order, computed by so many threads (0: one a
     /// core). `proceed` is called now and then with the number of units that are written; if it
     /// returns false, run() ends early and returns false. Throws what a unit throws.
-    bool run(std::uint64_t begin, std::uint64_t end, const RecordFormat& format,
-             RecordStream& stream, unsigned threads,
+    bool run(std::uint64_t begin, std::uint64_t end, const tables::RecordFormat& format,
+             tables::RecordStream& stream, unsigned threads,
              const std::function<bool(std::uint64_t)>& proceed);
 
     const SweepCounts& counts() const { return counts_; }
@@ -58,7 +58,7 @@ private:
         return space_.columns()[column].numbers[space_.at(column, combination)];
     }
     double cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const;
-    void compute(Block& block, SweptStacks::Walk& walk, const RecordFormat& format,
+    void compute(Block& block, SweptStacks::Walk& walk, const tables::RecordFormat& format,
                  const std::atomic<bool>& stopped);
     /// Takes one unit, or leaves it out.
     void take_alone(std::uint64_t unit, const std::function<void()>& take);
@@ -66,7 +66,7 @@ private:
                     Answers& answers);
     /// Computes so many units, or part of one, and forgets them; returns how many it were.
     double try_units(std::uint64_t first, double units);
-    Records assembled(Records leading, Records answered) const;
+    tables::Records assembled(tables::Records leading, tables::Records answered) const;
 
     SweptStacks& stacks_;
     const SweepSpace& space_;
@@ -77,11 +77,11 @@ private:
     std::vector<std::size_t> led_by_;  ///< columns that are values of the stack
     std::optional<std::size_t> angle_column_, wavelength_column_;  ///< set by the combination
     std::uint64_t units_ = 0, rows_per_unit_ = 0;
-    RecordLayout layout_;
+    tables::RecordLayout layout_;
     SweepCounts counts_;
     std::mutex left_out_lock_;
     std::uint64_t first_left_out_unit_ = ~std::uint64_t{0};
     std::string first_left_out_;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

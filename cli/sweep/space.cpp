@@ -13,7 +13,7 @@
 #include "schemas/readers/text_file.hpp"
 #include "schemas/readers/utf8.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -28,7 +28,7 @@ std::pair<double, double> range_of(std::string_view path) {
 
 /// Whether an item of a list is a number or start:stop:step or start:stop/count.
 bool is_numeric(std::string_view item) {
-    return parse_number(trimmed(item.substr(0, item.find(':')))).has_value();
+    return schemas::parse_number(schemas::trimmed(item.substr(0, item.find(':')))).has_value();
 }
 
 std::vector<double> numbers_of(const std::string& path, std::string_view list) {
@@ -44,7 +44,7 @@ bool SweptColumn::is_light() const {
 
 nlohmann::json SweptColumn::value(std::size_t index) const {
     if (!is_text()) return numbers[index];
-    return value_from_text(path, texts[index]);
+    return schemas::value_from_text(path, texts[index]);
 }
 
 std::string SweptColumn::text(std::size_t index) const {
@@ -95,8 +95,9 @@ std::string SweepSpace::describe(std::uint64_t combination) const {
 }
 
 void SweepSpace::add_points(const std::string& file) {
-    points_file_ = shown_path(file);
-    for (PointsColumn& read : read_points_csv(read_text(file), points_file_)) {
+    points_file_ = schemas::shown_path(file);
+    for (schemas::PointsColumn& read :
+         schemas::read_points_csv(schemas::read_text(file), points_file_)) {
         SweptColumn column{std::move(read.path), std::move(read.numbers), std::move(read.texts),
                            std::move(read.codes)};
         column.of_points = true;
@@ -113,11 +114,12 @@ void SweepSpace::check_light(std::size_t column) const {
     for (std::size_t i = 0; i < of.size(); ++i) {
         // where one cell of a column is a text, all are
         const double value =
-            of.is_text() ? parse_number(of.texts[i]).value_or(lowest - 1) : of.numbers[i];
+            of.is_text() ? schemas::parse_number(of.texts[i]).value_or(lowest - 1) : of.numbers[i];
         if (!(value >= lowest && value <= highest))
-            throw InputError("", "",
-                             origin_of(column, i) + of.path + ": must be in [" + to_text(lowest) +
-                                 ", " + to_text(highest) + "] (got " + of.text(i) + ")");
+            throw schemas::InputError("", "",
+                                      origin_of(column, i) + of.path + ": must be in [" +
+                                          to_text(lowest) + ", " + to_text(highest) + "] (got " +
+                                          of.text(i) + ")");
     }
 }
 
@@ -129,12 +131,12 @@ void SweepSpace::add_list(const std::string& text) {
     SweptColumn column;
     column.path = text.substr(0, equals);
     const std::string_view list = std::string_view(text).substr(equals + 1);
-    const std::vector<std::string_view> items = split_values(list);
+    const std::vector<std::string_view> items = schemas::split_values(list);
     if (column.is_light() || std::ranges::all_of(items, is_numeric)) {
         column.numbers = numbers_of(column.path, list);
     } else {
         for (const std::string_view item : items) {
-            const std::string_view value = trimmed(item);
+            const std::string_view value = schemas::trimmed(item);
             if (value.empty())
                 throw UsageError("--vary " + column.path + ": a value is empty (got '" +
                                  std::string(list) + "')");
@@ -153,18 +155,21 @@ void SweepSpace::check() const {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
         for (std::size_t b = 0; b < columns_.size(); ++b) {
             const std::string &path = columns_[c].path, &other = columns_[b].path;
-            if (b == c || !is_part_of(path, other)) continue;
+            if (b == c || !schemas::is_part_of(path, other)) continue;
             const std::string by = columns_[c].of_points ? "--points: " : "--vary: ";
-            if (is_part_of(other, path)) throw UsageError(by + path + " is varied twice");
+            if (schemas::is_part_of(other, path)) throw UsageError(by + path + " is varied twice");
             throw UsageError(by + path + " is inside of " + other + ", which varies, too");
         }
-        if (!is_well_formed(columns_[c].path))
-            throw UsageError("--vary: " + well_formed(columns_[c].path) + ": " + kNoText);
+        if (!schemas::is_well_formed(columns_[c].path))
+            throw UsageError("--vary: " + schemas::well_formed(columns_[c].path) + ": " +
+                             schemas::kNoText);
         for (std::size_t i = 0; i < columns_[c].texts.size(); ++i)
-            if (!is_well_formed(columns_[c].texts[i]))
-                throw InputError(
-                    "", "", origin_of(c, i) + well_formed(columns_[c].texts[i]) + ": " + kNoText);
+            if (!schemas::is_well_formed(columns_[c].texts[i]))
+                throw schemas::InputError("", "",
+                                          origin_of(c, i) +
+                                              schemas::well_formed(columns_[c].texts[i]) + ": " +
+                                              schemas::kNoText);
     }
 }
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace irido {
+namespace irido::cli {
 
 inline constexpr std::string_view kSweptAngle = "angle_deg", kSweptWavelength = "wavelength_nm";
 
@@ -59,4 +59,4 @@ private:
     std::uint64_t points_ = 1, size_ = 1;
 };
 
-}  // namespace irido
+}  // namespace irido::cli

@@ -5,7 +5,7 @@
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 namespace {
 
@@ -18,7 +18,7 @@ std::vector<std::size_t> columns_where(const SweepSpace& space, bool thickness) 
     std::vector<std::size_t> columns;
     for (std::size_t c = 0; c < space.columns().size(); ++c) {
         const SweptColumn& column = space.columns()[c];
-        if (!column.is_light() && VariedStack::is_thickness(column.path) == thickness)
+        if (!column.is_light() && schemas::VariedStack::is_thickness(column.path) == thickness)
             columns.push_back(c);
     }
     return columns;
@@ -36,29 +36,32 @@ template <class Work>
 void from_origin(const SweepSpace& space, std::size_t column, std::size_t index, const Work& work) {
     try {
         work();
-    } catch (const InputError& error) {
-        throw InputError("", "", space.origin_of(column, index) + error.what());
+    } catch (const schemas::InputError& error) {
+        throw schemas::InputError("", "", space.origin_of(column, index) + error.what());
     }
 }
 
 /// The source with the middle one of every varied thickness, for which structures are prepared.
-StackSource with_thicknesses(StackSource source, const SweepSpace& space,
-                             const std::vector<std::size_t>& thicknesses) {
+schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSpace& space,
+                                      const std::vector<std::size_t>& thicknesses) {
     for (const std::size_t c : thicknesses) {
         const SweptColumn& column = space.columns()[c];
-        if (column.is_text()) throw InputError("", "", space.origin_of(c, 0) + "must be numbers");
+        if (column.is_text())
+            throw schemas::InputError("", "", space.origin_of(c, 0) + "must be numbers");
         for (std::size_t i = 0; i < column.size(); ++i)
             from_origin(space, c, i, [&] {
-                VariedStack::require_thickness(source.file, column.path, column.numbers[i]);
+                schemas::VariedStack::require_thickness(source.file, column.path,
+                                                        column.numbers[i]);
             });
-        set_value(source.document, column.path, column.value(column.size() / 2));
+        schemas::set_value(source.document, column.path, column.value(column.size() / 2));
     }
     return source;
 }
 
 }  // namespace
 
-SweptStacks::SweptStacks(StackSource source, const SweepSpace& space, const Question& question)
+SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space,
+                         const Question& question)
     : space_(space),
       question_(question),
       structural_(columns_where(space, false)),
@@ -87,7 +90,7 @@ std::vector<std::size_t> SweptStacks::key_of(std::uint64_t combination) const {
     return key;
 }
 
-StackDocument SweptStacks::document(const std::vector<std::size_t>& key) const {
+schemas::StackDocument SweptStacks::document(const std::vector<std::size_t>& key) const {
     std::vector<nlohmann::json> values;
     values.reserve(key.size());
     for (std::size_t s = 0; s < key.size(); ++s)
@@ -129,10 +132,10 @@ SweptStacks::Walk::Place& SweptStacks::Walk::structure_at(std::uint64_t combinat
     place.prepared = std::move(prepared);
     for (const std::size_t c : stacks_.thicknesses_) {
         const std::string& path = stacks_.space_.columns()[c].path;
-        place.varied.push_back(VariedStack::layer_at(place.stack, path));
+        place.varied.push_back(schemas::VariedStack::layer_at(place.stack, path));
         if (place.varied.back()) continue;
         places_.erase(key_);
-        throw InputError(stacks_.file_, path, "there is no layer there");
+        throw schemas::InputError(stacks_.file_, path, "there is no layer there");
     }
     return place;
 }
@@ -147,4 +150,4 @@ const SweptStacks::Walk::Place& SweptStacks::Walk::at(std::uint64_t combination)
     return place;
 }
 
-}  // namespace irido
+}  // namespace irido::cli

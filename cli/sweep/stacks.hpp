@@ -10,7 +10,7 @@
 #include "cli/sweep/space.hpp"
 #include "schemas/documents/varied_stack.hpp"
 
-namespace irido {
+namespace irido::cli {
 
 /// The stacks of a sweep. Those that differ in thicknesses only are one structure, which is read
 /// and prepared once, unless more than kMostStructures others came in between. Safe from many
@@ -19,12 +19,12 @@ class SweptStacks {
 public:
     /// Refers to space and question. Throws InputError for the first value that is wrong by itself,
     /// whatever the others are.
-    SweptStacks(StackSource source, const SweepSpace& space, const Question& question);
+    SweptStacks(schemas::StackSource source, const SweepSpace& space, const Question& question);
 
     static constexpr std::size_t kMostStructures = 32;
 
     /// The document of the first combination, but for its thicknesses.
-    const StackDocument& first() const { return first_; }
+    const schemas::StackDocument& first() const { return first_; }
 
     /// Stacks that one thread goes through, combination by combination.
     class Walk {
@@ -59,7 +59,7 @@ private:
     };
 
     void read_values();
-    StackDocument document(const std::vector<std::size_t>& key) const;
+    schemas::StackDocument document(const std::vector<std::size_t>& key) const;
     std::vector<std::size_t> key_of(std::uint64_t combination) const;
     std::shared_ptr<const PreparedStack> prepared(const std::vector<std::size_t>& key);
     std::shared_ptr<Structure> entry(const std::vector<std::size_t>& key);
@@ -67,13 +67,13 @@ private:
     const SweepSpace& space_;
     const Question& question_;
     std::vector<std::size_t> structural_, thicknesses_;  ///< columns of the space
-    VariedStack varied_;
+    schemas::VariedStack varied_;
     std::string file_;
-    StackDocument first_;
+    schemas::StackDocument first_;
     std::mutex lock_;
     std::map<std::vector<std::size_t>, std::shared_ptr<Structure>> structures_;
     std::uint64_t uses_ = 0;
     std::atomic<std::uint64_t> prepared_count_{0};
 };
 
-}  // namespace irido
+}  // namespace irido::cli

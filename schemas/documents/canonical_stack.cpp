@@ -5,7 +5,7 @@
 
 #include "core/material/library.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -159,4 +159,4 @@ json canonical_stack(const Stack& stack) {
             {"substrate", writer.material(stack.substrate)}};
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -4,7 +4,7 @@
 
 #include "core/stack/stack.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// A stack as a document that depends on its physics alone: without names and paths, equal
 /// materials written alike (a library's material by its name, a constant n as a number, data of
@@ -14,4 +14,4 @@ namespace irido {
 /// or {"table": [[nm, value], ...]}.
 nlohmann::json canonical_stack(const Stack& stack);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -18,7 +18,7 @@
 #include "schemas/readers/text_file.hpp"
 #include "schemas/readers/utf8.hpp"
 
-namespace irido {
+namespace irido::schemas {
 namespace {
 
 using nlohmann::json;
@@ -291,4 +291,4 @@ std::vector<std::string_view> split_values(std::string_view text) {
     return values;
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

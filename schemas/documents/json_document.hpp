@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace irido {
+namespace irido::schemas {
 
 /// JSON as irido reads it: UTF-8 (a byte order mark is skipped), no comments, no key twice in an
 /// object, at most 64 levels deep, every number a finite double.
@@ -31,4 +31,4 @@ nlohmann::json value_from_text(std::string_view path, std::string_view text);
 /// and double quotes, blanks at their ends left out, empty ones among them.
 std::vector<std::string_view> split_values(std::string_view text);
 
-}  // namespace irido
+}  // namespace irido::schemas

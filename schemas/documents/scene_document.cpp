@@ -11,7 +11,7 @@
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -218,4 +218,4 @@ std::string fault_text(const Scene& scene, const std::string& material, const Sc
         .what();
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

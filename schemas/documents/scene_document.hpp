@@ -6,7 +6,7 @@
 
 #include "schemas/documents/stack_document.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// How an engine shades a material.
 enum class Shading {
@@ -88,4 +88,4 @@ std::string fault_text(const Scene& scene, const std::string& material, const Sc
 /// The text of scene.schema.json.
 const char* scene_schema_text();
 
-}  // namespace irido
+}  // namespace irido::schemas

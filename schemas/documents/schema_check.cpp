@@ -20,7 +20,7 @@
 // errors apart. The words come from two keywords that it lets us add to its own: while it
 // validates, they look at the errors just recorded for the same value and add a line to them.
 
-namespace irido {
+namespace irido::schemas {
 namespace {
 
 using nlohmann::json;
@@ -266,4 +266,4 @@ std::vector<Problem> check(const Schema& schema, const json& document) {
     return problems;
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

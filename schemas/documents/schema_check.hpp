@@ -9,7 +9,7 @@ namespace valijson {
 class Schema;
 }
 
-namespace irido {
+namespace irido::schemas {
 
 /// One broken rule of a document.
 struct Problem {
@@ -43,4 +43,4 @@ std::string short_text(const nlohmann::json& value);
 /// `key` as a step of a JSON pointer, with its slash in front.
 std::string pointer_step(const std::string& key);
 
-}  // namespace irido
+}  // namespace irido::schemas

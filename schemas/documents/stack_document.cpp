@@ -27,7 +27,7 @@
 #include "schemas/readers/text_file.hpp"
 #include "schemas/readers/utf8.hpp"
 
-namespace irido {
+namespace irido::schemas {
 namespace {
 
 using nlohmann::json;
@@ -539,4 +539,4 @@ std::vector<std::string> validate_stack_file(const std::string& path) {
     return stack_problems(document, shown_path(path), folder_of(path));
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -7,7 +7,7 @@
 #include "core/stack/stack.hpp"
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// What the user typed to name a stack.
 struct StackRequest {
@@ -64,4 +64,4 @@ std::string incident_note(double k);
 /// The text of stack.schema.json.
 const char* stack_schema_text();
 
-}  // namespace irido
+}  // namespace irido::schemas

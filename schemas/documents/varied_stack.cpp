@@ -9,7 +9,7 @@
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -136,4 +136,4 @@ void VariedStack::require_thickness(const std::string& file, const std::string& 
         throw InputError(file, path, "must be in [0, 1e9] (got " + to_text(thickness_nm) + ")");
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -9,7 +9,7 @@
 
 #include "schemas/documents/stack_document.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// A stack some of whose values vary, each named by its dotted path in the document
 /// ("layers.0.thickness_nm").
@@ -57,4 +57,4 @@ private:
     bool varies_thickness_only_ = false;
 };
 
-}  // namespace irido
+}  // namespace irido::schemas

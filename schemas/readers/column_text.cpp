@@ -12,7 +12,7 @@
 #include "schemas/readers/number.hpp"
 #include "schemas/readers/utf8.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -389,4 +389,4 @@ void require_nm(const ColumnText& table, std::size_t column, const std::string& 
                          " looks like um or eV (a header such as um,n,k or eV,n,k says so)");
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

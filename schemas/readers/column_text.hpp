@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace irido {
+namespace irido::schemas {
 
 /// A line of a text, without its end.
 struct TextLine {
@@ -73,4 +73,4 @@ double to_nm(double value, SpectralUnit unit);
 /// Throws InputError if wavelengths without a unit look like um: if all are below 50.
 void require_nm(const ColumnText& table, std::size_t column, const std::string& name);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -112,4 +112,4 @@ MaterialFile material_of(const std::string& file, Dispersion n, std::optional<Ta
     return {std::move(material), std::move(notes), std::move(source)};
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

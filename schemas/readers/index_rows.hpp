@@ -7,7 +7,7 @@
 
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// A row of a table of a file: a wavelength in nm and one or two values.
 using IndexRow = std::array<double, 3>;
@@ -37,4 +37,4 @@ std::string plural(std::size_t count, const std::string& noun);
 /// "400 to 700 nm".
 std::string in_words(WavelengthRange range);
 
-}  // namespace irido
+}  // namespace irido::schemas

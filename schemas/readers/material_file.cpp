@@ -10,7 +10,7 @@
 #include "schemas/readers/materials/refractiveindex_info.hpp"
 #include "schemas/readers/text_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -46,4 +46,4 @@ const MaterialFile& MaterialFiles::read(const std::string& path) {
     return known_.emplace(path, read_material_file(text, path)).first->second;
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -8,7 +8,7 @@
 
 #include "core/material/material.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// A material read from a file.
 struct MaterialFile {
@@ -35,4 +35,4 @@ private:
     std::map<std::string, MaterialFile> known_;
 };
 
-}  // namespace irido
+}  // namespace irido::schemas

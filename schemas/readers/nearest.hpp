@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace irido {
+namespace irido::schemas {
 
 /// The candidate that `word` is most likely a misspelling of, or "" if none is near: one edit, or
 /// at most one in three letters, upper and lower case being the same letter.
@@ -13,4 +13,4 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 /// ` (did you mean "X"?)` with the nearest candidate, or "".
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
-}  // namespace irido
+}  // namespace irido::schemas

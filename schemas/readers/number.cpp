@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace irido {
+namespace irido::schemas {
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kBlank = " \t\r";
@@ -29,4 +29,4 @@ std::string in_quotes(std::string_view text) {
     return result + (text.size() > kLongest ? "...'" : "'");
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

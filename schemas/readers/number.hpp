@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace irido {
+namespace irido::schemas {
 
 /// `text` without spaces, tabs and carriage returns at its ends.
 std::string_view trimmed(std::string_view text);
@@ -17,4 +17,4 @@ std::optional<double> parse_number(std::string_view text);
 /// `text` in single quotes for a message: at most 40 bytes of it, without control characters.
 std::string in_quotes(std::string_view text);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -11,7 +11,7 @@
 #include "schemas/readers/text_file.hpp"
 #include "schemas/readers/utf8.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::vector<PointsColumn> read_points_csv(std::string_view text, const std::stri
     return columns;
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace irido {
+namespace irido::schemas {
 
 /// The values of one path, one a row: numbers, or texts by their codes.
 struct PointsColumn {
@@ -22,4 +22,4 @@ struct PointsColumn {
 /// an empty cell and a number that is not finite.
 std::vector<PointsColumn> read_points_csv(std::string_view text, const std::string& name);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -7,7 +7,7 @@
 #include "schemas/readers/column_text.hpp"
 #include "schemas/readers/index_rows.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -64,4 +64,4 @@ Table read_spectrum_csv(std::string_view text, const std::string& name) {
     return column(rows, 1);
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -12,7 +12,7 @@
 #include "schemas/input_error.hpp"
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 namespace {
 
 using nlohmann::json;
@@ -297,4 +297,4 @@ StackExpression stack_expression(const Stack& stack) {
     return result;
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

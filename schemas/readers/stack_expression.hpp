@@ -7,7 +7,7 @@
 
 #include "core/stack/stack.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// "air | (TiO2@58.5 | SiO2@94.2)^10 | BK7@1mm! | air" as the document that a file would hold:
 /// media from the incident side to the substrate, thickness after @ in nm or in the unit that
@@ -34,4 +34,4 @@ struct StackExpression {
 /// index at 550 nm. A spread of thickness is left out.
 StackExpression stack_expression(const Stack& stack);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -15,7 +15,7 @@
 
 #include "schemas/input_error.hpp"
 
-namespace irido {
+namespace irido::schemas {
 namespace {
 
 constexpr std::size_t kMebibyte = std::size_t{1} << 20U;
@@ -133,4 +133,4 @@ std::string line_and_column(std::string_view text, std::size_t byte) {
     return std::to_string(line) + ":" + std::to_string(column);
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

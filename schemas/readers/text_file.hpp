@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace irido {
+namespace irido::schemas {
 
 /// What a text may be read from. A document that the user names may come from a pipe, a file that
 /// a document names must not: a pipe might make its reader wait for ever.
@@ -28,4 +28,4 @@ std::string shown_path(const std::string& path);
 /// "LINE:COLUMN" of a byte of a text, both counted from 1 in characters.
 std::string line_and_column(std::string_view text, std::size_t byte);
 
-}  // namespace irido
+}  // namespace irido::schemas

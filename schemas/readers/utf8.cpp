@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::string_view without_byte_order_mark(std::string_view text) {
     return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace irido {
+namespace irido::schemas {
 
 /// The code point at text[at], and `at` moves behind it; nothing, and `at` moves by one byte, where
 /// the bytes are not UTF-8. Source: RFC 3629.
@@ -24,4 +24,4 @@ bool is_well_formed(std::string_view text);
 /// The text after the byte order mark that it may begin with.
 std::string_view without_byte_order_mark(std::string_view text);
 
-}  // namespace irido
+}  // namespace irido::schemas

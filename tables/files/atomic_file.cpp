@@ -14,7 +14,7 @@
 
 #include "schemas/readers/text_file.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -74,7 +74,8 @@ std::string resolved_path(const std::string& path) {
 }
 
 void require_no_input(const std::string& path) {
-    if (is_input(path)) throw OutputError(path + ": is one of the inputs: name another file");
+    if (schemas::is_input(path))
+        throw OutputError(path + ": is one of the inputs: name another file");
 }
 
 void check_outputs(const std::vector<std::string>& paths) {
@@ -150,4 +151,4 @@ void remove_unfinished_file() noexcept {
     if (is_unfinished) unlink(unfinished_name.data());
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// Output that could not be written; the text names the file and the system's reason.
 struct OutputError : Error {
@@ -82,4 +82,4 @@ void check_binary_stdout();
 /// Removes the temporary file of a NewFile or write_file() that is under way. For signal handlers.
 void remove_unfinished_file() noexcept;
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -8,7 +8,7 @@
 
 #include "tables/files/plain_file.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::string sha256_of_file(const std::string& path) {
     return hash.digits();
 }
 
-}  // namespace irido
+}  // namespace irido::tables

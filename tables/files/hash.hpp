@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace irido {
+namespace irido::tables {
 
 /// SHA-256 as 64 hexadecimal digits.
 std::string sha256_of(std::string_view bytes);
@@ -11,4 +11,4 @@ std::string sha256_of(std::string_view bytes);
 /// The same of a file's content, in constant memory. Throws OutputError if it cannot be read.
 std::string sha256_of_file(const std::string& path);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -9,7 +9,7 @@
 
 #include "tables/files/atomic_file.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -72,4 +72,4 @@ void PlainFile::sync() const {
     if (fsync(descriptor_) != 0) fail_to_write(shown_, errno);
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace irido {
+namespace irido::tables {
 
 /// An open file whose errors are OutputErrors; closed with the object.
 class PlainFile {
@@ -31,4 +31,4 @@ private:
     int descriptor_;
 };
 
-}  // namespace irido
+}  // namespace irido::tables

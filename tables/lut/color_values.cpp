@@ -12,7 +12,7 @@
 #include "tables/lut/kind_parts.hpp"
 #include "tables/lut/light_facts.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -69,7 +69,7 @@ LutMeasure color_measure(const LutRequest& request) {
 nlohmann::json color_facts(const LutRequest& request) {
     nlohmann::json facts = light_facts(request);
     facts["color_space"] = request.space->name;
-    facts["stack"] = canonical_stack(request.document.stack);
+    facts["stack"] = schemas::canonical_stack(request.document.stack);
     facts["request"].update({{"side", request.color.sides.front() == Side::reflected ? "R" : "T"},
                              {"polarization", letter_of(request.color.light)},
                              {"adaptation", is_adapted(request) ? "bradford" : "none"},
@@ -109,4 +109,4 @@ double angle_of_cosine(double cosine) {
     return 90 - from_grazing * 180 / std::numbers::pi;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -7,7 +7,7 @@
 #include "core/colorimetry/space.hpp"
 #include "tables/lut/lut_kind.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 // What the kinds have in common whose values are colours, three channels each.
 
@@ -45,4 +45,4 @@ std::string unit_of_path(const std::string& path);
 /// Degrees in [0, 90] of a cosine in [0, 1], with its last digits near 90.
 double angle_of_cosine(double cosine);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -7,7 +7,7 @@
 #include "core/rough/ggx.hpp"
 #include "core/stack/index_table.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::vector<std::string> out_of_range(const Lut& lut,
     return problems;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -5,7 +5,7 @@
 
 #include "tables/lut/lut_kind.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 // What kinds of tables have in common.
 
@@ -44,4 +44,4 @@ std::string place_in(const Lut& lut, std::size_t sample);
 std::vector<std::string> out_of_range(const Lut& lut,
                                       const std::function<double(std::size_t sample)>& most);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace irido {
+namespace irido::tables {
 
 nlohmann::json light_facts(const LutRequest& request) {
     const Triple& white = request.sensitivity->white();
@@ -27,4 +27,4 @@ LutMeasure absolute_measure(std::size_t channels) {
             }};
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -6,7 +6,7 @@
 
 #include "core/math/half.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::size_t Lut::values_of_level(std::size_t level) const {
     return count;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

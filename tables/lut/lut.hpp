@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace irido {
+namespace irido::tables {
 
 /// The number format of a table's values in a file.
 enum class LutType { f16, f32, f64 };
@@ -56,4 +56,4 @@ struct Lut {
     std::size_t values_of_level(std::size_t level) const;  ///< numbers, channels counted
 };
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -9,7 +9,7 @@
 #include "tables/lut/lut_values.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -40,8 +40,9 @@ const LutFormat& lut_format_of(const std::string& file) {
 
 Lut read_lut(const std::string& file) {
     const LutFormat& format = lut_format_of(file);
-    const std::string bytes = read_own_file(file);
-    const std::string companion = exists(file + kCompanion) ? read_own_file(file + kCompanion) : "";
+    const std::string bytes = schemas::read_own_file(file);
+    const std::string companion =
+        exists(file + kCompanion) ? schemas::read_own_file(file + kCompanion) : "";
     try {
         return format.read(bytes, companion);
     } catch (const LutError& error) {
@@ -97,4 +98,4 @@ std::vector<std::string> lut_problems(const Lut& lut) {
     return problems;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

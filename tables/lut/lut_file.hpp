@@ -5,7 +5,7 @@
 
 #include "tables/lut/lut_format.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// The format whose name is the file's extension. Throws LutError that lists the formats.
 const LutFormat& lut_format_of(const std::string& file);
@@ -23,4 +23,4 @@ void write_lut(const Lut& lut, const std::string& file, const LutFormat& format,
 /// (facts["checksum"]) that is not that of the values.
 std::vector<std::string> lut_problems(const Lut& lut);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -4,7 +4,7 @@
 #include <array>
 
 #define IRIDO_DECLARE(name) extern const LutFormat name;
-namespace irido {
+namespace irido::tables {
 #include "lut_formats.inc"
 
 namespace {
@@ -24,4 +24,4 @@ const LutFormat* find_lut_format(std::string_view name) {
     return found == kFormats.end() ? nullptr : *found;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

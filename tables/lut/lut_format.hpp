@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "tables/lut/lut.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// A table that a format cannot hold, or a file that is not what it should be: one line of text.
 struct LutError : Error {
@@ -62,4 +62,4 @@ Lut lut_from_metadata(std::string_view text);
 /// in the table's own order, whatever the file's layout.
 std::string checksum_of(const Lut& lut);
 
-}  // namespace irido
+}  // namespace irido::tables

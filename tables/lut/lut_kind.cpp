@@ -4,7 +4,7 @@
 #include <array>
 
 #define IRIDO_DECLARE(name) extern const LutKind name;
-namespace irido {
+namespace irido::tables {
 #include "lut_kinds.inc"
 
 namespace {
@@ -42,4 +42,4 @@ const std::string& LutRequest::word(std::string_view name) const {
     return std::get<std::string>(options.find(name)->second);
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -18,7 +18,7 @@
 #include "schemas/documents/stack_document.hpp"
 #include "tables/lut/lut.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// An option of a kind beside the common ones, as the command line shows it.
 struct LutOption {
@@ -53,8 +53,8 @@ struct LutRequest {
     const std::string& word(std::string_view name) const;
 
     // for kinds with `stack`
-    StackSource source;      ///< with --set applied
-    StackDocument document;  ///< the same, read
+    schemas::StackSource source;      ///< with --set applied
+    schemas::StackDocument document;  ///< the same, read
 
     // for kinds with `light`: what falls on the stack and who looks
     std::shared_ptr<const Sensitivity> sensitivity;
@@ -130,4 +130,4 @@ const LutKind* find_lut_kind(std::string_view name);
 /// The paths of what varies, in its order.
 std::vector<std::string> paths_of(std::span<const VariedValue> vary);
 
-}  // namespace irido
+}  // namespace irido::tables

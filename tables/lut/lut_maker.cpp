@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -559,4 +559,4 @@ Lut make_lut(const LutKind& kind, LutPlan plan, const LutMaking& making) {
     return lut;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

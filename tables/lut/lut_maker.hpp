@@ -9,7 +9,7 @@
 #include "tables/lut/lut_format.hpp"
 #include "tables/lut/lut_kind.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// How many samples a table gets along its axes.
 struct LutSizing {
@@ -60,4 +60,4 @@ std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized
 /// that few samples of each level take.
 double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads);
 
-}  // namespace irido
+}  // namespace irido::tables

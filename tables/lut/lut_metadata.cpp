@@ -9,7 +9,7 @@
 #include "tables/lut/lut_values.hpp"
 #include "tables/version.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -50,10 +50,10 @@ LutType type_from(const std::string& name) {
 }
 
 void check_metadata(const json& metadata) {
-    static const Schema schema(json::parse(lut_schema_text()));
-    const std::vector<Problem> problems = check(schema, metadata);
+    static const schemas::Schema schema(json::parse(lut_schema_text()));
+    const std::vector<schemas::Problem> problems = schemas::check(schema, metadata);
     if (problems.empty()) return;
-    const Problem& first = problems.front();
+    const schemas::Problem& first = problems.front();
     throw LutError("metadata: " + first.pointer + (first.pointer.empty() ? "" : ": ") +
                    first.message);
 }
@@ -61,8 +61,8 @@ void check_metadata(const json& metadata) {
 json parsed_metadata(std::string_view text) {
     json metadata;
     try {
-        metadata = parse_json(text, "metadata");
-    } catch (const InputError& error) {
+        metadata = schemas::parse_json(text, "metadata");
+    } catch (const schemas::InputError& error) {
         throw LutError(error.what());
     }
     check_metadata(metadata);
@@ -161,4 +161,4 @@ void check_plain(const LutLayout& layout, std::string_view format) {
     if (layout.layers) throw LutError(std::string(format) + " has no array layers, only ktx2 has");
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -6,7 +6,7 @@
 
 #include "tables/lut/lut_format.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// schemas/lut.schema.json.
 const char* lut_schema_text();
@@ -26,4 +26,4 @@ Lut lut_from_companion(std::string_view bytes);
 /// Throws LutError if a format other than ktx2 is asked for a layout that only ktx2 has.
 void check_plain(const LutLayout& layout, std::string_view format);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -3,7 +3,7 @@
 #include "tables/lut/lut_format.hpp"
 #include "tables/lut/lut_values.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -66,4 +66,4 @@ void append_values(Lut& lut, std::size_t level, std::size_t components, std::str
     });
 }
 
-}  // namespace irido
+}  // namespace irido::tables

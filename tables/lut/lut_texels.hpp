@@ -7,7 +7,7 @@
 
 #include "tables/lut/lut.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// How the channels of a table become the components of texels: up to four are one block; a
 /// multiple of three are blocks of three, side by side along x.
@@ -28,4 +28,4 @@ std::string texels_of(const Lut& lut, std::size_t level, std::size_t components)
 /// LutError if components that are no channels are not what texels_of() writes.
 void append_values(Lut& lut, std::size_t level, std::size_t components, std::string_view texels);
 
-}  // namespace irido
+}  // namespace irido::tables

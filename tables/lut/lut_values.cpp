@@ -12,7 +12,7 @@
 #include "tables/lut/lut_format.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -181,4 +181,4 @@ std::vector<double> values_from_bytes(std::string_view bytes, LutType type) {
     return values;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

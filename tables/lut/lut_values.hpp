@@ -7,7 +7,7 @@
 
 #include "tables/lut/lut.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// The samples of an axis as its metadata gives them: equally_spaced() if it is linear.
 std::vector<double> samples_of(const LutAxis& axis);
@@ -39,4 +39,4 @@ std::string value_bytes(const Lut& lut);
 /// The same back. `bytes` has a whole number of numbers.
 std::vector<double> values_from_bytes(std::string_view bytes, LutType type);
 
-}  // namespace irido
+}  // namespace irido::tables

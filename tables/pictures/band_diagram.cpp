@@ -8,7 +8,7 @@
 #include "core/colorimetry/space.hpp"
 #include "tables/pictures/svg.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -178,4 +178,4 @@ std::string write_band_diagram(const BandDiagram& diagram) {
     return out + "</svg>\n";
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace irido {
+namespace irido::tables {
 
 /// Photonic gaps over wavelength and angle, as a picture: s to the left, p to the right.
 struct BandDiagram {
@@ -25,4 +25,4 @@ struct BandDiagram {
 /// 380 to 780 nm: those of the CIE 1931 observer, brought into sRGB.
 std::string write_band_diagram(const BandDiagram& diagram);
 
-}  // namespace irido
+}  // namespace irido::tables

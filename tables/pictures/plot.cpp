@@ -6,7 +6,7 @@
 
 #include "tables/pictures/svg.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -170,4 +170,4 @@ std::string write_plot(const Plot& plot) {
     return out + "</svg>\n";
 }
 
-}  // namespace irido
+}  // namespace irido::tables

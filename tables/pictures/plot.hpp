@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace irido {
+namespace irido::tables {
 
 /// Small diagrams in rows of four with the same two logarithmic axes, as a picture.
 struct Plot {
@@ -36,4 +36,4 @@ struct Plot {
 /// K. Ito, Color Universal Design, 2008), markers for those who see none.
 std::string write_plot(const Plot& plot);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -5,7 +5,7 @@
 #include "schemas/readers/utf8.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 std::string svg_number(double value) {
     std::string text;
@@ -19,7 +19,7 @@ std::string svg_coordinate(double value) {
 
 std::string svg_escaped(const std::string& text) {
     std::string out;
-    for (const char c : well_formed(text)) {
+    for (const char c : schemas::well_formed(text)) {
         if (c == '&') {
             out += "&amp;";
         } else if (c == '<') {
@@ -45,4 +45,4 @@ std::string svg_line(double x1, double y1, double x2, double y2, const std::stri
            svg_coordinate(x2) + " " + svg_coordinate(y2) + "\" stroke=\"" + color + "\"/>\n";
 }
 
-}  // namespace irido
+}  // namespace irido::tables

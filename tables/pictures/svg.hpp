@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace irido {
+namespace irido::tables {
 
 /// Shortest text of a number.
 std::string svg_number(double value);
@@ -19,4 +19,4 @@ std::string svg_text(double x, double y, const std::string& anchor, const std::s
 /// A straight line; `color` is an SVG colour.
 std::string svg_line(double x1, double y1, double x2, double y2, const std::string& color);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -4,7 +4,7 @@
 
 #include "tables/pictures/svg.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::string write_swatches(const Swatches& swatches) {
     return out + axis_at(bottom + 12, swatches) + "</svg>\n";
 }
 
-}  // namespace irido
+}  // namespace irido::tables

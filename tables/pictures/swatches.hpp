@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace irido {
+namespace irido::tables {
 
 /// Strips of colour along one axis, as a picture.
 struct Swatches {
@@ -20,4 +20,4 @@ struct Swatches {
 /// An SVG 1.1 picture of the strips, 720 units wide.
 std::string write_swatches(const Swatches& swatches);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -10,7 +10,7 @@
 #include "tables/files/plain_file.hpp"
 #include "tables/records/packed_rows.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -189,4 +189,4 @@ void join_h5(const RecordLayout& layout, const std::vector<StreamPiece>& pieces,
     }
 }
 
-}  // namespace irido
+}  // namespace irido::tables

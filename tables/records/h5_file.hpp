@@ -7,7 +7,7 @@
 #include "tables/records/record_format.hpp"
 #include "tables/records/record_layout.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// Throws OutputError if HDF5 cannot have a dataset of the name of a column.
 void check_h5_names(const RecordLayout& layout);
@@ -23,4 +23,4 @@ void write_h5(const RecordLayout& layout, std::uint64_t rows, const std::string&
 void join_h5(const RecordLayout& layout, const std::vector<StreamPiece>& pieces,
              const std::string& to);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -1,6 +1,6 @@
 #include "tables/records/npy.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -25,4 +25,4 @@ std::string npy_header(const std::string& type, const std::string& shape, std::s
     return out + text;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

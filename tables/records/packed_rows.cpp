@@ -7,7 +7,7 @@
 
 #include "schemas/readers/utf8.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -19,7 +19,7 @@ constexpr std::size_t kCharacterBytes = sizeof(char32_t);
 
 /// The code point that begins at text[at], which is put after it.
 char32_t code_point(const std::string& text, std::size_t& at) {
-    const auto point = next_code_point(text, at);
+    const auto point = schemas::next_code_point(text, at);
     if (!point) throw std::invalid_argument("a text must be UTF-8 (got '" + text + "')");
     return *point;
 }
@@ -104,4 +104,4 @@ std::string packed_rows(const RecordLayout& layout, const Records& records, Text
     return out;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -6,7 +6,7 @@
 #include "tables/records/record_layout.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// How texts lie in a packed row: as many bytes as the field is wide, or as many characters of four
 /// bytes; zeros follow.
@@ -28,4 +28,4 @@ void check_columns(const RecordLayout& layout, const Records& records);
 /// Of a text in UTF-8. Throws std::invalid_argument if it is not.
 std::u32string code_points(const std::string& text);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -4,7 +4,7 @@
 #include <array>
 
 #define IRIDO_DECLARE(name) extern const RecordFormat name;
-namespace irido {
+namespace irido::tables {
 #include "record_formats.inc"
 
 namespace {
@@ -60,4 +60,4 @@ std::string written(const RecordFormat& format, const Records& records) {
     return bytes += format.tail;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -9,7 +9,7 @@
 #include "tables/records/record_layout.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// One of the files that are put together: a whole one of the format.
 struct StreamPiece {
@@ -56,4 +56,4 @@ RecordLayout layout_of(const Records& records);
 /// The bytes of a file of these records, of a format without `finish`.
 std::string written(const RecordFormat& format, const Records& records);
 
-}  // namespace irido
+}  // namespace irido::tables

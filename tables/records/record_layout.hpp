@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace irido {
+namespace irido::tables {
 
 /// A column that is known before any of its rows.
 struct RecordField {
@@ -20,4 +20,4 @@ struct RecordField {
 /// The columns of a stream of records, in their order.
 using RecordLayout = std::vector<RecordField>;
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-namespace irido {
+namespace irido::tables {
 
 std::size_t Records::rows() const {
     if (columns.empty()) return 0;
@@ -75,4 +75,4 @@ void RowWriter::append(std::string& out, std::size_t column, std::size_t row) co
     }
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-namespace irido {
+namespace irido::tables {
 
 /// One named column of a table of records.
 struct Column {
@@ -66,4 +66,4 @@ private:
     std::vector<Source> sources_;
 };
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -15,7 +15,7 @@
 
 #include "tables/files/atomic_file.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -234,4 +234,4 @@ std::string part_name(const std::string& target) {
     return target + ".part";
 }
 
-}  // namespace irido
+}  // namespace irido::tables

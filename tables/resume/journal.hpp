@@ -12,7 +12,7 @@
 #include "tables/records/record_layout.hpp"
 #include "tables/resume/record_stream.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// The journal of a stream of records: one line of JSON, then a line for each event, which ends in
 /// a checksum of itself and the first line, so that a torn or foreign line is noticed:
@@ -99,4 +99,4 @@ std::string boot_id();
 std::string journal_name(const std::string& target);
 std::string part_name(const std::string& target);
 
-}  // namespace irido
+}  // namespace irido::tables

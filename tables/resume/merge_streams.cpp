@@ -13,7 +13,7 @@
 #include "tables/resume/journal.hpp"
 #include "tables/resume/record_stream.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -51,8 +51,8 @@ void require_same(const Shard& shard, const Shard& first) {
     const StreamIdentity &a = shard.identity(), &b = first.identity();
     const std::string than = " than " + first.path;
     if (a.build != b.build)
-        throw OutputError(shard.path + ": is of irido " + to_text(a.build) + ", " + first.path +
-                          " of " + to_text(b.build) +
+        throw OutputError(shard.path + ": is of irido " + version_text(a.build) + ", " +
+                          first.path + " of " + version_text(b.build) +
                           ", whose numbers may differ: run all shards with one of them");
     if (a.request != b.request || a.total != b.total || shard.head.layout != first.head.layout)
         throw OutputError(shard.path + ": is of another request" + than);
@@ -181,4 +181,4 @@ void merge_streams(const std::vector<std::string>& paths, const std::string& pat
     write_merged(shards, format, path);
 }
 
-}  // namespace irido
+}  // namespace irido::tables

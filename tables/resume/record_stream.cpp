@@ -17,7 +17,7 @@
 #include "tables/files/plain_file.hpp"
 #include "tables/resume/journal.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -127,8 +127,8 @@ void FileStream::require_same(const JournalHead& found) const {
     const std::string anew = ": run without --resume to begin anew, or name another file";
     const StreamIdentity &a = found.identity, &b = head_.identity;
     if (a.build != b.build)
-        fail(": its part is of irido " + to_text(a.build) + ", this is " + to_text(b.build) +
-             ", whose numbers may differ" + anew);
+        fail(": its part is of irido " + version_text(a.build) + ", this is " +
+             version_text(b.build) + ", whose numbers may differ" + anew);
     if (found.format != head_.format)
         fail(": its part is " + found.format + ", not " + head_.format + anew);
     if (a.request != b.request || a.total != b.total || found.layout != head_.layout)
@@ -375,4 +375,4 @@ std::unique_ptr<RecordStream> counted_output(const std::string& path, const Reco
     return std::make_unique<DirectStream>(descriptor, path, format, layout, rows, std::move(file));
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -8,7 +8,7 @@
 #include "tables/records/record_format.hpp"
 #include "tables/version.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// What makes two runs write the same bytes, and which part of the whole this one is.
 struct StreamIdentity {
@@ -87,4 +87,4 @@ std::unique_ptr<RecordStream> counted_output(const std::string& path, const Reco
 void merge_streams(const std::vector<std::string>& shards, const std::string& path,
                    const RecordFormat& format);
 
-}  // namespace irido
+}  // namespace irido::tables

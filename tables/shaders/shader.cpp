@@ -7,7 +7,7 @@
 
 #include "tables/version.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::string shader_source(std::string_view name, std::string_view language) {
     return head + translated(body, language == "glsl");
 }
 
-}  // namespace irido
+}  // namespace irido::tables

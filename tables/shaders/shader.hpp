@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace irido {
+namespace irido::tables {
 
 /// Names of the snippets of shader code: one for each kind of table and those that need no table.
 std::vector<std::string_view> shader_names();
@@ -15,4 +15,4 @@ std::vector<std::string_view> shader_languages();
 /// A snippet with all that it uses, as a file to include. The names must be known.
 std::string shader_source(std::string_view name, std::string_view language);
 
-}  // namespace irido
+}  // namespace irido::tables

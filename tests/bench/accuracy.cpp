@@ -19,6 +19,9 @@
 namespace {
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
+using namespace irido::cli;
 
 struct Worst {
     double R = 0, T = 0, sum = 0;  ///< |dR|, |dT|/T, |R + T + A - 1|

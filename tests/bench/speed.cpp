@@ -15,6 +15,7 @@
 namespace {
 
 using namespace irido;
+using namespace irido::schemas;
 
 const char* const kFilm = "1 | 1.33@380 | 1";
 const char* const kFilmOnCopper = "1 | 1.5@300 | Cu";

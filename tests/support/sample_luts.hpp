@@ -8,6 +8,8 @@
 
 namespace irido::test {
 
+using namespace tables;
+
 /// A table with linear axes a, b, c of these counts and values over the whole range of its type,
 /// among them 0, -0 and subnormal ones.
 Lut sample_lut(LutType type, std::size_t channels, const std::vector<std::size_t>& counts,

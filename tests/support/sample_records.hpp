@@ -8,6 +8,8 @@
 
 namespace irido::test {
 
+using namespace tables;
+
 /// Columns of every kind, and names and texts of which no format can do without quoting.
 RecordLayout sample_layout();
 

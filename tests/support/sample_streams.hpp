@@ -19,6 +19,8 @@
 
 namespace irido::test {
 
+using namespace tables;
+
 /// Unit u has u % 3 rows.
 inline std::uint64_t rows_before(std::uint64_t unit) {
     return unit / 3 * 3 + (unit % 3 == 2 ? 1 : 0);

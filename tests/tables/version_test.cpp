@@ -6,6 +6,7 @@
 #include "tests/support/program.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 using Catch::Contains;
 using Catch::StartsWith;
@@ -41,7 +42,7 @@ TEST_CASE("a build is told by version and commit", "[version]") {
     const Build& build = this_build();
     CHECK(std::regex_match(build.version, std::regex("[0-9]+\\.[0-9]+\\.[0-9]+")));
     CHECK(std::regex_match(build.commit, std::regex("([0-9a-f]{12,40}(-dirty-[0-9a-f]{8})?)?")));
-    CHECK_THAT(run_irido({"--version"}).out, StartsWith("irido " + to_text(build) + ", "));
+    CHECK_THAT(run_irido({"--version"}).out, StartsWith("irido " + version_text(build) + ", "));
 }
 
 TEST_CASE("the commit is that of a checkout, its changes counted in", "[version][slow]") {

@@ -9,7 +9,7 @@
 #include "schemas/input_error.hpp"
 #include "schemas/readers/index_rows.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -172,4 +172,4 @@ MaterialFile read_column_file(std::string_view text, const std::string& name) {
     return material_of_columns(table, header, name);
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

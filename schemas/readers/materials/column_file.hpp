@@ -6,7 +6,7 @@
 #include "schemas/readers/column_text.hpp"
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// The material in a table of numbers (column_text.hpp): a column of wavelengths (nm, um,
 /// angstrom), of photon energies (eV) or wavenumbers (cm-1), and n, k, or the permittivity eps1,
@@ -22,4 +22,4 @@ MaterialFile material_of_columns(const ColumnText& table, const std::vector<std:
 /// What columns read_column_file knows, for messages.
 std::string known_columns();
 
-}  // namespace irido
+}  // namespace irido::schemas

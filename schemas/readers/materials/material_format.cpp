@@ -10,7 +10,7 @@
 #include "schemas/readers/materials/sopra.hpp"
 #include "schemas/readers/materials/woollam.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::span<const MaterialFormat> material_formats() {
     return kFormats;
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -6,7 +6,7 @@
 
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// A format of material files, which is told by the text and not by the file's name.
 struct MaterialFormat {
@@ -19,4 +19,4 @@ struct MaterialFormat {
 /// All but tables of columns, which are what is none of these.
 std::span<const MaterialFormat> material_formats();
 
-}  // namespace irido
+}  // namespace irido::schemas

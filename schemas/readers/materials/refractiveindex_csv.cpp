@@ -8,7 +8,7 @@
 #include "schemas/readers/index_rows.hpp"
 #include "schemas/readers/number.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -88,4 +88,4 @@ MaterialFile read_refractiveindex_csv(std::string_view text, const std::string& 
     return material_of(name, *std::move(n), std::move(k), std::move(notes));
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

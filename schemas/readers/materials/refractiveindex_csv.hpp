@@ -5,7 +5,7 @@
 
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// Whether a text is the CSV or TXT that the refractiveindex.info site offers for download: its
 /// first line is "wl,n".
@@ -15,4 +15,4 @@ bool is_refractiveindex_csv(std::string_view text);
 /// wavelengths in um. k < 0 is set to 0. Throws InputError with file `name` and "line:column".
 MaterialFile read_refractiveindex_csv(std::string_view text, const std::string& name);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -16,7 +16,7 @@
 #include "schemas/readers/index_rows.hpp"
 #include "schemas/readers/number.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -225,7 +225,7 @@ std::optional<Table> joined(const Dispersion& first, const Dispersion& second,
     if (!(a->wavelength_nm.back() < b->wavelength_nm.front())) return std::nullopt;
     const WavelengthRange between{a->wavelength_nm.back(), b->wavelength_nm.front()};
     reader.notes.push_back(reader.where + ": " + what + " joined to that before it, linear from " +
-                           irido::in_words(between));
+                           schemas::in_words(between));
     Table both = *a;
     both.wavelength_nm.insert(both.wavelength_nm.end(), b->wavelength_nm.begin(),
                               b->wavelength_nm.end());
@@ -382,4 +382,4 @@ MaterialFile read_refractiveindex_info(std::string_view text, const std::string&
     }
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

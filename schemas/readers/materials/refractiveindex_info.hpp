@@ -5,7 +5,7 @@
 
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// The material in a data file of the refractiveindex.info database, given as its YAML text, of
 /// before or after 2018. Of the list DATA all items count: tables of n or of k that do not overlap
@@ -18,4 +18,4 @@ namespace irido {
 /// Source: M. N. Polyanskiy, Sci. Data 11, 94 (2024), and the database's definition sheet.
 MaterialFile read_refractiveindex_info(std::string_view text, const std::string& name);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -10,7 +10,7 @@
 #include "schemas/readers/index_rows.hpp"
 #include "schemas/readers/number.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -131,4 +131,4 @@ MaterialFile read_sopra_mat(std::string_view text, const std::string& name) {
     return material_of_rows(std::move(rows), name, {});
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

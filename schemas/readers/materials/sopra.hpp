@@ -5,7 +5,7 @@
 
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// Whether a text is a .nk file of SOPRA: its first line is a code of the unit (1 eV, 2 um, 3 cm-1,
 /// 4 nm), the first and the last value in it and the number of intervals between them.
@@ -23,4 +23,4 @@ bool is_sopra_mat(std::string_view text);
 /// `name` and "line:column".
 MaterialFile read_sopra_mat(std::string_view text, const std::string& name);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -7,7 +7,7 @@
 #include "schemas/readers/materials/column_file.hpp"
 #include "schemas/readers/number.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 namespace {
 
@@ -42,4 +42,4 @@ MaterialFile read_woollam_mat(std::string_view text, const std::string& name) {
     return material_of_columns(table, {unit, is_nk ? "n" : "eps1", is_nk ? "k" : "eps2"}, name);
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

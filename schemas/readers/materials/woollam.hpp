@@ -5,7 +5,7 @@
 
 #include "schemas/readers/material_file.hpp"
 
-namespace irido {
+namespace irido::schemas {
 
 /// Whether a text is a .mat file of J. A. Woollam's WVASE: a comment, a line with a unit (eV,
 /// Angstroms, nm, um) and a line with one word.
@@ -15,4 +15,4 @@ bool is_woollam_mat(std::string_view text);
 /// refused by name. Throws InputError with file `name` and "line:column".
 MaterialFile read_woollam_mat(std::string_view text, const std::string& name);
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -7,7 +7,7 @@
 #include "tables/lut/lut_metadata.hpp"
 #include "tables/lut/lut_values.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -40,4 +40,4 @@ extern const LutFormat lut_format_bin{
     .read = read,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -17,7 +17,7 @@
 #include "tables/lut/lut_metadata.hpp"
 #include "tables/lut/lut_values.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -105,7 +105,7 @@ public:
     bool next() {
         if (text_.empty()) return false;
         const std::size_t end = std::min(text_.find('\n'), text_.size());
-        rest_ = trimmed(text_.substr(0, end));
+        rest_ = schemas::trimmed(text_.substr(0, end));
         text_.remove_prefix(std::min(end + 1, text_.size()));
         ++number_;
         is_cut_ = false;
@@ -119,8 +119,8 @@ public:
         const std::string_view token = rest_.substr(0, end);
         is_cut_ = end == std::string_view::npos;
         if (!is_cut_) rest_.remove_prefix(end + 1);
-        const std::optional<double> value = parse_number(trimmed(token));
-        if (!value) fail(in_quotes(token) + " is not a finite number");
+        const std::optional<double> value = schemas::parse_number(schemas::trimmed(token));
+        if (!value) fail(schemas::in_quotes(token) + " is not a finite number");
         return *value;
     }
     bool is_at_end() const { return is_cut_; }
@@ -182,4 +182,4 @@ extern const LutFormat lut_format_csv{
     .read = read,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -32,7 +32,7 @@
 #include "tables/lut/lut_values.hpp"
 #include "tables/records/records.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -362,4 +362,4 @@ extern const LutFormat lut_format_exr{
     .read = read,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

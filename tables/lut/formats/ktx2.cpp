@@ -34,7 +34,7 @@
 #include "tables/lut/lut_values.hpp"
 #include "tables/version.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -334,4 +334,4 @@ extern const LutFormat lut_format_ktx2{
     .read = read,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

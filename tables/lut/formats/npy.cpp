@@ -12,7 +12,7 @@
 #include "tables/lut/lut_metadata.hpp"
 #include "tables/lut/lut_values.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -63,4 +63,4 @@ extern const LutFormat lut_format_npy{
     .read = read,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

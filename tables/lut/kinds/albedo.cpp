@@ -7,7 +7,7 @@
 #include "tables/lut/color_values.hpp"
 #include "tables/lut/kind_parts.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -117,4 +117,4 @@ extern const LutKind lut_kind_albedo = {
     .problems = problems,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -11,7 +11,7 @@
 #include "tables/lut/color_values.hpp"
 #include "tables/lut/lut_kind.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -69,20 +69,22 @@ public:
 private:
     struct Level {
         double sigma = 0;
-        std::shared_ptr<const VariedStack> stack;
+        std::shared_ptr<const schemas::VariedStack> stack;
         std::shared_ptr<const ColorAlgorithm> algorithm;  ///< none if materials or structure vary
     };
 
     void add_level(const LutRequest& request, double sigma) {
-        StackSource source = request.source;
-        if (sigma != 0) set_value(source.document, path_of_spread(request), sigma);
+        schemas::StackSource source = request.source;
+        if (sigma != 0) schemas::set_value(source.document, path_of_spread(request), sigma);
         std::vector<double> first, last;
         for (const VariedValue& vary : request.vary) {
             first.push_back(vary.values.front());
             last.push_back(vary.values.back());
         }
-        Level level{sigma, std::make_shared<VariedStack>(std::move(source), paths_of(request.vary)),
-                    nullptr};
+        Level level{
+            sigma,
+            std::make_shared<schemas::VariedStack>(std::move(source), paths_of(request.vary)),
+            nullptr};
         level.stack->at(last);  // or it throws, and not later
         const Stack stack = level.stack->at(first);
         if (level.stack->varies_thickness_only())
@@ -201,4 +203,4 @@ extern const LutKind lut_kind_color = {
     .problems = color_problems,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

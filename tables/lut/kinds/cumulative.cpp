@@ -2,7 +2,7 @@
 #include "tables/lut/light_facts.hpp"
 #include "tables/lut/lut_kind.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -56,4 +56,4 @@ extern const LutKind lut_kind_cumulative = {
     .problems = problems,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

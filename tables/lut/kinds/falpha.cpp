@@ -8,7 +8,7 @@
 #include "core/rough/ggx.hpp"
 #include "tables/lut/kind_parts.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -104,4 +104,4 @@ extern const LutKind lut_kind_falpha = {
     .problems = problems,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -8,7 +8,7 @@
 #include "tables/lut/light_facts.hpp"
 #include "tables/lut/lut_kind.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -145,4 +145,4 @@ extern const LutKind lut_kind_sensitivity = {
     .problems = problems,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

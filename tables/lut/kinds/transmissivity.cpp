@@ -8,7 +8,7 @@
 #include "schemas/documents/canonical_stack.hpp"
 #include "tables/lut/kind_parts.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -31,7 +31,7 @@ LutPlan plan(const LutRequest& request) {
     const auto layer = std::make_shared<const RoughTransmissivity>(
         request.document.stack, light_of(request), request.execution.simd);
     const std::vector<double>& wavelengths = plan.axes[2].axis.values;
-    plan.facts["stack"] = canonical_stack(request.document.stack);
+    plan.facts["stack"] = schemas::canonical_stack(request.document.stack);
     plan.facts["request"]["integration_error"] = kWorstError;
     plan.facts["request"]["polarization"] = letter_of(light_of(request));
     if (amplifies(request.document.stack, wavelengths)) plan.facts["request"]["amplifies"] = true;
@@ -103,4 +103,4 @@ extern const LutKind lut_kind_transmissivity = {
     .problems = problems,
 };
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -5,7 +5,7 @@
 #include "tables/records/packed_rows.hpp"
 #include "tables/records/record_format.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -57,4 +57,4 @@ extern const RecordFormat record_format_csv{.name = "csv",
                                             .rows = rows,
                                             .tail = ""};
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -3,7 +3,7 @@
 #include "tables/records/h5_file.hpp"
 #include "tables/records/packed_rows.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -29,4 +29,4 @@ extern const RecordFormat record_format_h5{
     .finish = write_h5,
     .join = join_h5};
 
-}  // namespace irido
+}  // namespace irido::tables

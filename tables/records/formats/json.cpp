@@ -6,7 +6,7 @@
 #include "tables/records/packed_rows.hpp"
 #include "tables/records/record_format.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -59,4 +59,4 @@ extern const RecordFormat record_format_json{.name = "json",
                                              .rows = rows,
                                              .tail = "\n]\n"};
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -9,7 +9,7 @@
 #include "tables/records/packed_rows.hpp"
 #include "tables/records/record_format.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -21,7 +21,7 @@ std::string type_name(const RecordField& field) {
 }
 
 /// As a Python literal of ASCII.
-std::string in_quotes(const std::string& name) {
+std::string python_literal(const std::string& name) {
     std::string out = "'";
     for (const char32_t c : code_points(name)) {
         if (c >= 0x20 && c < 0x7F) {
@@ -39,7 +39,7 @@ std::string in_quotes(const std::string& name) {
 std::string head(const RecordLayout& layout, std::uint64_t rows, HeadKind kind) {
     std::string type = "[";
     for (const RecordField& field : layout)
-        type += "(" + in_quotes(field.name) + ", '" + type_name(field) + "'), ";
+        type += "(" + python_literal(field.name) + ", '" + type_name(field) + "'), ";
     const std::string count = std::to_string(rows);
     return npy_header(type + "]", "(" + count + ",)",
                       kind == HeadKind::open ? kDigits - count.size() : 0);
@@ -60,4 +60,4 @@ extern const RecordFormat record_format_npy{
     .rows = rows,
     .tail = ""};
 
-}  // namespace irido
+}  // namespace irido::tables

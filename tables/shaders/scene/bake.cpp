@@ -29,7 +29,7 @@
 #include "tables/shaders/scene/manifest.hpp"
 #include "tables/version.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -184,11 +184,11 @@ std::vector<std::string> pruned_files(const BakePlace& place,
 }
 
 /// What a scene's manifest calls the scene's file.
-std::string source_of(const Scene& scene) {
-    return well_formed(fs::path(scene.file).filename().string());
+std::string source_of(const schemas::Scene& scene) {
+    return schemas::well_formed(fs::path(scene.file).filename().string());
 }
 
-json settings_of(const Scene& scene, const ScenePlan& plan) {
+json settings_of(const schemas::Scene& scene, const ScenePlan& plan) {
     return {{"space", scene.space},
             {"illuminant", scene.illuminant},
             {"observer_deg", scene.observer_deg},
@@ -202,13 +202,13 @@ json settings_of(const Scene& scene, const ScenePlan& plan) {
 
 json vary_of(const MaterialPlan& material) {
     json result = json::object();
-    for (const VariedRange& vary : material.vary)
+    for (const schemas::VariedRange& vary : material.vary)
         result[vary.path] = {vary.range.first, vary.range.last};
     return result;
 }
 
 /// What differs from a manifest that has no such table, in words.
-std::string why_unknown(const Scene& scene, const ScenePlan& plan, const SceneTable& table,
+std::string why_unknown(const schemas::Scene& scene, const ScenePlan& plan, const SceneTable& table,
                         const json& manifest) {
     if (manifest.is_null()) return "nothing was baked before";
     if (manifest["numbers"] != kNumbersVersion) return "irido computes other numbers now";
@@ -234,7 +234,7 @@ std::string why_unknown(const Scene& scene, const ScenePlan& plan, const SceneTa
 
 json material_entry(const ScenePlan& plan, const MaterialPlan& material,
                     const TableEntries& entries) {
-    const ValueRange angles_deg = served_angles(plan, material, entries);
+    const schemas::ValueRange angles_deg = served_angles(plan, material, entries);
     json result = {{"shading", name_of(material.shading)},
                    {"angles_deg", {angles_deg.first, angles_deg.last}},
                    {"vary", vary_of(material)},
@@ -306,9 +306,9 @@ std::vector<Omission> omissions_of(const ScenePlan& plan, const MaterialPlan& ma
     return all;
 }
 
-ValueRange served_angles(const ScenePlan& plan, const MaterialPlan& material,
-                         const TableEntries& entries) {
-    ValueRange angles = material.angles_deg;
+schemas::ValueRange served_angles(const ScenePlan& plan, const MaterialPlan& material,
+                                  const TableEntries& entries) {
+    schemas::ValueRange angles = material.angles_deg;
     for (const MaterialPlan::Use& use : material.tables) {
         const auto entry = entries.find(plan.tables[use.table].id);
         if (entry == entries.end() || !entry->second.contains("request")) continue;
@@ -326,17 +326,17 @@ MaterialFaults faults_of(const ScenePlan& plan) {
     return faults;
 }
 
-void add_faults(MaterialFaults& faults, const Scene& scene, const SceneTable& table,
+void add_faults(MaterialFaults& faults, const schemas::Scene& scene, const SceneTable& table,
                 const std::exception& error) {
-    for (const SceneMaterial& material : scene.materials) {
+    for (const schemas::SceneMaterial& material : scene.materials) {
         if (std::ranges::find(table.materials, material.name) == table.materials.end()) continue;
-        std::vector<SceneFault>& all = faults[material.name];
-        const SceneFault fault = fault_of(material, error);
+        std::vector<schemas::SceneFault>& all = faults[material.name];
+        const schemas::SceneFault fault = schemas::fault_of(material, error);
         if (std::ranges::find(all, fault) == all.end()) all.push_back(fault);
     }
 }
 
-Baked baked_scene(const BakePlace& place, const Scene& scene) {
+Baked baked_scene(const BakePlace& place, const schemas::Scene& scene) {
     Baked baked;
     const std::string path = place.folder + "/" + place.manifest;
     baked.manifest = read_manifest(path);
@@ -367,7 +367,7 @@ std::vector<std::string> stale_files(const BakePlace& place, const Baked& baked,
     return {stale.begin(), stale.end()};
 }
 
-Keeping keeping_of(const Scene& scene, const ScenePlan& plan, const SceneTable& table,
+Keeping keeping_of(const schemas::Scene& scene, const ScenePlan& plan, const SceneTable& table,
                    const Baked& baked, const BakePlace& place, bool verify) {
     const auto old = baked.tables.find(table.id);
     const bool is_known = old != baked.tables.end();
@@ -426,7 +426,7 @@ json planned_entry(const SceneTable& table) {
     return entry;
 }
 
-json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& entries,
+json manifest_of(const schemas::Scene& scene, const ScenePlan& plan, const TableEntries& entries,
                  const MaterialFaults& faults) {
     json manifest = {{"irido", this_build().version},
                      {"numbers", kNumbersVersion},
@@ -441,13 +441,13 @@ json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& 
         if (!faults.contains(material.name))
             manifest["materials"][material.name] = material_entry(plan, material, entries);
     for (const auto& [name, all] : faults)
-        for (const SceneFault& fault : all)
+        for (const schemas::SceneFault& fault : all)
             manifest["failed"][name].push_back(
                 {{"pointer", fault.pointer}, {"reason", fault.reason}});
     return manifest;
 }
 
-BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& request) {
+BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRequest& request) {
     const BakePlace& place = request.place;
     make_folder(place.folder);
     const Lock lock(place.folder);
@@ -497,11 +497,11 @@ BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& re
     const std::string text = manifest.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     const std::string path = place.folder + "/" + place.manifest;
     // after new files, too: what is not newer than the manifest need not be read next time
-    if (!result.made.empty() || !is_regular(path) || read_own_file(path) != text) {
+    if (!result.made.empty() || !is_regular(path) || schemas::read_own_file(path) != text) {
         write_own(path, text);
         result.manifest_written = true;
     }
     return result;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -7,7 +7,7 @@
 
 #include "tables/shaders/scene/scene_plan.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// Where a scene is baked.
 struct BakePlace {
@@ -28,7 +28,7 @@ struct Baked {
 };
 
 /// Reads the manifest of a place. Throws OutputError if it is that of another scene.
-Baked baked_scene(const BakePlace& place, const Scene& scene);
+Baked baked_scene(const BakePlace& place, const schemas::Scene& scene);
 
 /// The files among those of `baked` that are still in the folder and are none of `entries`.
 std::vector<std::string> stale_files(const BakePlace& place, const Baked& baked,
@@ -43,7 +43,7 @@ struct Keeping {
 /// A table is kept if the manifest has it and its file is a regular one of the right size that has
 /// not been touched since the manifest was written. All others, and every table with `verify`, are
 /// read: they must be made for this table's id, whole, and what the manifest says.
-Keeping keeping_of(const Scene& scene, const ScenePlan& plan, const SceneTable& table,
+Keeping keeping_of(const schemas::Scene& scene, const ScenePlan& plan, const SceneTable& table,
                    const Baked& baked, const BakePlace& place, bool verify);
 
 /// A table's entry without its values' file, size found by the tolerance: for a plan. It has
@@ -62,13 +62,13 @@ struct BakeRequest {
 };
 
 /// Materials that could not be, by name, and why.
-using MaterialFaults = std::map<std::string, std::vector<SceneFault>>;
+using MaterialFaults = std::map<std::string, std::vector<schemas::SceneFault>>;
 
 /// Those that are known before any table is computed.
 MaterialFaults faults_of(const ScenePlan& plan);
 
 /// Adds what came up while a table was made to all materials that use it.
-void add_faults(MaterialFaults& faults, const Scene& scene, const SceneTable& table,
+void add_faults(MaterialFaults& faults, const schemas::Scene& scene, const SceneTable& table,
                 const std::exception& error);
 
 struct BakeResult {
@@ -83,7 +83,7 @@ struct BakeResult {
 /// are those of before are kept as they are. What stands in a table's place is replaced, symbolic
 /// links, too. Two bakes of one folder at a time: the second throws OutputError. Throws OutputError
 /// for what cannot be written, and for a manifest of another scene.
-BakeResult bake(const Scene& scene, const ScenePlan& plan, const BakeRequest& request);
+BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRequest& request);
 
 /// Everything that a material does without: by the plan, and what its tables' sizes came to, as far
 /// as there are entries.
@@ -91,11 +91,11 @@ std::vector<Omission> omissions_of(const ScenePlan& plan, const MaterialPlan& ma
                                    const TableEntries& entries);
 
 /// Angles that a material's tables serve: those of the scene, or fewer where it gives none.
-ValueRange served_angles(const ScenePlan& plan, const MaterialPlan& material,
-                         const TableEntries& entries);
+schemas::ValueRange served_angles(const ScenePlan& plan, const MaterialPlan& material,
+                                  const TableEntries& entries);
 
 /// What a scene's manifest says, from its tables' entries, but for what is stale and the checksum.
-nlohmann::json manifest_of(const Scene& scene, const ScenePlan& plan, const TableEntries& entries,
-                           const MaterialFaults& faults);
+nlohmann::json manifest_of(const schemas::Scene& scene, const ScenePlan& plan,
+                           const TableEntries& entries, const MaterialFaults& faults);
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -11,7 +11,7 @@
 #include "tables/lut/lut_file.hpp"
 #include "tables/lut/lut_metadata.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -75,13 +75,13 @@ std::string checksum_of(json manifest) {
 
 json read_manifest(const std::string& path) {
     if (!is_regular(path)) return nullptr;
-    static const Schema schema(json::parse(manifest_schema_text()));
+    static const schemas::Schema schema(json::parse(manifest_schema_text()));
     try {
-        json manifest = json::parse(read_own_file(path));
-        const std::vector<Problem> problems = check(schema, manifest);
+        json manifest = json::parse(schemas::read_own_file(path));
+        const std::vector<schemas::Problem> problems = schemas::check(schema, manifest);
         const bool is_old = manifest.is_object() && !manifest.contains("checksum");
         if (problems.size() <= (is_old ? 1 : 0)) return manifest;
-    } catch (const InputError&) {
+    } catch (const schemas::InputError&) {
     } catch (const json::exception&) {
     }
     return nullptr;
@@ -122,12 +122,13 @@ std::string fault_of_entry(const json& entry, const std::string& id, const std::
 
 std::vector<std::string> manifest_problems(const json& document, const std::string& file,
                                            const std::string& folder) {
-    static const Schema schema(json::parse(manifest_schema_text()));
+    static const schemas::Schema schema(json::parse(manifest_schema_text()));
     std::vector<std::string> lines;
     const auto add = [&](const std::string& pointer, const std::string& message) {
-        lines.emplace_back(InputError(file, pointer, message).what());
+        lines.emplace_back(schemas::InputError(file, pointer, message).what());
     };
-    for (const Problem& problem : check(schema, document)) add(problem.pointer, problem.message);
+    for (const schemas::Problem& problem : schemas::check(schema, document))
+        add(problem.pointer, problem.message);
     if (!lines.empty()) return lines;
     if (document["checksum"] != checksum_of(document))
         add("/checksum",
@@ -136,12 +137,12 @@ std::vector<std::string> manifest_problems(const json& document, const std::stri
         for (const auto& [role, id] : material["tables"].items())
             if (!id.is_string() || !document["tables"].contains(id.get<std::string>()))
                 add("/materials/" + name + "/tables/" + role,
-                    "must be the id of a table (got " + short_text(id) + ")");
+                    "must be the id of a table (got " + schemas::short_text(id) + ")");
     if (folder.empty()) return lines;
     for (const auto& [id, entry] : document["tables"].items())
         if (const std::string fault = fault_of_entry(entry, id, folder); !fault.empty())
-            add("/tables" + pointer_step(id), fault);
+            add("/tables" + schemas::pointer_step(id), fault);
     return lines;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

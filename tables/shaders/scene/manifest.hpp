@@ -6,7 +6,7 @@
 
 #include "tables/lut/lut.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// What stands after a file's name in that of its companion.
 inline constexpr const char* kCompanion = ".json";
@@ -49,4 +49,4 @@ std::vector<std::string> manifest_problems(const nlohmann::json& document, const
 /// The text of manifest.schema.json.
 const char* manifest_schema_text();
 
-}  // namespace irido
+}  // namespace irido::tables

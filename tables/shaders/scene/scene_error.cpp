@@ -13,7 +13,7 @@
 #include "schemas/documents/varied_stack.hpp"
 #include "tables/lut/color_values.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -207,7 +207,7 @@ double worst_difference(const LutPlan& plan, const Lut& lut, const RandomPoints&
     });
 }
 
-double worst_fourier_difference(const Scene& scene, const SceneMaterial& material,
+double worst_fourier_difference(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                                 const MaterialPlan& plan, const Lut* sensitivity,
                                 const Execution& execution, const RandomPoints& points) {
     LutRequest request = color_request_of(scene, material, execution);
@@ -218,7 +218,7 @@ double worst_fourier_difference(const Scene& scene, const SceneMaterial& materia
     const LutPlan exact = find_lut_kind("color")->plan(request);
     const ColorValues values(request);
     const std::vector<std::string> paths = paths_of(request.vary);
-    const VariedStack stack(request.source, paths);
+    const schemas::VariedStack stack(request.source, paths);
     const auto table = sensitivity ? std::make_unique<TableOfSensitivity>(*sensitivity) : nullptr;
     return worst_of(points, [&](Random& random) {
         std::vector<double> place;
@@ -237,12 +237,12 @@ double worst_fourier_difference(const Scene& scene, const SceneMaterial& materia
     });
 }
 
-double dispersion_difference(const Scene& scene, const SceneMaterial& material,
+double dispersion_difference(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                              const Execution& execution) {
     const LutRequest request = color_request_of(scene, material, execution);
     const ColorTables tables(*request.sensitivity);
     const ColorValues values(request);
-    const VariedStack varied(request.source, paths_of(request.vary));
+    const schemas::VariedStack varied(request.source, paths_of(request.vary));
     const LutMeasure measure = color_measure(request);
     std::vector<double> angles_deg;
     for (const double cosine : few_of(request.list("cos")))
@@ -274,4 +274,4 @@ double dispersion_difference(const Scene& scene, const SceneMaterial& material,
     return worst;
 }
 
-}  // namespace irido
+}  // namespace irido::tables

@@ -19,7 +19,7 @@
 #include "tables/files/hash.hpp"
 #include "tables/lut/color_values.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 namespace {
 
@@ -31,13 +31,13 @@ constexpr std::size_t kRangeSize = 16;  ///< of a range whose size the tolerance
 constexpr double kOpaque_k = 1e-6;      ///< of a base of which no light comes back
 constexpr double kRed_nm = 700;         ///< the fringes of longer waves are hardly seen
 
-std::vector<double> samples_of(const ValueRange& range) {
+std::vector<double> samples_of(const schemas::ValueRange& range) {
     if (range.is_one()) return {range.first};
     return equally_spaced(range.first, range.last, kRangeSize);
 }
 
 /// Cosines from the largest angle to the smallest, so that they ascend.
-std::vector<double> cosines_of(const ValueRange& angles_deg) {
+std::vector<double> cosines_of(const schemas::ValueRange& angles_deg) {
     return samples_of({cos_of_incidence(angles_deg.last), cos_of_incidence(angles_deg.first)});
 }
 
@@ -45,7 +45,7 @@ double square(double x) {
     return x * x;
 }
 
-std::string in_text(const ValueRange& range) {
+std::string in_text(const schemas::ValueRange& range) {
     return to_text(range.first) + " to " + to_text(range.last);
 }
 
@@ -59,20 +59,20 @@ std::string angle_option(const LutRequest& request) {
 /// Plans one material after the other.
 class Planner {
 public:
-    Planner(const Scene& scene, const Execution& execution)
+    Planner(const schemas::Scene& scene, const Execution& execution)
         : scene_(scene),
           execution_(execution),
           sensitivity_(std::make_shared<Sensitivity>(observer(scene.observer_deg),
                                                      illuminant(scene.illuminant))) {}
 
-    LutRequest color_request(const SceneMaterial& material) const {
+    LutRequest color_request(const schemas::SceneMaterial& material) const {
         LutRequest request = request_of(material);
         request.options["cos"] = cosines_of(material.angles_deg);
         return request;
     }
 
     ScenePlan run() {
-        for (const SceneMaterial& material : scene_.materials) {
+        for (const schemas::SceneMaterial& material : scene_.materials) {
             MaterialPlan& plan = result_.materials.emplace_back();
             plan.name = material.name;
             plan.shading = material.shading;
@@ -84,7 +84,7 @@ public:
                 if (plan.faults.empty()) plan.faults = shading_faults(material);
                 if (plan.faults.empty()) plan_material(material, plan);
             } catch (const std::exception& error) {  // whatever it is, it is this material's
-                plan.faults.push_back(fault_of(material, error));
+                plan.faults.push_back(schemas::fault_of(material, error));
                 plan.tables.clear();
                 result_.omissions.resize(omissions);
             }
@@ -105,21 +105,21 @@ public:
 
 private:
     /// What the shading does not take, as far as the scene itself says it.
-    std::vector<SceneFault> shading_faults(const SceneMaterial& material) const {
+    std::vector<schemas::SceneFault> shading_faults(const schemas::SceneMaterial& material) const {
         const std::string name(name_of(material.shading));
-        std::vector<SceneFault> faults;
+        std::vector<schemas::SceneFault> faults;
         const auto add = [&](const std::string& step, const std::string& reason) {
             faults.push_back({material.pointer + step, reason});
         };
-        const bool is_rough_layers = material.shading == Shading::rough_layers;
+        const bool is_rough_layers = material.shading == schemas::Shading::rough_layers;
         if (is_rough_layers && !material.is_rough) add("", name + " needs \"roughness\"");
-        if (is_rough_layers || (material.shading == Shading::albedo && material.is_rough))
-            for (const VariedRange& vary : material.vary)
+        if (is_rough_layers || (material.shading == schemas::Shading::albedo && material.is_rough))
+            for (const schemas::VariedRange& vary : material.vary)
                 if (!vary.range.is_one())
-                    add("/vary" + pointer_step(vary.path), "nothing may vary with the shading " +
-                                                               name + " of a rough surface (got " +
-                                                               in_text(vary.range) + ")");
-        if (material.shading == Shading::bragg)
+                    add("/vary" + schemas::pointer_step(vary.path),
+                        "nothing may vary with the shading " + name + " of a rough surface (got " +
+                            in_text(vary.range) + ")");
+        if (material.shading == schemas::Shading::bragg)
             if (const std::string fault = mirror_fault(material.document.stack); !fault.empty())
                 add("/shading", "bragg needs " + fault);
         return faults;
@@ -143,50 +143,52 @@ private:
         return "";
     }
 
-    void plan_material(const SceneMaterial& material, MaterialPlan& plan) {
+    void plan_material(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         for (const HeldRange& held : held_ranges(material.document.stack, *sensitivity_))
             if (!held.usable)
-                throw InputError(material.source.file,
-                                 material.document.material_pointers[held.material],
-                                 "a colour needs a material known from 400 to 700 nm");
-        const ValueRange all_angles{0, 90};
+                throw schemas::InputError(material.source.file,
+                                          material.document.material_pointers[held.material],
+                                          "a colour needs a material known from 400 to 700 nm");
+        const schemas::ValueRange all_angles{0, 90};
         if (material.angles_deg.first > all_angles.first ||
             material.angles_deg.last < all_angles.last)
             omit(material, "angles",
                  "those outside of " + in_text(material.angles_deg) + " degrees never occur",
                  Kind::given);
-        for (const VariedRange& vary : material.vary)
+        for (const schemas::VariedRange& vary : material.vary)
             if (vary.range.is_one())
                 omit(material, vary.path, "is always " + to_text(vary.range.first), Kind::given);
         plan_ignored(material);
         switch (material.shading) {
-            case Shading::color:
+            case schemas::Shading::color:
                 return plan_color(material, plan);
-            case Shading::fourier:
+            case schemas::Shading::fourier:
                 return plan_fourier(material, plan);
-            case Shading::bragg:
+            case schemas::Shading::bragg:
                 return plan_bragg(material, plan);
-            case Shading::rough_layers:
+            case schemas::Shading::rough_layers:
                 return plan_rough_layers(material, plan);
-            case Shading::albedo:
+            case schemas::Shading::albedo:
                 return plan_albedo(material, plan);
         }
     }
 
     /// What is given and has no part in this shading.
-    void plan_ignored(const SceneMaterial& material) {
-        const Shading shading = material.shading;
+    void plan_ignored(const schemas::SceneMaterial& material) {
+        const schemas::Shading shading = material.shading;
         const std::string name(name_of(shading));
         if (material.is_rough &&
-            (shading == Shading::color || shading == Shading::fourier || shading == Shading::bragg))
+            (shading == schemas::Shading::color || shading == schemas::Shading::fourier ||
+             shading == schemas::Shading::bragg))
             omit(material, "roughness", "the shading " + name + " is of smooth surfaces",
                  Kind::loss);
         if (material.thickness_spread_nm != 0 &&
-            (shading == Shading::bragg || shading == Shading::rough_layers ||
-             (shading == Shading::albedo && material.is_rough)))
+            (shading == schemas::Shading::bragg || shading == schemas::Shading::rough_layers ||
+             (shading == schemas::Shading::albedo && material.is_rough)))
             omit(material, "mip levels", "the shading " + name + " has no spread of a thickness",
                  Kind::loss);
-        const bool has_constants = shading == Shading::fourier || shading == Shading::bragg;
+        const bool has_constants =
+            shading == schemas::Shading::fourier || shading == schemas::Shading::bragg;
         const bool has_dispersion = !std::ranges::all_of(
             material.document.stack.materials, [](const Material& m) { return is_constant(m); });
         if (has_constants && has_dispersion)
@@ -194,20 +196,20 @@ private:
                  "the shader takes the indices of " + to_text(kMiddle_nm) + " nm", Kind::loss);
     }
 
-    void omit_transmission(const SceneMaterial& material, const std::string& reason) {
+    void omit_transmission(const schemas::SceneMaterial& material, const std::string& reason) {
         if (material.transmission)
             omit(material, "transmission", reason);
         else
             omit(material, "transmission", "was not asked for", Kind::given);
     }
 
-    void omit(const SceneMaterial& material, const std::string& what, const std::string& reason,
-              Kind kind = Kind::skipped) {
+    void omit(const schemas::SceneMaterial& material, const std::string& what,
+              const std::string& reason, Kind kind = Kind::skipped) {
         result_.omissions.push_back({material.name, what, reason, kind});
     }
 
     /// What a kind is asked, but for its own options.
-    LutRequest request_of(const SceneMaterial& material) const {
+    LutRequest request_of(const schemas::SceneMaterial& material) const {
         LutRequest request;
         request.execution = execution_;
         request.source = material.source;
@@ -218,7 +220,7 @@ private:
         request.color.simd = execution_.simd;
         request.space = &rgb_space(scene_.space);
         request.adaptation = scene_.adaptation == "none" ? Adaptation::none : Adaptation::bradford;
-        for (const VariedRange& vary : material.vary)
+        for (const schemas::VariedRange& vary : material.vary)
             if (!vary.range.is_one()) request.vary.push_back({vary.path, samples_of(vary.range)});
         return request;
     }
@@ -233,7 +235,7 @@ private:
     }
 
     /// Adds a table, or finds it among those that there are.
-    void use(const SceneMaterial& material, MaterialPlan& plan, const std::string& role,
+    void use(const schemas::SceneMaterial& material, MaterialPlan& plan, const std::string& role,
              std::string_view kind, LutRequest request, const LutMaking& making) {
         SceneTable table;
         table.kind = find_lut_kind(kind);
@@ -267,7 +269,7 @@ private:
                        {"format", scene_.format}};
         for (const auto& [name, value] : request.options)
             std::visit([&](const auto& v) { inputs["options"][name] = v; }, value);
-        if (table.kind->stack) inputs["stack"] = canonical_stack(request.document.stack);
+        if (table.kind->stack) inputs["stack"] = schemas::canonical_stack(request.document.stack);
         if (table.may_end_early) inputs["may_end_early"] = true;
         for (const VariedValue& vary : request.vary)
             inputs["vary"][vary.path] = {vary.values.front(), vary.values.back()};
@@ -285,17 +287,18 @@ private:
     static json end_of(const LutRequest& request) {
         std::vector<double> last;
         for (const VariedValue& vary : request.vary) last.push_back(vary.values.back());
-        return canonical_stack(VariedStack(request.source, paths_of(request.vary)).at(last));
+        return schemas::canonical_stack(
+            schemas::VariedStack(request.source, paths_of(request.vary)).at(last));
     }
 
     // --- colours ----------------------------------------------------------------------------
 
-    bool is_opaque(const SceneMaterial& material) const {
+    bool is_opaque(const schemas::SceneMaterial& material) const {
         const Stack held = held_stack(material.document.stack, *sensitivity_);
         return index_at(held.materials[held.substrate], kMiddle_nm).imag() > kOpaque_k;
     }
 
-    void plan_color(const SceneMaterial& material, MaterialPlan& plan) {
+    void plan_color(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         LutRequest request = color_request(material);
         if (material.angles_deg.last == 0) {
             request.color.light = Light::s;
@@ -315,7 +318,7 @@ private:
     }
 
     /// Levels of the thickness's spread, for mips.
-    void plan_spread(const SceneMaterial& material, LutRequest& request) {
+    void plan_spread(const schemas::SceneMaterial& material, LutRequest& request) {
         const double spread = material.thickness_spread_nm;
         if (spread == 0) return omit(material, "mip levels", "no spread is given", Kind::given);
         if (request.vary.size() != 1 || !request.vary.front().path.ends_with("thickness_nm"))
@@ -327,10 +330,10 @@ private:
     // --- the series in the shader -----------------------------------------------------------
 
     /// Films at the ends and in the middle of what varies, with the indices of shaders.
-    std::vector<Film> films_of(const SceneMaterial& material) const {
+    std::vector<Film> films_of(const schemas::SceneMaterial& material) const {
         const LutRequest request = request_of(material);
         const std::vector<std::string> paths = paths_of(request.vary);
-        const VariedStack varied(material.source, paths);
+        const schemas::VariedStack varied(material.source, paths);
         std::vector<Film> films;
         const std::size_t steps = paths.empty() ? 1 : kRangeSize;
         for (std::size_t i = 0; i < steps * (paths.size() > 1 ? steps : 1); ++i) {
@@ -340,7 +343,7 @@ private:
             const Stack stack = varied.at(values);
             const std::string fault = stack.elements.empty() ? "no layer" : film_fault(stack);
             if (!fault.empty())
-                throw InputError(
+                throw schemas::InputError(
                     "", material.pointer + "/shading",
                     "fourier needs one coherent film of a real index (got " + fault + ")");
             films.push_back(shader_film(stack));
@@ -348,7 +351,7 @@ private:
         return films;
     }
 
-    void plan_fourier(const SceneMaterial& material, MaterialPlan& plan) {
+    void plan_fourier(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         const std::vector<Film> films = films_of(material);
         const bool is_real =
             std::ranges::all_of(films, [](const Film& f) { return f.base.imag() == 0; });
@@ -393,7 +396,7 @@ private:
     }
 
     /// The last order that matters anywhere, and the longest path m D among those that do.
-    int orders_of(const SceneMaterial& material, const std::vector<Film>& films,
+    int orders_of(const schemas::SceneMaterial& material, const std::vector<Film>& films,
                   double& longest_nm) const {
         constexpr int most = 1000, angles = 17;
         const SensitivityTransform& transform = this->transform();
@@ -420,8 +423,8 @@ private:
     /// Spreads of the optical path. That of order m is m 2 n2 cos(theta2) sigma, sigma being the
     /// spread of the thickness: the shader looks for each order's own among these levels. The last
     /// one is the largest that occurs, or leaves no fringes at all.
-    std::vector<double> sigmas_of(const SceneMaterial& material, const std::vector<Film>& films,
-                                  int orders) {
+    std::vector<double> sigmas_of(const schemas::SceneMaterial& material,
+                                  const std::vector<Film>& films, int orders) {
         const double spread = material.thickness_spread_nm;
         if (spread == 0) {
             omit(material, "mip levels", "no spread is given", Kind::given);
@@ -449,7 +452,7 @@ private:
 
     // --- Yeh's reflectance in the shader ------------------------------------------------------
 
-    void plan_bragg(const SceneMaterial& material, MaterialPlan& plan) {
+    void plan_bragg(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         const Stack& stack = material.document.stack;
         const auto& group = std::get<Group>(stack.elements[0].value);
         const auto& first = std::get<Layer>(group.elements[0].value);
@@ -470,7 +473,7 @@ private:
 
     // --- rough surfaces -----------------------------------------------------------------------
 
-    void plan_rough_layers(const SceneMaterial& material, MaterialPlan& plan) {
+    void plan_rough_layers(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         plan.snippets = {"transmissivity"};
         omit_transmission(material, "rough-layers is of reflected light");
         const std::vector<double> angles = samples_of(
@@ -496,7 +499,7 @@ private:
             making_of(false));
     }
 
-    void plan_albedo(const SceneMaterial& material, MaterialPlan& plan) {
+    void plan_albedo(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         if (!material.is_rough) {
             omit(material, "alpha", "the surface is smooth: its albedo is its colour");
             return plan_color(material, plan);
@@ -524,7 +527,7 @@ private:
 
     static constexpr double kGrazing_deg = 89.75;
 
-    const Scene& scene_;
+    const schemas::Scene& scene_;
     Execution execution_;
     std::shared_ptr<const Sensitivity> sensitivity_;
     mutable std::shared_ptr<const SensitivityTransform> transform_;
@@ -533,14 +536,14 @@ private:
 
 }  // namespace
 
-ScenePlan plan_scene(const Scene& scene, const Execution& execution) {
+ScenePlan plan_scene(const schemas::Scene& scene, const Execution& execution) {
     return Planner(scene, execution).run();
 }
 
 std::vector<std::string> problems_of_scene(const json& document, const std::string& file,
                                            const std::string& folder, const Execution& execution) {
-    if (auto lines = scene_problems(document, file); !lines.empty()) return lines;
-    const Scene scene = read_scene(document, file, folder);
+    if (auto lines = schemas::scene_problems(document, file); !lines.empty()) return lines;
+    const schemas::Scene scene = schemas::read_scene(document, file, folder);
     ScenePlan plan = plan_scene(scene, execution);
     std::vector<std::string> lines;
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
@@ -551,10 +554,10 @@ std::vector<std::string> problems_of_scene(const json& document, const std::stri
                 table.kind->plan(table.request);
             }
         } catch (const std::exception& error) {  // what the kind of table does not take
-            material.faults.push_back(fault_of(scene.materials[m], error));
+            material.faults.push_back(schemas::fault_of(scene.materials[m], error));
         }
-        for (const SceneFault& fault : material.faults)
-            lines.push_back(fault_text(scene, material.name, fault));
+        for (const schemas::SceneFault& fault : material.faults)
+            lines.push_back(schemas::fault_text(scene, material.name, fault));
     }
     return lines;
 }
@@ -566,7 +569,7 @@ LutRequest request_up_to(const SceneTable& table, double largest_angle_deg) {
     return request;
 }
 
-LutRequest color_request_of(const Scene& scene, const SceneMaterial& material,
+LutRequest color_request_of(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                             const Execution& execution) {
     return Planner(scene, execution).color_request(material);
 }
@@ -578,8 +581,8 @@ Film shader_film(const Stack& stack) {
             layer.thickness_nm};
 }
 
-const LutFormat& format_of(const Scene& scene) {
+const LutFormat& format_of(const schemas::Scene& scene) {
     return *find_lut_format(scene.format);
 }
 
-}  // namespace irido
+}  // namespace irido::tables

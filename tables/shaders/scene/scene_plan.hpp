@@ -13,7 +13,7 @@
 #include "tables/lut/lut_kind.hpp"
 #include "tables/lut/lut_maker.hpp"
 
-namespace irido {
+namespace irido::tables {
 
 /// Changes whenever irido computes other numbers for the same request: tables made before are then
 /// made again.
@@ -57,13 +57,13 @@ struct MaterialPlan {
         std::size_t table = 0;
     };
     std::string name;
-    Shading shading = Shading::color;
-    ValueRange angles_deg;  ///< of the scene, or the largest range
-    std::vector<VariedRange> vary;
+    schemas::Shading shading = schemas::Shading::color;
+    schemas::ValueRange angles_deg;  ///< of the scene, or the largest range
+    std::vector<schemas::VariedRange> vary;
     std::vector<Use> tables;
     nlohmann::json constants = nlohmann::json::object();
-    std::vector<std::string> snippets;  ///< of irido lut shader
-    std::vector<SceneFault> faults;     ///< why it cannot be; none if it can
+    std::vector<std::string> snippets;        ///< of irido lut shader
+    std::vector<schemas::SceneFault> faults;  ///< why it cannot be; none if it can
 };
 
 struct ScenePlan {
@@ -77,7 +77,7 @@ struct ScenePlan {
 /// What a scene needs: tables with their axes and tolerances, numbers in place of tables, and all
 /// that is left out. Equal tables are one. Depends on the scene alone. A material that cannot be
 /// has faults and no tables.
-ScenePlan plan_scene(const Scene& scene, const Execution& execution);
+ScenePlan plan_scene(const schemas::Scene& scene, const Execution& execution);
 
 /// Everything that is known to be wrong with a scene before its tables are computed, one line each:
 /// "FILE: POINTER: material NAME: reason".
@@ -88,7 +88,7 @@ std::vector<std::string> problems_of_scene(const nlohmann::json& document, const
 LutRequest request_up_to(const SceneTable& table, double largest_angle_deg);
 
 /// What the kind `color` is asked for a material's reflected light, however it is shaded.
-LutRequest color_request_of(const Scene& scene, const SceneMaterial& material,
+LutRequest color_request_of(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                             const Execution& execution);
 
 /// Where shaders take the indices of a stack.
@@ -98,6 +98,6 @@ inline constexpr double kShaderIndices_nm = 550;
 Film shader_film(const Stack& stack);
 
 /// The layout that the scene's format and type ask for.
-const LutFormat& format_of(const Scene& scene);
+const LutFormat& format_of(const schemas::Scene& scene);
 
-}  // namespace irido
+}  // namespace irido::tables

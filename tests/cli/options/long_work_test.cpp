@@ -7,6 +7,8 @@
 #include "tests/support/program.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::cli;
 using namespace irido::test;
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;

@@ -14,6 +14,7 @@
 #include "schemas/documents/stack_document.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 using Catch::Contains;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

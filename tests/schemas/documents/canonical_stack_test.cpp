@@ -7,6 +7,7 @@
 #include "schemas/documents/stack_document.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 using nlohmann::json;
 
 namespace {

@@ -5,8 +5,8 @@
 
 #include "schemas/input_error.hpp"
 
-using irido::parse_json;
-using irido::set_value;
+using irido::schemas::parse_json;
+using irido::schemas::set_value;
 using nlohmann::json;
 
 namespace {
@@ -15,7 +15,7 @@ template <class Function>
 std::string error_of(Function function) {
     try {
         function();
-    } catch (const irido::InputError& error) {
+    } catch (const irido::schemas::InputError& error) {
         return error.what();
     }
     return "accepted";
@@ -111,7 +111,7 @@ TEST_CASE("A path that leads nowhere is refused") {
 }
 
 TEST_CASE("A text stands for JSON, for an index where a material is, or for itself") {
-    using irido::value_from_text;
+    using irido::schemas::value_from_text;
     CHECK(value_from_text("substrate", "1.9+1.5i") == json{{"n", 1.9}, {"k", 1.5}});
     CHECK(value_from_text("layers.0.material", "2") == 2);
     CHECK(value_from_text("layers.0.name", "1+2i") == "1+2i");
@@ -124,7 +124,7 @@ TEST_CASE("A text stands for JSON, for an index where a material is, or for itse
 
 TEST_CASE("Lists of values are split at the commas between them") {
     const auto split = [](std::string_view text) {
-        const auto parts = irido::split_values(text);
+        const auto parts = irido::schemas::split_values(text);
         return std::vector<std::string>(parts.begin(), parts.end());
     };
     using Parts = std::vector<std::string>;

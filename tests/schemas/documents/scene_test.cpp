@@ -9,6 +9,7 @@
 #include "tests/support/program.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 using namespace irido::test;
 using nlohmann::json;
 

@@ -9,15 +9,15 @@
 #include "schemas/documents/stack_document.hpp"
 #include "schemas/readers/nearest.hpp"
 
-using irido::check;
-using irido::Problem;
-using irido::Schema;
+using irido::schemas::check;
+using irido::schemas::Problem;
+using irido::schemas::Schema;
 using nlohmann::json;
 
 namespace {
 
 const json& stack_schema_document() {
-    static const json document = json::parse(irido::stack_schema_text());
+    static const json document = json::parse(irido::schemas::stack_schema_text());
     return document;
 }
 
@@ -114,7 +114,8 @@ TEST_CASE("A field of the wrong type is refused where it is") {
             REQUIRE(problems.size() == 1);
             CHECK(problems[0].pointer == field);
             CHECK(problems[0].message.starts_with("must be "));
-            CHECK(problems[0].message.ends_with(" (got " + irido::short_text(wrong) + ")"));
+            CHECK(
+                problems[0].message.ends_with(" (got " + irido::schemas::short_text(wrong) + ")"));
         }
     }
 }
@@ -206,11 +207,11 @@ TEST_CASE("Keys and values keep a message on one short line") {
     const std::vector<Problem> problems = check(schema, {{"a/b~c\nd", 1}});
     REQUIRE(problems.size() == 1);
     CHECK(problems[0].pointer == "/a~1b~0c?d");
-    CHECK(irido::short_text(std::string(100, 'x')).size() == 40);
-    CHECK(irido::short_text("\xC3\xA9\n\xFF") == "\"\xC3\xA9\\n\xEF\xBF\xBD\"");
+    CHECK(irido::schemas::short_text(std::string(100, 'x')).size() == 40);
+    CHECK(irido::schemas::short_text("\xC3\xA9\n\xFF") == "\"\xC3\xA9\\n\xEF\xBF\xBD\"");
     std::string accents;
     for (int i = 0; i < 50; ++i) accents += "\xC3\xA9";
-    const std::string text = irido::short_text(accents);
+    const std::string text = irido::schemas::short_text(accents);
     CHECK(text == json(text).get<std::string>());
     CHECK_NOTHROW(json(text).dump());  // no letter cut in two
 }
@@ -218,13 +219,13 @@ TEST_CASE("Keys and values keep a message on one short line") {
 TEST_CASE("nearest finds misspellings and nothing far-fetched") {
     const std::vector<std::string> keys{
         "material", "thickness_nm", "thickness_sigma_nm", "coherent", "n", "k"};
-    CHECK(irido::nearest("thicknes", keys) == "thickness_nm");
-    CHECK(irido::nearest("thickness", keys) == "thickness_nm");
-    CHECK(irido::nearest("Material", keys) == "material");
-    CHECK(irido::nearest("matreial", keys) == "material");
-    CHECK(irido::nearest("nn", keys) == "n");
-    CHECK(irido::nearest("x", keys).empty());
-    CHECK(irido::nearest("colour", keys).empty());
-    CHECK(irido::nearest("", keys).empty());
-    CHECK(irido::nearest(std::string(1000000, 'm'), keys).empty());
+    CHECK(irido::schemas::nearest("thicknes", keys) == "thickness_nm");
+    CHECK(irido::schemas::nearest("thickness", keys) == "thickness_nm");
+    CHECK(irido::schemas::nearest("Material", keys) == "material");
+    CHECK(irido::schemas::nearest("matreial", keys) == "material");
+    CHECK(irido::schemas::nearest("nn", keys) == "n");
+    CHECK(irido::schemas::nearest("x", keys).empty());
+    CHECK(irido::schemas::nearest("colour", keys).empty());
+    CHECK(irido::schemas::nearest("", keys).empty());
+    CHECK(irido::schemas::nearest(std::string(1000000, 'm'), keys).empty());
 }

@@ -12,6 +12,7 @@
 #include "schemas/input_error.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 using nlohmann::json;
 
 namespace {
@@ -300,7 +301,7 @@ TEST_CASE("Files of a document are named as seen from another folder") {
     document["materials"] = {{"own.csv", 1}, {"H", "/abs/h.csv"}, {"L", "l.csv"}};
     document["layers"].push_back(
         {{"repeat", 2}, {"layers", {{{"material", "g.csv"}, {"thickness_nm", 1}}}}});
-    irido::move_files(document, "a/b", "a/c");
+    irido::schemas::move_files(document, "a/b", "a/c");
     CHECK(document["layers"][0]["material"]["file"] == "../b/glass.csv");
     CHECK(document["layers"][1]["layers"][0]["material"] == "../b/g.csv");
     CHECK(document["substrate"] == "../x.yml");

@@ -10,6 +10,7 @@
 #include "schemas/input_error.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 using nlohmann::json;
 
 namespace {

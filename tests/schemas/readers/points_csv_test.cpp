@@ -7,6 +7,7 @@
 #include "schemas/input_error.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 
 namespace {
 

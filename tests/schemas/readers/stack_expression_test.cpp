@@ -9,8 +9,8 @@
 #include "schemas/documents/stack_document.hpp"
 #include "schemas/input_error.hpp"
 
-using irido::parse_index;
-using irido::parse_stack_expression;
+using irido::schemas::parse_index;
+using irido::schemas::parse_stack_expression;
 using nlohmann::json;
 
 namespace {
@@ -18,7 +18,7 @@ namespace {
 std::string error_of(const std::string& expression) {
     try {
         parse_stack_expression(expression);
-    } catch (const irido::InputError& error) {
+    } catch (const irido::schemas::InputError& error) {
         CHECK(error.file == "\"" + expression + "\"");
         CHECK(error.where.starts_with("column "));
         return error.where + ": " + error.message;
@@ -114,11 +114,11 @@ TEST_CASE("Errors of expressions tell the column, what was expected and what is 
 TEST_CASE("A stack's expression reads back to the same stack") {
     for (const char* text : {"1 | 1.33", "air | 1.33@380 | BK7", "1.2 | 1.9+1.5i@0 | 0.05-2i",
                              "air | (TiO2@58.5 | (1.46@1e-07 | 2@3)^2)^1000000000 | SiO@7 | Cu"}) {
-        const irido::Stack stack = irido::read_stack({text, {}}).stack;
-        const irido::StackExpression expression = irido::stack_expression(stack);
+        const irido::Stack stack = irido::schemas::read_stack({text, {}}).stack;
+        const irido::schemas::StackExpression expression = irido::schemas::stack_expression(stack);
         CHECK(expression.text == text);
         CHECK(expression.losses.empty());
-        CHECK(irido::read_stack({expression.text, {}}).stack == stack);
+        CHECK(irido::schemas::read_stack({expression.text, {}}).stack == stack);
     }
 }
 
@@ -128,8 +128,8 @@ TEST_CASE("What an expression cannot say is listed, once each") {
          "thickness_sigma_nm": 1},
         {"material": {"name": "ITO", "extrapolate": "clamp"}, "thickness_nm": 6,
          "thickness_sigma_nm": 2}]})");
-    const irido::StackExpression expression =
-        irido::stack_expression(irido::read_stack(document, "f", "").stack);
+    const irido::schemas::StackExpression expression =
+        irido::schemas::stack_expression(irido::schemas::read_stack(document, "f", "").stack);
     CHECK(expression.text ==
           "1 | " + irido::to_text(1.5 + 0.01 / (0.55 * 0.55)) + "@5 | ITO@6 | Ag");
     CHECK(expression.losses == std::vector<std::string>{"sol: written as its index at 550 nm",
@@ -171,8 +171,9 @@ TEST_CASE("! after a thickness marks a layer that is not coherent") {
           stack("air", json::array({plate}), "air"));
     CHECK(parse_stack_expression("air|(BK7@1e6 !|2@3)^2|air") ==
           stack("air", json::array({group(2, {plate, layer(2, 3)})}), "air"));
-    CHECK(irido::stack_expression(irido::read_stack({"1 | BK7@1mm! | 1", {}}).stack).text ==
-          "1 | BK7@1e+06! | 1");
+    CHECK(
+        irido::schemas::stack_expression(irido::schemas::read_stack({"1 | BK7@1mm! | 1", {}}).stack)
+            .text == "1 | BK7@1e+06! | 1");
     CHECK(error_of("air! | 1@2 | air") == "column 4: expected \"|\", found \"!\"");
     CHECK(error_of("air | 1@2!! | air") == "column 11: expected \"|\", found \"!\"");
     CHECK(error_of("air | (1@2)^3! | air") == "column 14: expected \"|\", found \"!\"");

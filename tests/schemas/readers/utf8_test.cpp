@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-namespace irido {
+namespace irido::schemas {
 namespace {
 
 const std::string kReplaced = "\xEF\xBF\xBD";
@@ -48,4 +48,4 @@ TEST_CASE("what no text may hold is replaced, all else stays", "[schemas][utf8]"
     CHECK(well_formed("\xED\xA0\x80") == kReplaced + kReplaced + kReplaced);  // a surrogate
 }
 
-}  // namespace irido
+}  // namespace irido::schemas

@@ -4,6 +4,7 @@
 #include <cmath>
 
 using namespace irido;
+using namespace irido::tables;
 
 namespace {
 

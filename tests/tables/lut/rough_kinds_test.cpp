@@ -10,6 +10,8 @@
 #include "tables/lut/lut_kind.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
 using Catch::Contains;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;

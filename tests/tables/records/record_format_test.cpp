@@ -11,6 +11,7 @@
 #include "tests/support/sample_records.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 using Catch::Contains;
 using Catch::StartsWith;

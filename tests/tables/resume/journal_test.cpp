@@ -24,6 +24,7 @@
 #include "tests/support/sample_streams.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 using Catch::Contains;
 using Catch::Equals;
@@ -250,7 +251,7 @@ TEST_CASE("a part of something else is not gone on with", "[tables][stream]") {
     other = identity;
     other.build.commit = "0123456789ab";
     CHECK_THAT(refused(csv, sample_layout(), other),
-               Equals(path + ": its part is of irido " + to_text(this_build()) + ", this is " +
+               Equals(path + ": its part is of irido " + version_text(this_build()) + ", this is " +
                       this_build().version +
                       " (0123456789ab), whose numbers may differ: run without --resume to begin "
                       "anew, or name another file"));

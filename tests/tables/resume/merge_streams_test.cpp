@@ -9,6 +9,7 @@
 #include "tests/support/sample_streams.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 using Catch::Contains;
 using Catch::Equals;
@@ -131,8 +132,8 @@ TEST_CASE("shards of different numbers are refused", "[tables][stream][refused]"
         identity.build = build;
         write_shard(second, shards.format, identity);
         CHECK_THAT(shards.refused(),
-                   Equals(second + ": is of irido " + to_text(build) + ", " + first + " of " +
-                          to_text(this_build()) +
+                   Equals(second + ": is of irido " + version_text(build) + ", " + first + " of " +
+                          version_text(this_build()) +
                           ", whose numbers may differ: run all shards with one of them"));
     }
 }

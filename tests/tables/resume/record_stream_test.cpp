@@ -24,6 +24,7 @@
 #include "tests/support/sample_streams.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 using Catch::Contains;
 using Catch::Equals;

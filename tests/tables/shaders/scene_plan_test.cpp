@@ -11,6 +11,8 @@
 #include "tests/support/program.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
 using namespace irido::test;
 using nlohmann::json;
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 using namespace irido;
+using namespace irido::tables;
 using Catch::Matchers::Contains;
 
 TEST_CASE("samplers of GLSL have the precision of the tables", "[tables][lut]") {

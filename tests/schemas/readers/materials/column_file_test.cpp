@@ -6,6 +6,7 @@
 #include "schemas/readers/spectrum_csv.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 
 namespace {
 

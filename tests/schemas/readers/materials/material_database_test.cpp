@@ -17,6 +17,7 @@
 #include "schemas/readers/text_file.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 
 namespace {
 

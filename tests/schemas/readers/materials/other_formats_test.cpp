@@ -4,6 +4,7 @@
 #include "schemas/readers/material_file.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 using Catch::Matchers::WithinAbs;
 
 namespace {

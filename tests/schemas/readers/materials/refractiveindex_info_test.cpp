@@ -9,6 +9,7 @@
 #include "schemas/input_error.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
 using Catch::Matchers::WithinAbs;
 
 namespace {

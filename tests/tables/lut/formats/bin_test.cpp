@@ -3,6 +3,7 @@
 #include "tests/support/sample_luts.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 
 TEST_CASE("bin is the levels one after the other", "[tables][lut]") {

@@ -8,6 +8,7 @@
 #include "tests/support/sample_luts.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 
 namespace {

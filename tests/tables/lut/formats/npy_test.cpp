@@ -4,6 +4,7 @@
 #include "tests/support/sample_luts.hpp"
 
 using namespace irido;
+using namespace irido::tables;
 using namespace irido::test;
 
 TEST_CASE("numpy reads a table", "[tables][lut][slow]") {
