@@ -1,4 +1,4 @@
-// The README's job array under Slurm and its line for GNU Parallel, with shards that are killed.
+// The job array of docs/sweeps.md under Slurm and its line for GNU Parallel, with shards that are killed.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync, readdirSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
@@ -6,7 +6,7 @@ import { dirname } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { startCluster, until } from './support/cluster.js';
 import { program, temporaryFolder } from './support/irido.js';
-import { readmeBlock } from './support/readme.js';
+import { pageBlock } from './support/pages.js';
 
 // no quick film: each shard takes some seconds
 const layers = Array.from({ length: 30 }, (_, i) => ({ material: i % 2 ? 'TiO2' : 'SiO2', thickness_nm: 60 + 7 * i }));
@@ -16,7 +16,7 @@ const folder = temporaryFolder();
 symlinkSync(program, `${folder}/irido`);
 process.env.PATH = `${folder}:${process.env.PATH}`;
 
-/** Runs a command of the README in a folder of its own that has stack.json. */
+/** Runs a command of the page in a folder of its own that has stack.json. */
 function shell(command, cwd) {
     const result = spawnSync('sh', ['-c', command], { cwd, encoding: 'utf8' });
     assert.equal(result.status, 0, result.stderr);
@@ -29,7 +29,7 @@ function newFolder() {
     return place;
 }
 
-/** The sweep of the README's commands by one process. */
+/** The sweep of the page's commands by one process. */
 function wholeSweep(job) {
     const place = newFolder();
     const sweep = job.replace(/\\\n/g, ' ').match(/^.*?(irido sweep.*?) --shard/m)[1];
@@ -54,7 +54,7 @@ async function killWriterOf(part, seconds) {
 }
 
 describe('a sweep in shards', () => {
-    const job = readmeBlock('sh', '#SBATCH');
+    const job = pageBlock('sh', '#SBATCH');
     let whole, cluster;
     before(async () => {
         whole = wholeSweep(job);
@@ -77,19 +77,19 @@ describe('a sweep in shards', () => {
         await until(() => cluster.run('squeue', '-h', '-t', 'pending,running,completing,requeued')
             .trim() === '', 180, 'the end of all');
         assert.ok(!existsSync(`${place}/sweep.csv`));
-        shell(readmeBlock('sh', 'irido sweep --merge part-*.csv'), place);
+        shell(pageBlock('sh', 'irido sweep --merge part-*.csv'), place);
         assert.ok(whole.equals(readFileSync(`${place}/sweep.csv`)));
     });
 
     it('runs under GNU Parallel, which tries a shard that is killed again', async () => {
         const place = newFolder();
-        const command = readmeBlock('sh', 'parallel ');
+        const command = pageBlock('sh', 'parallel ');
         const { spawn } = await import('node:child_process');
         const running = spawn('sh', ['-c', command], { cwd: place, stdio: 'ignore' });
         const ended = new Promise((resolve) => { running.on('exit', resolve); });
         await killWriterOf(`${place}/part-1.csv.part`, 60);
         assert.equal(await ended, 0);
-        shell(readmeBlock('sh', 'irido sweep --merge part-*.csv'), place);
+        shell(pageBlock('sh', 'irido sweep --merge part-*.csv'), place);
         assert.ok(whole.equals(readFileSync(`${place}/sweep.csv`)));
     });
 });

@@ -1,10 +1,10 @@
-// The README's recipes: sweeps drawn by gnuplot, read by NumPy and by h5py, and all formats alike.
+// The recipes of docs/sweeps.md: sweeps drawn by gnuplot, read by NumPy and by h5py, and all formats alike.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { readFileSync, symlinkSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { csv, irido, program, temporaryFolder } from './support/irido.js';
-import { readmeBlock } from './support/readme.js';
+import { pageBlock } from './support/pages.js';
 
 const folder = temporaryFolder();
 symlinkSync(program, `${folder}/irido`);
@@ -19,8 +19,8 @@ function shell(command) {
 // Debian's: another python3 may be first in the path, without NumPy
 const python = (script) => execFileSync('/usr/bin/python3', ['-c', script], { cwd: folder, encoding: 'utf8' });
 
-describe('the recipes of the README', () => {
-    const recipe = readmeBlock('sh', 'gnuplot');
+describe('the recipes of docs/sweeps.md', () => {
+    const recipe = pageBlock('sh', 'gnuplot');
     const sweep = recipe.slice(0, recipe.indexOf(' -o bubble.csv'));
 
     it('gnuplot draws it', () => {
@@ -36,7 +36,7 @@ describe('the recipes of the README', () => {
         const most = Math.max(...rows.map((row) => Number(row.Y)));
         for (const [format, words] of [['npy', 'np.load'], ['h5', 'h5py']]) {
             shell(`${sweep} -o bubble.${format}`);
-            const answer = python(readmeBlock('python', words)).trim();
+            const answer = python(pageBlock('python', words)).trim();
             for (const name of Object.keys(rows[0])) assert.ok(answer.includes(`'${name}'`), answer);
             assert.equal(Number(answer.split(' ').pop()), most);
         }
