@@ -17,23 +17,23 @@ namespace irido::cli {
 void add_stack_options(CLI::App& command, schemas::StackRequest& request) {
     command
         .add_option("STACK", request.stack,
-                    "stack file (.json; irido validate --schema explains it),\n"
-                    "- for standard input, or an expression: media from the\n"
-                    "incident side (materials, material files, indices) with\n"
-                    "their thickness after @, in nm unless um or mm follows, and\n"
-                    "! after layers that are not coherent,\n"
+                    "stack file (.json; see irido validate --schema), - for\n"
+                    "standard input, or an expression: media from the incident\n"
+                    "side (built-in materials, material files, indices), @ and\n"
+                    "the thickness after each layer (in nm, or with um or mm),\n"
+                    "! after an incoherent one:\n"
                     "\"air | (TiO2@58.5 | 1.46@94.2)^10 | BK7@1mm! | 1.9+1.5i\"")
         ->required();
     command
         .add_option("--set", request.set,
-                    "override a value of the stack by dotted path, once for each:\n"
+                    "override a value of the stack by dotted path; repeatable:\n"
                     "--set layers.0.thickness_nm=400 --set substrate=Si")
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false);
     command
         .add_option("--material", request.media,
-                    "a name for a medium of the stack, once for each: an index, a\n"
-                    "built-in material, a material file or a JSON material:\n"
+                    "name a medium of the stack: an index, a built-in material, a\n"
+                    "material file or a JSON material; repeatable:\n"
                     "--material H=2.35 --material L=SiO2")
         ->type_name("NAME=MATERIAL")
         ->allow_extra_args(false);
@@ -94,7 +94,7 @@ void add_threads_option(CLI::App& command, unsigned& threads) {
     command
         .add_option_function<std::string>(
             "-j,--threads", [&threads](const std::string& text) { threads = parse_threads(text); },
-            "threads [all cores]; the answer does not depend on it")
+            "number of threads [all cores]; does not affect the result")
         ->type_name("N");
 }
 
@@ -102,7 +102,7 @@ void add_threads_option(CLI::App& command) {
     command
         .add_option_function<std::string>(
             "-j,--threads", [](const std::string& text) { parse_threads(text); },
-            "threads, as other commands take them; this one needs only one")
+            "accepted for uniformity: this command runs on one thread")
         ->type_name("N");
 }
 
