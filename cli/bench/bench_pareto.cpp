@@ -5,8 +5,9 @@
 #include "cli/bench/bench.hpp"
 #include "cli/bench/color_comparison.hpp"
 #include "cli/options/color_options.hpp"
+#include "cli/options/picture_options.hpp"
 #include "core/colorimetry/illuminant.hpp"
-#include "tables/pictures/plot.hpp"
+#include "tables/pictures/figure.hpp"
 
 namespace irido::cli {
 
@@ -121,16 +122,19 @@ tables::Records to_records(const std::vector<ParetoRow>& rows) {
     return records;
 }
 
-tables::Plot::Point point_of(const ParetoRow& row) {
-    return {row.report.ns_per_color, row.report.max_error};
+/// Errors below are roundings, and those of the reference.
+constexpr double kSmallestError = 1e-13;
+
+tables::Point point_of(const ParetoRow& row) {
+    return {row.report.ns_per_color, std::clamp(row.report.max_error, kSmallestError, 1.0)};
 }
 
 /// The steps along which nothing is both faster and more exact.
-std::vector<tables::Plot::Point> front(const std::vector<ParetoRow>& rows) {
-    std::vector<tables::Plot::Point> points, steps;
+std::vector<tables::Point> front(const std::vector<ParetoRow>& rows) {
+    std::vector<tables::Point> points, steps;
     for (const ParetoRow& row : rows) points.push_back(point_of(row));
-    std::ranges::sort(points, {}, &tables::Plot::Point::x);
-    for (const tables::Plot::Point& point : points) {
+    std::ranges::sort(points, {}, &tables::Point::x);
+    for (const tables::Point& point : points) {
         if (!steps.empty() && point.y >= steps.back().y) continue;
         if (!steps.empty()) steps.push_back({point.x, steps.back().y});
         steps.push_back(point);
@@ -139,39 +143,51 @@ std::vector<tables::Plot::Point> front(const std::vector<ParetoRow>& rows) {
 }
 
 /// `names` of the methods so far; those that are new are added.
-tables::Plot::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::string>& names) {
-    tables::Plot::Panel panel{std::string(rows.front().of), front(rows), {}};
+tables::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::string>& names) {
+    using enum tables::Series::Form;
+    tables::Panel panel{.title = std::string(rows.front().of)};
+    panel.series.push_back({"best for its time", 0, front(rows), highlight, {}});
+    std::string last;
     for (const ParetoRow& row : rows) {
         const std::string name = candidates()[row.candidate].name();
         const auto known = std::ranges::find(names, name);
-        const auto kind = static_cast<std::size_t>(known - names.begin());
+        const auto style = static_cast<std::size_t>(known - names.begin());
         if (known == names.end()) names.push_back(name);
-        const bool goes_on = !panel.series.empty() && panel.series.back().kind == kind;
-        if (!goes_on) panel.series.push_back({kind, {}});
+        if (name != last) panel.series.push_back({name, style, {}, line_with_points, {}});
         panel.series.back().points.push_back(point_of(row));
+        last = name;
     }
     return panel;
 }
 
-/// Errors below are roundings, and those of the reference.
-constexpr int kSmallestErrorPower = -13;
-
-std::string picture(const std::vector<std::vector<ParetoRow>>& cases) {
-    tables::Plot plot;
-    plot.title = "Colours of thin films: run time against error";
+tables::Figure picture(const std::vector<std::vector<ParetoRow>>& cases) {
+    tables::Figure figure{.title = "Colours of thin films: run time against error"};
     double fastest = 1e9, slowest = 1;
+    std::vector<std::string> names;
     for (const std::vector<ParetoRow>& rows : cases) {
-        plot.panels.push_back(panel_of(rows, plot.legend));
+        figure.panels.push_back(panel_of(rows, names));
         for (const ParetoRow& row : rows) {
             fastest = std::min(fastest, row.report.ns_per_color);
             slowest = std::max(slowest, row.report.ns_per_color);
         }
     }
-    plot.x = {"time per colour, ns", static_cast<int>(std::floor(std::log10(fastest))),
-              static_cast<int>(std::ceil(std::log10(slowest)))};
-    plot.y = {"largest error of X, Y, Z (white Y = 1)", kSmallestErrorPower, 0};
-    plot.highlight = "best for its time";
-    return tables::write_plot(plot);
+    for (tables::Panel& panel : figure.panels) {
+        panel.x = {.quantity = "time per colour",
+                   .unit = "ns",
+                   .logarithmic = true,
+                   .first = std::pow(10, std::floor(std::log10(fastest))),
+                   .last = std::pow(10, std::ceil(std::log10(slowest)))};
+        panel.y = {.quantity = "largest error of X, Y, Z",
+                   .logarithmic = true,
+                   .first = kSmallestError,
+                   .last = 1};
+    }
+    figure.notes.push_back("white has Y = 1");
+    figure.columns = 4;
+    figure.width = 1080;
+    figure.panel_height = 170;
+    figure.shared_x = figure.shared_y = true;
+    return figure;
 }
 
 int run_pareto(const ParetoOptions& options) {
@@ -191,7 +207,9 @@ int run_pareto(const ParetoOptions& options) {
         rows.insert(rows.end(), cases.back().begin(), cases.back().end());
     }
     write_records(to_records(rows), options.output);
-    if (options.plot) write_bytes(picture(cases), {*options.plot, "svg"}, false);
+    if (options.plot)
+        write_picture([&] { return picture(cases); }, {},
+                      picture_format_of("--plot", *options.plot), {*options.plot, ""});
     return 0;
 }
 
@@ -217,7 +235,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         ->type_name("S");
     command
         ->add_option("--plot", options->plot,
-                     "draw every case's rows into FILE too, an SVG picture")
+                     "draw every case's rows into FILE too: .svg, .png or .pdf")
         ->type_name("FILE");
     add_output_options(*command, options->output, record_formats_text());
     set_examples(

@@ -4,12 +4,13 @@
 #include <numbers>
 
 #include "cli/options/command.hpp"
+#include "cli/options/picture_options.hpp"
 #include "cli/queries/bands_question.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/files/atomic_file.hpp"
-#include "tables/pictures/band_diagram.hpp"
+#include "tables/pictures/band_figure.hpp"
 
 namespace irido::cli {
 
@@ -27,8 +28,8 @@ tables::BandDiagram::Edges wavelengths_of(const BandGap& gap) {
     return {kTwoPi / gap.high_per_nm, kTwoPi / gap.low_per_nm};
 }
 
-std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
-                    const std::string& title) {
+tables::Figure diagram_of(const BandsQuestion& question, const BraggMirror& mirror,
+                          const std::string& title) {
     const std::span<const double> angles = question.angles_deg();
     tables::BandDiagram diagram{
         title, question.first_nm(), question.last_nm(), {angles.begin(), angles.end()}, {}};
@@ -48,33 +49,44 @@ std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
         }
         diagram.gaps.push_back(std::move(gap));
     }
-    return tables::write_band_diagram(diagram);
+    return tables::band_figure(diagram);
 }
 
-std::string picture(const BandsQuestion& question, const schemas::StackDocument& document,
-                    const std::string& title) {
+tables::Figure diagram_of(const BandsQuestion& question, const schemas::StackDocument& document,
+                          const std::string& title) {
     try {
-        return picture(question, question.mirror(document, document.stack),
-                       document.name.empty() ? title : document.name);
+        return diagram_of(question, question.mirror(document, document.stack), title);
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());
     }
 }
 
 int run_bands(const BandsCommand& command) {
-    resolved_record_format(command.output);
-    const BandsQuestion question(
-        static_cast<const BandsOptions&>(*command.typed),
-        {.note = [&](const std::string& text) { note(text, command.quiet); }});
+    const tables::PictureFormat* const picture = asked_picture(command.output);
+    if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    const auto& typed = static_cast<const BandsOptions&>(*command.typed);
+    const BandsQuestion question(typed, {.note = say});
     const auto [least, most] = std::ranges::minmax(question.angles_deg());
     if (command.plot && least == most)
         throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
     check_plot(command.plot, command.output);
     const tables::Records records = records_of(question, *prepared);
-    const std::string drawn =
-        command.plot ? picture(question, prepared->document, command.stack.stack) : "";
-    write_records(records, command.output);
+    const std::string title = title_of(prepared->document, command.stack);
+    const auto diagram = [&] { return diagram_of(question, prepared->document, title); };
+    std::string drawn;
+    if (command.plot)
+        drawn =
+            picture_bytes(diagram, {}, picture_format_of("--plot", *command.plot), *command.plot);
+    if (!picture) {
+        write_records(records, command.output);
+    } else if (typed.gaps && least < most) {
+        write_picture(diagram, {}, *picture, command.output);
+    } else {
+        write_picture([&] { return figure_of_rows(question, records, {}, title, {}, say); }, {},
+                      *picture, command.output);
+    }
     if (command.plot) tables::write_file(*command.plot, drawn);
     return 0;
 }
@@ -89,9 +101,11 @@ void add_bands_command(CLI::App& program, Run& run) {
     options->typed = BandsOptions::add(*command);
     command
         ->add_option("--plot", options->plot,
-                     "draw the gaps over angle and wavelength as SVG, for several angles")
+                     "draw the gaps over angle and wavelength, for several angles, as the\n"
+                     "extension says: .svg, .png or .pdf")
         ->type_name("FILE");
-    add_output_options(*command, options->output, record_formats_text());
+    add_output_options(*command, options->output,
+                       record_formats_text(RecordTarget::stream_or_picture));
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(
         *command,

@@ -2,8 +2,9 @@
 
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
+#include "cli/options/picture_options.hpp"
 #include "cli/queries/color_question.hpp"
-#include "tables/pictures/swatches.hpp"
+#include "tables/pictures/chromaticity_figure.hpp"
 
 namespace irido::cli {
 
@@ -13,33 +14,46 @@ struct ColorCommand {
     schemas::StackRequest stack;
     std::unique_ptr<QuestionOptions> typed;
     OutputOptions output;
+    PictureOptions picture;
+    std::string plot = "strip";
     unsigned threads = 0;
     bool quiet = false;
 };
 
-std::string picture(const ColorQuestion& question, const StackColors& stack,
-                    const std::string& title) {
-    tables::Swatches swatches{title, "angle of incidence, degrees", stack.angles_deg, {}};
-    const RgbSpace& space = rgb_space("srgb");
+/// The colours' way through the chromaticity diagrams.
+tables::Figure chromaticity(const ColorCommand& command, const ColorQuestion& question,
+                            const StackColors& stack, const std::string& title) {
+    const auto& typed = static_cast<const ColorQuestionOptions&>(*command.typed);
     const std::size_t sides = question.sides().size();
+    std::vector<tables::ChromaticityPath> paths;
+    tables::InkMixer mixer(parse_gamut(command.picture));
     for (std::size_t l = 0; l < stack.colors.size(); ++l) {
         const Illumination& lighting = *question.lightings()[l];
-        const RgbTransform transform = rgb_transform(space, lighting.white(), Adaptation::bradford);
+        const RgbTransform transform =
+            rgb_transform(rgb_space("srgb"), lighting.white(), Adaptation::bradford);
         for (std::size_t s = 0; s < sides; ++s) {
-            const std::string side(letter(question.sides()[s]));
-            tables::Swatches::Strip strip{
-                stack.colors.size() == 1 ? side : lighting.name + " " + side, {}};
-            for (std::size_t i = s; i < stack.colors[l].size(); i += sides)
-                strip.colors.push_back(hex(space, transform(stack.colors[l][i].xyz)));
-            swatches.strips.push_back(std::move(strip));
+            std::string name(letter(question.sides()[s]));
+            if (stack.colors.size() > 1) name = lighting.name + " " + name;
+            tables::ChromaticityPath path{name == "R" && sides == 1 ? "" : name, {}};
+            for (std::size_t i = 0; i < stack.angles_deg.size(); ++i) {
+                const Triple& xyz = stack.colors[l][i * sides + s].xyz;
+                path.stops.push_back(
+                    {xyz, mixer(transform(xyz)), to_text(stack.angles_deg[i]) + "\u00b0"});
+            }
+            paths.push_back(std::move(path));
         }
     }
-    return tables::write_swatches(swatches);
+    return tables::chromaticity_figure(title, paths, parse_observer(typed.color.observer),
+                                       question.lightings().front()->white());
 }
 
 int run_color(const ColorCommand& command) {
-    const bool is_picture = resolved_format(command.output) == "svg";
-    if (!is_picture) resolved_record_format(command.output, RecordTarget::stream_or_svg);
+    const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
+    if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
+    if (command.plot != "strip" && command.plot != "chromaticity")
+        throw UsageError("--plot: must be strip or chromaticity (got '" + command.plot + "')");
+    if (command.plot == "chromaticity" && !picture)
+        throw UsageError("--plot: needs a picture, such as --output FILE.svg");
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     const ColorQuestion question(static_cast<const ColorQuestionOptions&>(*command.typed),
                                  {.execution = execution_of(command.threads), .note = say});
@@ -48,12 +62,17 @@ int run_color(const ColorCommand& command) {
     const schemas::StackDocument& document = prepared->document;
     note_long_work(seconds_of_rows(question, document, command.threads), false, say);
     const StackColors colors = question.colors(*prepared, document.stack, question.angles_deg());
-    if (is_picture) {
-        const std::string title = document.name.empty() ? command.stack.stack : document.name;
-        write_bytes(picture(question, colors, title), command.output, false);
-    } else {
+    if (!picture) {
         write_records(question.records({colors}), command.output);
+        return 0;
     }
+    const std::string title = title_of(document, command.stack);
+    const auto figure = [&] {
+        if (command.plot == "chromaticity") return chromaticity(command, question, colors, title);
+        return figure_of_rows(question, question.records({colors}), {}, title,
+                              parse_gamut(command.picture), say);
+    };
+    write_picture(figure, command.picture, *picture, command.output);
     return 0;
 }
 
@@ -65,11 +84,19 @@ void add_color_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<ColorCommand>();
     add_stack_options(*command, options->stack);
     options->typed = ColorQuestionOptions::add(*command);
-    add_output_options(*command, options->output, record_formats_text(RecordTarget::stream_or_svg));
+    add_output_options(*command, options->output,
+                       record_formats_text(RecordTarget::stream_or_picture));
+    command
+        ->add_option("--plot", options->plot,
+                     "what a picture shows: a strip of the colours, or their path in the\n"
+                     "chromaticity diagrams x, y and u', v': chromaticity [strip]")
+        ->type_name("KIND");
+    add_picture_options(*command, options->picture);
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(*command, {"irido color \"air | TiO2@35 | Ti\" -a 0:80:10 --stats",
-                            "irido color stack.json -a 0:85:1 --side R,T -o strip.svg"});
+                            "irido color stack.json -a 0:85:1 --side R,T -o strip.svg",
+                            "irido color stack.json -a 0:85:1 --plot chromaticity -o path.svg"});
     command->callback([options, &run] { run = [options] { return run_color(*options); }; });
 }
 

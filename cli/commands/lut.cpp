@@ -5,12 +5,14 @@
 #include "cli/exit_status.hpp"
 #include "cli/options/color_options.hpp"
 #include "cli/options/long_work.hpp"
+#include "cli/options/picture_options.hpp"
 #include "cli/progress.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/files/atomic_file.hpp"
+#include "tables/lut/lut_figure.hpp"
 #include "tables/lut/lut_file.hpp"
 #include "tables/lut/lut_kind.hpp"
 #include "tables/lut/lut_maker.hpp"
@@ -31,6 +33,7 @@ struct LutCommand {
     std::map<std::string, std::string, std::less<>> options;  ///< of the kind
     std::map<std::string, bool, std::less<>> flags;
     OutputOptions output;
+    PictureOptions picture;
     std::string type = "f32", size, tolerance;
     bool any_size = false;
     tables::LutLayout layout;
@@ -41,6 +44,8 @@ struct LutCommand {
 std::vector<std::string_view> format_names() {
     std::vector<std::string_view> names;
     for (const tables::LutFormat* format : tables::lut_formats()) names.push_back(format->name);
+    for (const tables::PictureFormat* format : tables::picture_formats())
+        names.push_back(format->name);
     return names;
 }
 
@@ -179,7 +184,7 @@ tables::LutPlan plan_of(const tables::LutKind& kind, const tables::LutRequest& r
     }
 }
 
-tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat& format,
+tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat* format,
                             std::size_t axes) {
     tables::LutMaking making;
     making.sizing.counts = parse_size(command.size, axes);
@@ -192,14 +197,29 @@ tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat& 
         making.sizing.tolerance = parse_one_number("--tolerance", command.tolerance, 1e-12, 1e3);
     }
     making.type = parse_type(command.type);
-    making.mips = format.name == "ktx2" && !command.layout.layers;
+    making.mips = format && format->name == "ktx2" && !command.layout.layers;
     making.measure = !command.output.file.empty();
     making.threads = command.threads;
     return making;
 }
 
+void draw_lut(const LutCommand& command, const tables::LutKind& kind,
+              const tables::LutRequest& request, const tables::PictureFormat& picture,
+              const tables::Lut& lut) {
+    const std::string title =
+        kind.stack ? title_of(request.document, command.stack) : std::string(kind.summary);
+    const auto figure = [&] {
+        tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture));
+        for (const std::string& text : drawn.notes) note(text, command.quiet);
+        return drawn;
+    };
+    write_picture(figure, command.picture, picture, command.output);
+}
+
 int run_lut(const tables::LutKind& kind, const LutCommand& command) {
-    const tables::LutFormat& format = resolved_lut_format(command.output);
+    const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
+    const tables::LutFormat* const format =
+        picture ? nullptr : &resolved_lut_format(command.output);
     const tables::LutRequest request = parse(kind, command);
     check_writable(command.output);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
@@ -220,16 +240,20 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
     }
     progress.clear();
     for (const auto& text : lut.facts["notes"]) note(text.get<std::string>(), command.quiet);
+    if (picture) {
+        draw_lut(command, kind, request, *picture, lut);
+        return 0;
+    }
     if (command.output.file.empty()) {
-        const std::vector<tables::LutFile> files = format.write(lut, command.layout);
+        const std::vector<tables::LutFile> files = format->write(lut, command.layout);
         const auto table = std::ranges::find(files, std::string(), &tables::LutFile::suffix);
-        write_bytes(table->bytes, command.output, format.is_binary);
+        write_bytes(table->bytes, command.output, format->is_binary);
     } else {
-        tables::write_lut(lut, command.output.file, format, command.layout);
+        tables::write_lut(lut, command.output.file, *format, command.layout);
     }
     if (command.layout.layers)
         note("three.js reads the first of a file's array layers only", command.quiet);
-    if (format.name == "ktx2" || format.name == "exr")
+    if (format->name == "ktx2" || format->name == "exr")
         for (const tables::LutAxis& axis : lut.axes)
             if (!axis.is_linear() && !(lut.mips && &axis == &lut.axes.front()))
                 note(axis.name +
@@ -242,8 +266,8 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
 std::string formats_text() {
     std::string text;
     for (const std::string_view name : format_names())
-        text += (text.empty() ? "" : ", ") + std::string(name);
-    return text;
+        text.append(text.empty() ? "" : ", ").append(name);
+    return text + " [csv]; pictures are for\nlooking only";
 }
 
 void add_kind_options(CLI::App& command, const tables::LutKind& kind, LutCommand& typed) {
@@ -294,7 +318,9 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
         ->type_name("E");
     command->add_flag("--any-size", typed->any_size,
                       "with --tolerance: sizes that are no powers of two, too");
-    add_output_options(*command, typed->output, formats_text() + " [csv]");
+    static const std::string formats = formats_text();
+    add_output_options(*command, typed->output, formats);
+    if (kind.color) add_picture_options(*command, typed->picture);
     command->add_flag("--zstd", typed->layout.zstd, "ktx2: compressed with Zstandard");
     command->add_flag("--layers", typed->layout.layers,
                       "ktx2: a third axis as array layers, not as depth or mip levels");

@@ -3,6 +3,7 @@
 
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
+#include "cli/options/picture_options.hpp"
 #include "cli/queries/spectrum_question.hpp"
 #include "tables/resume/record_stream.hpp"
 
@@ -19,13 +20,22 @@ struct SpectrumCommand {
     bool quiet = false;
 };
 
-int run_spectrum(const SpectrumCommand& command) {
-    const tables::RecordFormat& format = resolved_record_format(command.output);
-    const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
-                                    {.execution = execution_of(command.threads), .note = say});
-    const schemas::StackDocument document = read_noted_stack(command.stack, command.quiet);
+/// Rows block by block into a stream, or all of them into a picture.
+void write_rows(const SpectrumCommand& command, const SpectrumQuestion& question,
+                const schemas::StackDocument& document,
+                const std::function<void(const std::string&)>& say) {
     const tables::RecordLayout layout = question.layout(document);
+    if (const auto* picture = asked_picture(command.output)) {
+        check_writable(command.output);
+        note_long_work(seconds_of_rows(question, document, command.threads), false, say);
+        tables::Records all;
+        question.each_block(document, [&](const tables::Records& rows) { all.append(rows); });
+        const std::string title = title_of(document, command.stack);
+        write_picture([&] { return figure_of_rows(question, all, {}, title, {}, say); }, {},
+                      *picture, command.output);
+        return;
+    }
+    const tables::RecordFormat& format = resolved_record_format(command.output);
     const auto stream =
         tables::counted_output(command.output.file, format, layout, question.rows());
     note_long_work(seconds_of_rows(question, document, command.threads), false, say);
@@ -33,6 +43,16 @@ int run_spectrum(const SpectrumCommand& command) {
         stream->append(format.rows(layout, rows), 0, rows.rows());
     });
     stream->finish();
+}
+
+int run_spectrum(const SpectrumCommand& command) {
+    if (!asked_picture(command.output))
+        resolved_record_format(command.output, RecordTarget::stream_or_picture);
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
+                                    {.execution = execution_of(command.threads), .note = say});
+    const schemas::StackDocument document = read_noted_stack(command.stack, command.quiet);
+    write_rows(command, question, document, say);
     if (command.stats)
         for (const std::string& line : question.stats(*question.prepare(document)))
             std::cerr << "irido: stats: " << line << '\n';
@@ -47,7 +67,8 @@ void add_spectrum_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<SpectrumCommand>();
     add_stack_options(*command, options->stack);
     options->typed = SpectrumOptions::add(*command);
-    add_output_options(*command, options->output, record_formats_text());
+    add_output_options(*command, options->output,
+                       record_formats_text(RecordTarget::stream_or_picture));
     add_threads_option(*command, options->threads);
     command->add_flag("--stats", options->stats,
                       "say on standard error how it was computed and what was skipped");
@@ -55,7 +76,8 @@ void add_spectrum_command(CLI::App& program, Run& run) {
     set_examples(*command,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
                   "irido spectrum \"air | SiO2@25 | Si\" -a 70 -p s --columns psi_deg,delta_deg",
-                  "irido spectrum stack.json --set layers.0.thickness_nm=420 -o out.npy"});
+                  "irido spectrum stack.json --set layers.0.thickness_nm=420 -o out.npy",
+                  "irido spectrum \"air | MgF2@100 | BK7\" -a 0,45 -p s,p -o r.svg"});
     command->callback([options, &run] { run = [options] { return run_spectrum(*options); }; });
 }
 

@@ -9,6 +9,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
+#include "cli/options/picture_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep/engine.hpp"
 #include "core/error.hpp"
@@ -16,6 +17,7 @@
 #include "schemas/readers/nearest.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/files/hash.hpp"
+#include "tables/resume/collected_rows.hpp"
 
 namespace irido::cli {
 
@@ -29,6 +31,7 @@ struct SweepCommand {
     std::unique_ptr<QuestionOptions> typed;  ///< of the kind
     std::string compute;
     OutputOptions output;
+    PictureOptions picture;
     std::string shard;
     std::vector<std::string> merge;
     bool resume = false, keep_going = false, stats = false, quiet = false;
@@ -222,6 +225,36 @@ std::unique_ptr<tables::RecordStream> open_stream(const SweepCommand& command,
     return tables::record_output(format, engine.layout(), rows);
 }
 
+/// What --resume and shards need is a file of rows.
+void require_no_parts(const SweepCommand& command) {
+    if (command.resume) throw UsageError("--resume: a picture is drawn in one go");
+    if (!command.shard.empty())
+        throw UsageError("--shard: a picture needs all rows: merge shards of them first");
+}
+
+/// Rows that are drawn once all are there.
+std::unique_ptr<tables::RecordStream> open_picture(
+    const SweepCommand& command, const tables::PictureFormat& picture, const SweepEngine& engine,
+    const SweepSpace& space, const Question& question, std::string title, Notes& notes) {
+    constexpr std::uint64_t most_rows = 20'000'000;
+    if (engine.rows_per_unit() * engine.units() > most_rows)
+        throw UsageError("--output: a picture of " +
+                         std::to_string(engine.rows_per_unit() * engine.units()) +
+                         " rows, at most " + std::to_string(most_rows));
+    std::vector<std::string> varied;
+    for (const SweptColumn& column : space.columns())
+        if (!column.is_light()) varied.push_back(column.path);
+    const auto draw = [&command, &picture, &question, &notes, varied,
+                       title](const tables::Records& rows) {
+        const auto figure = [&] {
+            return figure_of_rows(question, rows, varied, title, parse_gamut(command.picture),
+                                  [&](const std::string& text) { notes(text); });
+        };
+        write_picture(figure, command.picture, picture, command.output);
+    };
+    return tables::collected_rows(engine.layout(), draw);
+}
+
 int run_merge(const SweepCommand& command) {
     if (command.output.file.empty()) throw UsageError("--merge: needs --output FILE");
     tables::merge_streams(command.merge, command.output.file,
@@ -265,7 +298,11 @@ int run_sweep(const SweepCommand& command) {
     if (!command.merge.empty()) return run_merge(command);
     if (command.stack.stack.empty()) throw UsageError("STACK is required (see irido sweep --help)");
     if (!command.kind) throw UsageError("--compute: is required: spectrum, color, bands or cm");
-    const tables::RecordFormat& format = resolved_record_format(command.output, RecordTarget::any);
+    const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
+    if (picture) require_no_parts(command);
+    const tables::RecordFormat& format =
+        picture ? tables::packed_format()
+                : resolved_record_format(command.output, RecordTarget::any_or_picture);
     const Shard shard = parse_shard(command.shard);
     check_writable(command.output);
     Notes notes(command.quiet);
@@ -295,14 +332,16 @@ int run_sweep(const SweepCommand& command) {
         engine.units(),
         !command.shard.empty()};
     std::optional<OrderlyEnd> orderly;
-    if (!command.output.file.empty()) orderly.emplace();  // before there is a part
+    if (!command.output.file.empty() && !picture) orderly.emplace();  // before there is a part
     std::error_code ignored;
     if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
         note(command.output.file +
                  ".part of an earlier run is begun anew; --resume would have gone on",
              command.quiet);
     const std::unique_ptr<tables::RecordStream> stream =
-        open_stream(command, format, engine, identity);
+        picture ? open_picture(command, *picture, engine, space, *question,
+                               title_of(stacks.first(), command.stack), notes)
+                : open_stream(command, format, engine, identity);
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
         note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
@@ -403,7 +442,9 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
     options->kind = is_typed ? typed_kind(arguments) : nullptr;
     if (options->kind) options->typed = options->kind->add_options(*command);
     add_sweep_options(*command, *options);
-    add_output_options(*command, options->output, record_formats_text(RecordTarget::any));
+    add_output_options(*command, options->output,
+                       record_formats_text(RecordTarget::any_or_picture));
+    add_picture_options(*command, options->picture);
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");
     set_examples(
@@ -411,6 +452,8 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
         {"irido sweep \"air | TiO2@35 | Ti\" --vary layers.0.thickness_nm=0:200:1 --compute color",
          "irido sweep stack.json --vary substrate=Ag,Au,Cu --vary layers.0.thickness_nm=0:500:5 "
          "--compute spectrum -w 400:700:10 -o sweep.npy",
+         "irido sweep \"air | TiO2@0 | Ti\" --vary layers.0.thickness_nm=0:200:1 --vary "
+         "angle_deg=0:85:1 --compute color -o map.png",
          "irido sweep --merge part-1.csv part-2.csv part-3.csv -o all.csv"},
         "Columns are the varied values, named by path, and those of the command. With -o, what is\n"
         "done is in FILE.part until all is; Ctrl-C, or a crash, leaves it there for --resume.");

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "cli/options/picture_options.hpp"
 #include "core/error.hpp"
 #include "schemas/readers/number.hpp"
 #include "tables/files/atomic_file.hpp"
@@ -45,6 +46,10 @@ schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bo
     return document;
 }
 
+std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request) {
+    return document.name.empty() ? request.stack : document.name;
+}
+
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats) {
     command
         .add_option_function<std::string>(
@@ -59,10 +64,13 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
 namespace {
 
 std::vector<std::string_view> names_of_formats(RecordTarget target) {
+    const bool is_any = target == RecordTarget::any || target == RecordTarget::any_or_picture;
     std::vector<std::string_view> names;
     for (const tables::RecordFormat* const format : tables::record_formats())
-        if (!format->finish || target == RecordTarget::any) names.push_back(format->name);
-    if (target == RecordTarget::stream_or_svg) names.push_back("svg");
+        if (!format->finish || is_any) names.push_back(format->name);
+    if (target == RecordTarget::any_or_picture || target == RecordTarget::stream_or_picture)
+        for (const tables::PictureFormat* const format : tables::picture_formats())
+            names.push_back(format->name);
     return names;
 }
 
@@ -73,7 +81,6 @@ std::string record_formats_text(RecordTarget target) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i)
         text.append(i == 0 ? "" : i + 1 == names.size() ? " or " : ", ").append(names[i]);
-    if (target == RecordTarget::stream_or_svg) text += ": a strip of the colours in sRGB";
     return text + " [csv]";
 }
 
@@ -169,9 +176,8 @@ void check_writable(const OutputOptions& output) {
 
 void check_plot(const std::optional<std::string>& plot, const OutputOptions& output) {
     if (!plot) return;
-    if (!plot->ends_with(".svg"))
-        throw UsageError("--plot: must end in .svg (got '" + *plot + "')");
-    check_writable({*plot, "svg"});
+    picture_format_of("--plot", *plot);
+    check_writable({*plot, ""});
     if (!output.file.empty()) tables::check_outputs({output.file, *plot});
 }
 

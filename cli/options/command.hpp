@@ -45,11 +45,14 @@ void add_stack_options(CLI::App& command, schemas::StackRequest& request);
 /// Reads the stack and says what is to be noted. Throws InputError.
 schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bool quiet);
 
+/// What a stack is called in a picture: its name, or what was typed.
+std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request);
+
 /// -o and -f; `formats` as the help shows them.
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
 
-/// Where records may go: any format, those that standard output takes, or those and a picture.
-enum class RecordTarget { any, stream, stream_or_svg };
+/// Where records may go: any format, or those that standard output takes; or a picture of them.
+enum class RecordTarget { any, stream, any_or_picture, stream_or_picture };
 
 /// "csv, json or npy [csv]": what --format may be, for --help.
 std::string record_formats_text(RecordTarget target = RecordTarget::stream);

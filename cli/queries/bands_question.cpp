@@ -223,7 +223,7 @@ BraggMirror BandsQuestion::mirror(const schemas::StackDocument& document,
 }
 
 tables::RecordLayout BandsQuestion::layout(const schemas::StackDocument&) const {
-    using enum tables::RecordField::Type;
+    using enum RecordField::Type;
     constexpr std::size_t longest_kind = 4;
     if (!gaps_)
         return {{"angle_deg"}, {"polarization", text, 1}, {"kind", text, longest_kind},
@@ -234,6 +234,21 @@ tables::RecordLayout BandsQuestion::layout(const schemas::StackDocument&) const 
             {"R_mid"},     {"centre_nm"},
             {"N_95"},      {"N_99"},
             {"N_999"},     {"omnidirectional", flag}};
+}
+
+tables::RowPlot BandsQuestion::plot(const tables::Records&, tables::GamutMapping) const {
+    tables::RowPlot plot;
+    plot.form = tables::Series::Form::points;
+    plot.keys.push_back({"angle_deg", tables::axis_of_column("angle_deg")});
+    plot.keys.push_back({"polarization", tables::axis_of_column("polarization"), true});
+    if (!gaps_) plot.keys.push_back({"kind", tables::axis_of_column("kind")});
+    if (!gaps_) {
+        plot.values.push_back({"wavelength_nm", tables::axis_of_column("wavelength_nm")});
+        return plot;
+    }
+    for (const char* name : {"short_nm", "long_nm"})
+        plot.values.push_back({name, tables::axis_of_column(name), "ends of gaps"});
+    return plot;
 }
 
 std::unique_ptr<const PreparedStack> BandsQuestion::prepare(schemas::StackDocument document) const {

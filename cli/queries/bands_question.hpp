@@ -29,6 +29,7 @@ public:
     bool splits_angles() const override { return !gaps_; }  // what all angles say of a gap
     std::size_t rows_per_angle() const override { return 0; }
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
+    tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,

@@ -149,10 +149,19 @@ CmQuestion::CmQuestion(const CmOptions& typed)
 }
 
 tables::RecordLayout CmQuestion::layout(const schemas::StackDocument&) const {
-    using enum tables::RecordField::Type;
+    using enum RecordField::Type;
     return {
         {"angle_deg"}, {"polarization", text, 1}, {"side", text, 1}, {"order"}, {"C"}, {"opd_nm"},
         {"phi_rad"}};
+}
+
+tables::RowPlot CmQuestion::plot(const tables::Records&, tables::GamutMapping) const {
+    tables::RowPlot plot;
+    plot.form = tables::Series::Form::bars;
+    for (const char* name : {"order", "angle_deg", "polarization", "side"})
+        plot.keys.push_back({name, tables::axis_of_column(name)});
+    plot.values.push_back({"C", tables::axis_of_column("C")});
+    return plot;
 }
 
 std::unique_ptr<const PreparedStack> CmQuestion::prepare(schemas::StackDocument document) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -142,7 +143,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
 }
 
 tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const {
-    using enum tables::RecordField::Type;
+    using enum RecordField::Type;
     constexpr std::size_t hex_width = 7, longest_method = 24;
     tables::RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
     for (const char* name : {"X", "Y", "Z", "x", "y", "r", "g", "b"}) layout.push_back({name});
@@ -159,6 +160,29 @@ tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const 
     layout.push_back({"illuminant", text, longest});
     layout.push_back({"delta_e_2000"});
     return layout;
+}
+
+tables::RowPlot ColorQuestion::plot(const tables::Records& rows, tables::GamutMapping gamut) const {
+    tables::RowPlot plot;
+    for (const char* name : {"angle_deg", "side", "illuminant"})
+        if (std::ranges::find(rows.columns, name, &tables::Column::name) != rows.columns.end())
+            plot.keys.push_back({name, tables::axis_of_column(name)});
+    std::map<std::string, RgbTransform> transforms;
+    for (const auto& lighting : lightings_)
+        transforms.emplace(lighting->name, RgbTransform(rgb_space("srgb"), lighting->white(),
+                                                        Adaptation::bradford));
+    std::array<std::vector<double>, 3> xyz;
+    for (std::size_t i = 0; i < 3; ++i)
+        xyz[i] = tables::column_numbers(rows, std::string(1, "XYZ"[i]));
+    const std::vector<std::string> under = lightings_.size() == 1
+                                               ? std::vector(rows.rows(), lightings_.front()->name)
+                                               : tables::column_texts(rows, "illuminant");
+    tables::InkMixer mixer(gamut);
+    for (std::size_t row = 0; row < rows.rows(); ++row)
+        plot.inks.push_back(
+            mixer(transforms.at(under[row])({xyz[0][row], xyz[1][row], xyz[2][row]})));
+    if (std::string share = mixer.note(); !share.empty()) plot.notes.push_back(std::move(share));
+    return plot;
 }
 
 nlohmann::json ColorQuestion::data() const {

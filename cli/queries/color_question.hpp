@@ -54,6 +54,7 @@ public:
     bool splits_angles() const override { return lightings_.size() == 1; }
     std::size_t rows_per_angle() const override { return lightings_.size() * sides().size(); }
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
+    tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const override;
     nlohmann::json data() const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;

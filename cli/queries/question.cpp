@@ -45,6 +45,20 @@ tables::Records records_of(const Question& question, const PreparedStack& prepar
     return answers->records();
 }
 
+tables::Figure figure_of_rows(const Question& question, const tables::Records& rows,
+                              const std::vector<std::string>& varied, const std::string& title,
+                              tables::GamutMapping gamut,
+                              const std::function<void(const std::string&)>& say) {
+    tables::RowPlot plot = question.plot(rows, gamut);
+    plot.title = title;
+    auto place = plot.keys.begin();
+    if (place->column == "wavelength_nm") ++place;  // along x, whatever else varies
+    for (const std::string& path : varied)
+        place = plot.keys.insert(place, {path, tables::axis_of_column(path)}) + 1;
+    for (const std::string& text : plot.notes) say(text);
+    return tables::figure_of(rows, plot);
+}
+
 double seconds_of_rows(const Question& question, const schemas::StackDocument& document,
                        unsigned threads) {
     const std::span<const double> all = question.angles_deg();

@@ -13,6 +13,8 @@
 #include "core/spectrum/spectrum.hpp"
 #include "core/stack/index_table.hpp"
 #include "schemas/documents/stack_document.hpp"
+#include "tables/pictures/inks.hpp"
+#include "tables/pictures/rows_figure.hpp"
 #include "tables/records/record_layout.hpp"
 #include "tables/records/records.hpp"
 
@@ -78,6 +80,9 @@ public:
     /// Names and types of the rows' columns.
     virtual tables::RecordLayout layout(const schemas::StackDocument& document) const = 0;
 
+    /// How rows are drawn: what their columns are.
+    virtual tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const = 0;
+
     /// What the answers depend on that was read from files.
     virtual nlohmann::json data() const;
 
@@ -100,6 +105,13 @@ void note_incident(const schemas::StackDocument& document, const IndexTable& tab
 
 /// The rows of the prepared stack itself at the question's angles.
 tables::Records records_of(const Question& question, const PreparedStack& prepared);
+
+/// A figure of rows under a title; `varied` are columns of values of the stack that differ from row
+/// to row. What is noted in the figure is also said. Throws tables::PictureError.
+tables::Figure figure_of_rows(const Question& question, const tables::Records& rows,
+                              const std::vector<std::string>& varied, const std::string& title,
+                              tables::GamutMapping gamut,
+                              const std::function<void(const std::string&)>& say);
 
 /// Seconds that the question's rows of a stack will take on so many threads; see tried_seconds().
 double seconds_of_rows(const Question& question, const schemas::StackDocument& document,

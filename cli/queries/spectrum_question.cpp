@@ -314,6 +314,20 @@ tables::RecordLayout SpectrumQuestion::layout(const schemas::StackDocument& docu
     return layout;
 }
 
+tables::RowPlot SpectrumQuestion::plot(const tables::Records& rows, tables::GamutMapping) const {
+    tables::RowPlot plot;
+    for (const char* name : {"wavelength_nm", "angle_deg", "polarization"})
+        plot.keys.push_back({name, tables::axis_of_column(name)});
+    std::size_t layers = 0;
+    for (const tables::Column& column : rows.columns)
+        if (column.name == "A_" + std::to_string(layers + 1)) ++layers;
+    for (std::string& name : spectrum_number_names(columns_, layers)) {
+        const tables::FigureAxis axis = tables::axis_of_column(name);
+        plot.values.push_back({name, axis, name.starts_with("A_") ? "absorbed in layers" : ""});
+    }
+    return plot;
+}
+
 std::unique_ptr<const PreparedStack> SpectrumQuestion::prepare(
     schemas::StackDocument document) const {
     spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));

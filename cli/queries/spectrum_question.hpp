@@ -31,6 +31,7 @@ public:
         return polarizations_.size() * (varies_wavelength_ ? 1 : wavelengths_nm_.size());
     }
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
+    tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
     std::unique_ptr<Answers> answers() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,

@@ -104,4 +104,34 @@ std::string packed_rows(const RecordLayout& layout, const Records& records, Text
     return out;
 }
 
+Records unpacked_rows(const RecordLayout& layout, std::string_view bytes) {
+    const std::size_t record_bytes = packed_bytes(layout, TextCode::utf8);
+    Records records;
+    std::size_t offset = 0;
+    for (const RecordField& field : layout) {
+        const std::size_t width = packed_bytes(field, TextCode::utf8);
+        Column::Numbers numbers;
+        Column::Texts texts;
+        Column::Flags flags;
+        for (std::size_t at = offset; at < bytes.size(); at += record_bytes) {
+            const std::string_view value = bytes.substr(at, width);
+            if (field.type == Type::number) {
+                double number = 0;
+                std::memcpy(&number, value.data(), sizeof number);
+                numbers.push_back(number);
+            } else if (field.type == Type::flag) {
+                flags.push_back(value.front() != 0);
+            } else {
+                texts.emplace_back(value.substr(0, value.find('\0')));
+            }
+        }
+        offset += width;
+        Column& column = records.columns.emplace_back(Column{field.name, {}});
+        if (field.type == Type::number) column.values = std::move(numbers);
+        if (field.type == Type::flag) column.values = std::move(flags);
+        if (field.type == Type::text) column.values = std::move(texts);
+    }
+    return records;
+}
+
 }  // namespace irido::tables

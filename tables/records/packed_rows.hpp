@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "tables/records/record_layout.hpp"
 #include "tables/records/records.hpp"
@@ -21,6 +22,9 @@ std::size_t packed_bytes(const RecordLayout& layout, TextCode code);
 /// One record after the other, their fields in order without gaps, little-endian. Throws what
 /// check_columns() does, and std::invalid_argument if a text for UTF-32 is not UTF-8.
 std::string packed_rows(const RecordLayout& layout, const Records& records, TextCode code);
+
+/// The records of packed rows in UTF-8.
+Records unpacked_rows(const RecordLayout& layout, std::string_view bytes);
 
 /// Throws std::logic_error unless the records have the columns of the layout and no longer text.
 void check_columns(const RecordLayout& layout, const Records& records);

@@ -110,7 +110,7 @@ TEST_CASE("bench pareto draws its rows", "[cli][bench][slow]") {
     const Outcome counts = run_shell(
         "python3 -c \"import xml.etree.ElementTree as t; r = t.parse('front.svg').getroot(); "
         "c = [e.get('class') for e in r.iter()]; "
-        "print(c.count('panel'), c.count('series'), c.count('highlight'), c.count('legend'))\"",
+        "print(c.count('frame'), c.count('series'), c.count('highlight'), c.count('legend'))\"",
         folder.path());
     // quadrature, auto, equal, naive on both; gaussian, gltf, smits on the film
     std::istringstream numbers(counts.out);
@@ -132,7 +132,7 @@ TEST_CASE("bench pareto refuses what it does not know in one line", "[cli][bench
         {{"--count", "1.5"}, "--count: must be one whole number (got '1.5')"},
         {{"--seed", "-1"}, "--seed: must be in [0, "},
         {{"--time", "0"}, "--time: must be in [1e-04, 60] (got 0)"},
-        {{"--plot", "front.png"}, "--plot: must end in .svg (got 'front.png')"},
+        {{"--plot", "front.gif"}, "--plot: must end in .pdf, .png or .svg (got 'front.gif')"},
         {{"--plot", ""}, "--plot: must name a file"},
         {{"-o", "x.svg", "-f", "csv", "--plot", "x.svg"}, "x.svg: is the same file as"},
         {{"-o", "/no/such/folder/x.csv"}, "/no/such/folder/x.csv: cannot be written"},

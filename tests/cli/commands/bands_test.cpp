@@ -199,9 +199,9 @@ TEST_CASE("what bands cannot answer is refused", "[cli][bands]") {
         refused({kMirror, "--range", range}, "--range");
     refused({kMirror, "-a", "91"}, "--angles");
     refused({kMirror, "--plot", "x.svg"}, "--plot: needs several angles");
-    refused({kMirror, "-a", "0,1", "--plot", "x.png"}, "--plot: must end in .svg");
+    refused({kMirror, "-a", "0,1", "--plot", "x.gif"}, "--plot: must end in .pdf, .png or .svg");
     refused({kMirror, "-a", "0,1", "--plot", "x.svg", "-o", "x.svg", "-f", "csv"}, "another file");
-    refused({kMirror, "-f", "svg"}, "--format");
+    refused({kMirror, "-f", "gif"}, "--format");
 }
 
 TEST_CASE("landmarks that are not unique are refused", "[cli][bands][refused]") {

@@ -508,7 +508,7 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
     refused(color + some + Words{"--shard", "0/2"}, "--shard");
     refused(color + some + Words{"--shard", "2"}, "must be K/N");
     refused(color + some + Words{"--resume"}, "needs --output FILE");
-    refused(color + some + Words{"-f", "svg"}, "must be one of csv, h5, json, npy");
+    refused(color + some + Words{"-f", "gif"}, "must be one of csv, h5, json, npy, pdf, png, svg");
     refused(color + Words{"--points", "tests/data/glass.csv"}, "");
     const TemporaryFolder folder;
     const std::string points = folder / "points.csv";

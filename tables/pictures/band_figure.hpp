@@ -1,11 +1,10 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include "tables/pictures/figure.hpp"
 
 namespace irido::tables {
 
-/// Photonic gaps over wavelength and angle, as a picture: s to the left, p to the right.
+/// Photonic gaps over wavelength and angle.
 struct BandDiagram {
     struct Edges {
         double short_nm = 0, long_nm = 0;
@@ -21,8 +20,7 @@ struct BandDiagram {
     std::vector<Gap> gaps;
 };
 
-/// An SVG 1.1 picture, 760 units wide. The strip at the axis has the hues of the wavelengths from
-/// 380 to 780 nm: those of the CIE 1931 observer, brought into sRGB.
-std::string write_band_diagram(const BandDiagram& diagram);
+/// s to the left, its angles growing to the left, p to the right.
+Figure band_figure(const BandDiagram& diagram);
 
 }  // namespace irido::tables

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "tables/pictures/figure.hpp"
+
+namespace irido::tables {
+
+/// A label of an axis and where it is.
+struct Tick {
+    double value;
+    std::string text;
+};
+
+/// Maps an axis' values to places between two coordinates of a picture.
+class AxisPlaces {
+public:
+    /// low, high  of the data, used for ends that the axis leaves open, and widened to round
+    ///            numbers if `widen`, or where they are equal
+    /// from, to   coordinates of the axis' first and last value
+    AxisPlaces(const FigureAxis& axis, double low, double high, bool widen, double from, double to);
+
+    double operator()(double value) const;
+    /// The value at a coordinate.
+    double value_at(double coordinate) const;
+    double first() const { return first_; }
+    double last() const { return last_; }
+    double from() const { return from_; }
+    double to() const { return to_; }
+    /// Labels that stay `space` apart.
+    std::vector<Tick> ticks(double space) const;
+
+private:
+    double scaled(double value) const;
+    std::vector<Tick> powers(double space) const;
+
+    const FigureAxis& axis_;
+    double first_, last_, from_, to_;
+};
+
+/// A number as a label: a real minus sign, powers of ten raised.
+std::string tick_text(double value, double step);
+
+}  // namespace irido::tables

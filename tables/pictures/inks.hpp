@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "core/colorimetry/space.hpp"
+#include "tables/pictures/drawing.hpp"
+
+namespace irido::tables {
+
+/// How a colour that sRGB lacks is shown.
+enum class GamutMapping {
+    clip,      ///< each component brought into [0, 1]
+    compress,  ///< mixed with the grey of its luminance, no more than needed; a luminance above 1
+               ///< is white
+};
+
+/// "clip" or "compress".
+std::string_view name_of(GamutMapping mapping);
+
+/// Turns linear sRGB into inks and counts those that lie outside of sRGB by more than rounding.
+class InkMixer {
+public:
+    explicit InkMixer(GamutMapping mapping = GamutMapping::clip) : mapping_(mapping) {}
+
+    Ink operator()(const Triple& linear_srgb);
+    /// "12 % of the colours lie outside of sRGB, clipped to it"; "" if none do.
+    std::string note() const;
+
+private:
+    GamutMapping mapping_;
+    std::size_t colors_ = 0, outside_ = 0;
+};
+
+/// Dark blue to pale yellow, part in [0, 1], its lightness L* growing evenly from 15 to 93: it
+/// reads the same without colour vision and in print.
+Ink value_ink(double part);
+
+/// The hue of a wavelength, paler where the eye sees less of it: the CIE 1931 observer's colour,
+/// brought into sRGB by adding white. White outside of 380 to 780 nm.
+Ink wavelength_ink(double wavelength_nm);
+
+inline constexpr double kFirstVisible_nm = 380, kLastVisible_nm = 780;
+
+}  // namespace irido::tables
