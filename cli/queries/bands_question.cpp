@@ -223,7 +223,7 @@ BraggMirror BandsQuestion::mirror(const schemas::StackDocument& document,
 }
 
 tables::RecordLayout BandsQuestion::layout(const schemas::StackDocument&) const {
-    using enum RecordField::Type;
+    using enum tables::RecordField::Type;
     constexpr std::size_t longest_kind = 4;
     if (!gaps_)
         return {{"angle_deg"}, {"polarization", text, 1}, {"kind", text, longest_kind},

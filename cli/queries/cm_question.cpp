@@ -149,7 +149,7 @@ CmQuestion::CmQuestion(const CmOptions& typed)
 }
 
 tables::RecordLayout CmQuestion::layout(const schemas::StackDocument&) const {
-    using enum RecordField::Type;
+    using enum tables::RecordField::Type;
     return {
         {"angle_deg"}, {"polarization", text, 1}, {"side", text, 1}, {"order"}, {"C"}, {"opd_nm"},
         {"phi_rad"}};

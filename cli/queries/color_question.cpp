@@ -143,7 +143,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
 }
 
 tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const {
-    using enum RecordField::Type;
+    using enum tables::RecordField::Type;
     constexpr std::size_t hex_width = 7, longest_method = 24;
     tables::RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
     for (const char* name : {"X", "Y", "Z", "x", "y", "r", "g", "b"}) layout.push_back({name});
