@@ -5,6 +5,7 @@
 
 #include "core/coherent/slab_response.hpp"
 #include "core/error.hpp"
+#include "core/math/degrees.hpp"
 
 namespace irido {
 
@@ -48,7 +49,7 @@ Medium medium(Complex index, double n0, IncidentAngle at) {
 
 double cos_of_incidence(double angle_deg) {
     require_in_range("angle_deg", angle_deg, 0, kLargestAngle_deg);
-    return std::sin((90 - angle_deg) * (std::numbers::pi / 180));
+    return sin_deg(90 - angle_deg);
 }
 
 Response coherent_response(const Medium& above, std::span<const Element> elements,

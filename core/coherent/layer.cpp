@@ -5,11 +5,11 @@
 #include <cmath>
 #include <span>
 
+#include "core/math/imaginary.hpp"
+
 namespace irido {
 
 namespace {
-
-constexpr Complex kI{0, 1};
 
 /// Past this |Im delta| the factor exp(|Im delta|) goes into the logarithm.
 constexpr double kLargestPlainExponent = 1;
@@ -147,7 +147,10 @@ Coupling coupling(const Medium& m, Polarization polarization) {
 
 LayerTurn layer_turn(Complex q2, double k0_d) {
     const Phase phase = layer_phase(q2, k0_d);
-    return {phase.less + std::exp(-phase.log_scale), scaled_sd(phase, k0_d), phase.log_scale};
+    // formed from cos - 1, a cosine near 0 would lose its digits
+    const Complex cosine = phase.log_scale > 0 ? scaled_turn({phase.a, phase.b}).cos
+                                               : std::cos(Complex{phase.a, phase.b});
+    return {cosine, scaled_sd(phase, k0_d), phase.log_scale};
 }
 
 AbsorbedPower absorbed_power(const Medium& m, double k0_d, Polarization polarization) {

@@ -23,19 +23,37 @@ Complex without_identity(double sign, Complex z, Complex cos_z, double log_scale
     return sign * cos_z * std::exp(z.imag() - log_scale) - std::exp(-log_scale);
 }
 
-/// sin K, divided by exp(Im K) as it is given, such that (M - x I)/sin K has determinant 1 to the
-/// last digit where that is possible: then so has the power, and energy balances. From
-/// -det(M - x I) = traceless^2 + off_diagonal, both without exp(2 m.log_scale); ahead is
-/// m.log_scale - Im K. Where those two cancel, the given sine is the better one.
-Complex consistent_sine(Complex sine, Complex traceless, Complex off_diagonal, double ahead) {
-    const Complex square = -(traceless * traceless + off_diagonal);
-    if (std::abs(square) < 0.01 * (std::norm(traceless) + std::abs(off_diagonal))) return sine;
-    const Complex root = std::sqrt(square) * std::exp(ahead);
-    return std::real(root * std::conj(sine)) < 0 ? -root : root;
+/// A period without cos(K) I: [[t, b], [c, -t]].
+struct Traceless {
+    Complex t, b, c;
+};
+
+/// That of a matrix, such that t^2 + b c is -sin(K)^2 to the last digit: then the power has
+/// determinant 1, and energy balances. The entry that gives way is the one that moves least: t
+/// where t^2 is the larger term, else the smaller one of b and c.
+///   sine2  sin(K)^2 without the matrix's exp(2 log_scale)
+Traceless traceless_of(const Matrix& m, Complex sine2) {
+    Traceless of{(m.a - m.d) / 2.0, m.b, m.c};
+    const Complex square = of.t * of.t, product = of.b * of.c;
+    const bool upper = std::abs(of.c) > std::abs(of.b);
+    const Complex larger = upper ? of.c : of.b;
+    if (std::abs(square) > std::abs(product)) {
+        const Complex root = std::sqrt(-(sine2 + product));
+        of.t = std::real(root * std::conj(of.t)) < 0 ? -root : root;
+    } else if (larger != 0.0) {
+        (upper ? of.b : of.c) = -(sine2 + square) / larger;
+    }
+    return of;
 }
 
 /// Past this exponent a trace overflows; power() takes another way long before.
 constexpr double kLargestExponent = 700;
+
+/// [[cos, -i beta], [-i gamma, cos]] exp(log_scale)
+struct HalfLayer {
+    Complex cos, beta, gamma;
+    double log_scale;
+};
 
 /// Bloch phase of a two-layer period in Yeh's factored form. With P the product of the two layers'
 /// halves, sin(K/2)^2 = -P12 P21 and cos(K/2)^2 = P11 P22: the four entries of P are, up to factors
@@ -45,12 +63,19 @@ constexpr double kLargestExponent = 700;
 BlochPhase bloch_phase_of_pair(const Layer& upper, const Layer& lower,
                                std::span<const Medium> media, double k0,
                                Polarization polarization) {
-    const Matrix halves =
-        layer_matrix(media[upper.material], k0 * upper.thickness_nm / 2, polarization) *
-        layer_matrix(media[lower.material], k0 * lower.thickness_nm / 2, polarization);
-    const double scale = std::exp(std::min(2 * halves.log_scale, kLargestExponent));
-    const double identity = halves.identity();
-    return {-scale * halves.b * halves.c, scale * (halves.a + identity) * (halves.d + identity)};
+    const auto half_of = [&](const Layer& layer) {
+        const Medium& m = media[layer.material];
+        const LayerTurn turn = layer_turn(m.q2, k0 * layer.thickness_nm / 2);
+        const Coupling by = coupling(m, polarization);
+        return HalfLayer{turn.cos, by.w * turn.sd, by.v * turn.sd, turn.log_scale};
+    };
+    const HalfLayer u = half_of(upper), l = half_of(lower);
+    const double scale = std::exp(std::min(2 * (u.log_scale + l.log_scale), kLargestExponent));
+    const Complex beta = u.cos * l.beta + u.beta * l.cos;
+    const Complex gamma = u.cos * l.gamma + u.gamma * l.cos;
+    const Complex cosines = u.cos * l.cos;
+    return {scale * beta * gamma,
+            scale * (cosines - u.beta * l.gamma) * (cosines - u.gamma * l.beta)};
 }
 
 /// Bloch phase of any period. Where its matrix is nearly I or -I, sin(K)^2 = -(traceless^2 + b c)
@@ -178,23 +203,22 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     Complex k = 2.0 * std::asin(std::sqrt(flip ? bloch.cos2 : bloch.sin2));
     if (k.imag() < 0) k = -k;
     const double ahead = m.log_scale - k.imag();
-    const Complex traceless = (m.a - m.d) / 2.0;
-    const Complex sine = consistent_sine(scaled_turn(k).sin, traceless, m.b * m.c, ahead);
+    const Complex sine = scaled_turn(k).sin, scaled_sine = sine * std::exp(-ahead);
+    const Traceless of = traceless_of(m, scaled_sine * scaled_sine);
     const ScaledTurn all = scaled_turn(n * k);
     const Complex ratio = std::norm(n * k) < 1e-18 ? n : all.sin / sine;
     // cos(N K) I has exp(N Im K), ratio (M - x I) has exp((N - 1) Im K + m.log_scale)
     const double sign = flip && repeat % 2 == 1 ? -1 : 1;
     const Complex f = (flip ? -sign : sign) * ratio * std::exp(std::min(0.0, ahead));
-    Matrix result{f * traceless, f * m.b, f * m.c, -f * traceless,
-                  n * k.imag() + std::max(0.0, ahead)};
+    Matrix result{f * of.t, f * of.b, f * of.c, -f * of.t, n * k.imag() + std::max(0.0, ahead)};
     const Complex diagonal = without_identity(sign, n * k, all.cos, result.log_scale);
     result.a += diagonal;
     result.d += diagonal;
     if (n * k.imag() > kAttenuated) {
-        // exp(i N K) + ratio (sigma - |traceless|), sigma = -i sin K: neither of them cancels
-        const Complex sigma = Complex(0, -1) * sine * std::exp(-ahead);
-        const bool below = std::real(traceless * std::conj(sigma)) > 0;  // the smaller entry
-        const Complex rest = m.b * m.c / (sigma + (below ? traceless : -traceless));
+        // exp(i N K) + ratio (sigma - |t|), sigma = -i sin K: neither of them cancels
+        const Complex sigma = Complex(0, -1) * scaled_sine;
+        const bool below = std::real(of.t * std::conj(sigma)) > 0;  // the smaller entry
+        const Complex rest = of.b * of.c / (sigma + (below ? of.t : -of.t));
         (below != flip ? result.d : result.a) =
             sign * std::exp(Complex(0, 1) * (n * k) - result.log_scale) +
             (flip ? -1.0 : 1.0) * f * rest - result.identity();

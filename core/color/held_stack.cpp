@@ -63,4 +63,12 @@ std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support) {
     return ends;
 }
 
+bool is_real(const Material& material) {
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    if (!index) return false;
+    if (const auto* k = std::get_if<Constant>(&index->k)) return k->value == 0;
+    const auto* k = std::get_if<Table>(&index->k);
+    return k && std::ranges::all_of(k->value, [](double value) { return value == 0; });
+}
+
 }  // namespace irido

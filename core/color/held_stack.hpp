@@ -27,4 +27,7 @@ Stack held_stack(const Stack& stack, const Sensitivity& sensitivity);
 /// ascending: the stack's spectra are smooth in between.
 std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support);
 
+/// Whether k is 0 at every wavelength.
+bool is_real(const Material& material);
+
 }  // namespace irido

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/math/degrees.hpp"
 
 namespace irido {
 namespace {
@@ -14,13 +15,6 @@ double lab_curve(double t) {
     constexpr double delta = 6.0 / 29;
     if (t > delta * delta * delta) return std::cbrt(t);
     return t / (3 * delta * delta) + 4.0 / 29;
-}
-
-double cos_deg(double angle_deg) {
-    return std::cos(angle_deg * std::numbers::pi / 180);
-}
-double sin_deg(double angle_deg) {
-    return std::sin(angle_deg * std::numbers::pi / 180);
 }
 
 /// sqrt(C^7 / (C^7 + 25^7)), which rises from 0 to 1 around chroma 25.

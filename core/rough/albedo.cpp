@@ -8,6 +8,7 @@
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
+#include "core/math/degrees.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/parallel.hpp"
 #include "core/rough/filter.hpp"
@@ -49,10 +50,6 @@ constexpr double kNarrowest = 1e-6;
 
 /// Of E, from the nodes alone: 1e-12 measured at grazing, less elsewhere.
 constexpr double kNodesError = 1e-11;
-
-double sin_deg(double deg) {
-    return std::sin(deg * kDegree);
-}
 
 }  // namespace
 

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/math/imaginary.hpp"
 
 namespace irido {
 
 namespace {
-
-constexpr Complex kI{0, 1};
 
 /// Below this |delta|^2 the differences of absorbed() lose digits.
 constexpr double kThin = 0.25;

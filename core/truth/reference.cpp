@@ -1,6 +1,8 @@
 #include "core/truth/reference.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/truth/textbook.hpp"
@@ -12,8 +14,11 @@ namespace {
 /// Largest double below 90.
 constexpr double kLargestReferenceAngle_deg = 0x1.67fffffffffffp+6;
 
-/// How far from the given inputs conditions are taken, in 2^-53: a kernel rounds a few times.
-constexpr double kShift = 4;
+/// How far from the given inputs conditions are taken, in 2^-53: a kernel rounds a few times. What
+/// q2 is made of are squares, which move by twice as much.
+constexpr double kShift = 4, kShiftOfSquares = 2 * kShift;
+
+using Transfer = textbook::Transfer<textbook::Digits<50>>;
 
 template <class R>
 Power as_power(const std::array<R, 2>& rt) {
@@ -59,7 +64,6 @@ Power reference_power(const Stack& stack, double wavelength_nm, double angle_deg
 
 std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wavelength_nm,
                                                   double angle_deg) {
-    using Transfer = textbook::Transfer<textbook::Digits<50>>;
     constexpr std::array kPolarizations{Polarization::s, Polarization::p};
     check(wavelength_nm, angle_deg);
     std::array<ConditionedPower, 2> result;
@@ -70,13 +74,67 @@ std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wav
     Transfer exact(stack, wavelength_nm, angle_deg);
     exact.set_layers(stack.elements);
     for (std::size_t i = 0; i < 2; ++i) result[i].power = as_power(exact.powers(kPolarizations[i]));
-    if (!exact.is_near_branch_point(2 * kShift)) take_condition(exact);
+    if (!exact.is_near_branch_point(kShiftOfSquares)) take_condition(exact);
     for (const double roundings : {kShift, -kShift}) {
         Transfer shifted(stack, wavelength_nm, angle_deg, textbook::Shift::along(roundings));
         shifted.set_layers(stack.elements);
         take_condition(shifted);
     }
     return result;
+}
+
+namespace {
+
+/// Whether f, which is positive at three points in a row and least in the middle, gets down to 0
+/// between them, by golden section.
+template <class F>
+bool reaches_zero(const F& f, double low, double middle, double high, double least) {
+    constexpr double kShare = 0.3819660112501051;
+    constexpr int kSections = 60;
+    for (int i = 0; i < kSections; ++i) {
+        const bool up = high - middle > middle - low;
+        const double next = middle + kShare * ((up ? high : low) - middle);
+        const double value = f(next);
+        if (value <= 0) return true;
+        if (value < least) {
+            (up ? low : high) = middle;
+            middle = next;
+            least = value;
+        } else {
+            (up ? high : low) = next;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+bool is_answer_nearby(const Stack& stack, double wavelength_nm, double angle_deg,
+                      Polarization polarization, double Power::*quantity, double value,
+                      double roundings) {
+    check(wavelength_nm, angle_deg);
+    constexpr int kSteps = 400;
+    const auto away = [&](int i) { return roundings * (2.0 * i / kSteps - 1); };
+    const auto excess = [&](double at) {
+        Transfer moved(stack, wavelength_nm, angle_deg, textbook::Shift::along(at));
+        moved.set_layers(stack.elements);
+        return as_power(moved.powers(polarization)).*quantity - value;
+    };
+    std::vector<double> above;
+    for (int i = 0; i <= kSteps; ++i) {
+        above.push_back(excess(away(i)));
+        if (above.back() * above.front() <= 0) return true;
+    }
+    const double sign = std::copysign(1.0, above.front());
+    for (std::size_t i = 1; i + 1 < above.size(); ++i) {
+        const double least = sign * above[i];
+        if (least > sign * above[i - 1] || least > sign * above[i + 1]) continue;
+        const int at = static_cast<int>(i);
+        if (reaches_zero([&](double x) { return sign * excess(x); }, away(at - 1), away(at),
+                         away(at + 1), least))
+            return true;
+    }
+    return false;
 }
 
 }  // namespace irido

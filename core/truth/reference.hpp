@@ -45,4 +45,14 @@ struct ConditionedPower {
 std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wavelength_nm,
                                                   double angle_deg);
 
+/// Whether the stack has that R, T or A at inputs that are at most so many 2^-53 of themselves
+/// away, all moved together so that all q2 and all phases grow, or shrink: then the value is the
+/// exact answer to a question that roundings do not tell from the given one. It holds where first
+/// derivatives do not: at the fringes of 1e9 periods beside an edge, at narrow peaks, at critical
+/// angles. Looked for at 401 points and where those come nearest to it, in 50 digits, so that
+/// "no" may be wrong where more than 100 fringes pass, and "yes" never is.
+bool is_answer_nearby(const Stack& stack, double wavelength_nm, double angle_deg,
+                      Polarization polarization, double Power::*quantity, double value,
+                      double roundings);
+
 }  // namespace irido

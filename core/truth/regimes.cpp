@@ -454,7 +454,7 @@ StackCase critical_period(Random& random) {
 StackCase twin_mirrors(Random& random) {
     const double nm = random.uniform(400, 700);
     const double high = random.uniform(1.9, 2.6), low = random.uniform(1.35, 1.55);
-    const std::uint64_t pairs = 2 + random.below(14);
+    const auto pairs = static_cast<std::uint64_t>(random.log_uniform(2, 500));
     StackBuilder b;
     const Element h = b.layer(high, nm / (4 * high)), l = b.layer(low, nm / (4 * low));
     b.add(StackBuilder::group(pairs, {h, l}));

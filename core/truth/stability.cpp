@@ -24,6 +24,7 @@ constexpr double kLargestRelativeBound = 0.5;
 constexpr std::size_t kCompany = 11;
 
 using Powers = std::array<Power, 2>;  // s, p
+constexpr std::array kPolarizations{Polarization::s, Polarization::p};
 
 /// The vector kernel gets the question among wavelengths that ask for different care, at a place
 /// that varies; the plain one computes point by point.
@@ -66,20 +67,35 @@ CaseError relative_error(double value, double exact, double condition) {
     return {ratio > 1 ? std::min(relative, std::log(ratio)) : relative, condition};
 }
 
-void judge(Answer& answer, std::string_view which, const std::optional<CaseError>& e,
-           double well_posed = kWellPosedError, double roundings = kAllowedRoundings) {
+/// One quantity of one answer.
+struct Judged {
+    std::string_view which;
+    const StackCase& question;
+    Polarization polarization;
+    double Power::*quantity;
+    double value;
+    double well_posed = kWellPosedError, roundings = kAllowedRoundings;
+
+    bool is_answer_nearby() const {
+        return irido::is_answer_nearby(question.stack, question.wavelength_nm, question.angle_deg,
+                                       polarization, quantity, value, roundings);
+    }
+};
+
+void judge(Answer& answer, const Judged& judged, const std::optional<CaseError>& e) {
     if (!e) return;
-    const double share = e->error / error_bound(e->condition, well_posed, roundings);
-    if (share <= answer.beyond) return;
+    const double share = e->error / error_bound(e->condition, judged.well_posed, judged.roundings);
+    if (share <= answer.beyond || (share > 1 && judged.is_answer_nearby())) return;
     answer.beyond = share;
-    answer.which = which;
+    answer.which = judged.which;
 }
 
 bool is_finite(const Power& power) {
     return std::isfinite(power.R) && std::isfinite(power.T) && std::isfinite(power.A);
 }
 
-Answer compared(const Power& power, const ConditionedPower& exact, bool passive) {
+Answer compared(const StackCase& question, Polarization polarization, const Power& power,
+                const ConditionedPower& exact, bool passive) {
     const auto& [reference, condition] = exact;
     Answer answer;
     answer.finite = is_finite(power) && is_finite(reference);
@@ -94,14 +110,21 @@ Answer compared(const Power& power, const ConditionedPower& exact, bool passive)
     if (std::abs(reference.A) > kSmallestA)
         answer.A_relative =
             relative_error(power.A, reference.A, condition.A / std::abs(reference.A));
-    judge(answer, "R", answer.R);
-    judge(answer, "T", answer.T);
-    judge(answer, "A", answer.A);
+    const auto of = [&](std::string_view which, double Power::*quantity) {
+        return Judged{which, question, polarization, quantity, power.*quantity};
+    };
+    const auto relative = [&](std::string_view which, double Power::*quantity, double well_posed) {
+        Judged judged = of(which, quantity);
+        judged.well_posed = well_posed;
+        judged.roundings = kAllowedRelativeRoundings;
+        return judged;
+    };
+    judge(answer, of("R", &Power::R), answer.R);
+    judge(answer, of("T", &Power::T), answer.T);
+    judge(answer, of("A", &Power::A), answer.A);
     if (answer.T_relative && error_bound(answer.T_relative->condition) < kLargestRelativeBound)
-        judge(answer, "T (relative)", answer.T_relative, kWellPosedError,
-              kAllowedRelativeRoundings);
-    judge(answer, "A (relative)", answer.A_relative, kWellPosedRelativeA,
-          kAllowedRelativeRoundings);
+        judge(answer, relative("T (relative)", &Power::T, kWellPosedError), answer.T_relative);
+    judge(answer, relative("A (relative)", &Power::A, kWellPosedRelativeA), answer.A_relative);
     return answer;
 }
 
@@ -119,7 +142,8 @@ std::array<Answer, 2> answers(const StackCase& c, bool passive, Random random, S
     std::array<Answer, 2> result;
     try {
         const Powers powers = powers_of(c, random, simd);
-        for (std::size_t i = 0; i < 2; ++i) result[i] = compared(powers[i], exact[i], passive);
+        for (std::size_t i = 0; i < 2; ++i)
+            result[i] = compared(c, kPolarizations[i], powers[i], exact[i], passive);
     } catch (const DomainError&) {
         result[0].refused = result[1].refused = true;
     }

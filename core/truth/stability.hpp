@@ -17,9 +17,11 @@ inline constexpr double kUnitRoundoff = 0x1p-53;
 ///     max(well_posed, kAllowedRoundings condition kUnitRoundoff),
 /// with the Condition of reference.hpp. A question is well posed where the first of the two is the
 /// larger one, that is where all inputs together, moved by half an ulp each, move the answer by
-/// less than a tenth of it. The relative error of A has a bound of its own: it is a quadratic form
-/// of the fields, which loses twice the digits that cancel in them (guided modes behind a gap), or
-/// the difference 1 - R - T where it exceeds 0.01.
+/// less than a tenth of it. Beyond it, it is within its bound where the answer is exact for inputs
+/// kAllowedRoundings away (is_answer_nearby() of reference.hpp): where fringes are so narrow that
+/// roundings pass them, derivatives say nothing. The relative error of A has a bound of its own: it
+/// is a quadratic form of the fields, which loses twice the digits that cancel in them (guided
+/// modes behind a gap), or the difference 1 - R - T where it exceeds 0.01.
 inline constexpr double kWellPosedError = 1e-13, kWellPosedRelativeA = 1e-9;
 /// Relative errors of T and A may be ten times larger: they are products of all that lies above.
 inline constexpr double kAllowedRoundings = 10, kAllowedRelativeRoundings = 100;

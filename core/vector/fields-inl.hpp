@@ -275,14 +275,22 @@ HWY_NOINLINE void through_periods(Fields& f, const Period& m, V sin2, V cos2, do
     V half_k = zero;
     if (bands) half_k = asin(hn::Min(IfThenElseZero(band, root), one));
     if (gaps) half_k = IfThenElse(band, half_k, asinh(root));
-    // sin K or sinh Im K, from the matrix where no digits cancel
-    const V traceless = Mul(constant(0.5), Sub(m.a, m.d));
-    const V off_diagonal = Mul(m.beta, m.gamma), square = Mul(traceless, traceless);
-    const V determinant = Sub(off_diagonal, square);
-    const Mask cancels =
-        hn::Lt(Abs(determinant), Mul(constant(0.01), Add(Abs(off_diagonal), square)));
-    const V other = hn::Sqrt(Abs(IfThenElse(band, Sub(one, Abs(small)), Add(one, Abs(small)))));
-    const V sine = IfThenElse(cancels, Mul(two, Mul(root, other)), hn::Sqrt(Abs(determinant)));
+    // sin K or sinh Im K, and the entries such that they belong together, as traceless_of() in
+    // period.cpp
+    const V other = hn::Sqrt(Sub(one, small)), sine = Mul(two, Mul(root, other));
+    const V sine2 = Mul(Mul(constant(4), small), Sub(one, small));
+    V traceless = Mul(constant(0.5), Sub(m.a, m.d)), beta = m.beta, gamma = m.gamma;
+    const V square = Mul(traceless, traceless), product = Mul(beta, gamma);
+    const V target = Add(sine2, square);
+    const Mask by_trace = hn::Gt(square, Abs(product));
+    const Mask by_beta = hn::Gt(Abs(gamma), Abs(beta));
+    const V larger = IfThenElse(by_beta, gamma, beta);
+    const V smaller = IfThenElse(hn::Eq(larger, constant(0)), constant(0), Div(target, larger));
+    traceless = IfThenElse(by_trace,
+                           hn::CopySign(hn::Sqrt(Max(Sub(product, sine2), constant(0))), traceless),
+                           traceless);
+    beta = IfThenElse(hn::AndNot(by_trace, by_beta), smaller, beta);
+    gamma = IfThenElse(Or(by_trace, by_beta), gamma, smaller);
     // cos(N K) and sin(N K), or cosh and sinh times exp(-N Im K)
     const V nk = Mul(n, Mul(two, half_k)), exponent = IfThenElse(band, zero, nk);
     SinCos turn{zero, zero};
@@ -304,14 +312,15 @@ HWY_NOINLINE void through_periods(Fields& f, const Period& m, V sin2, V cos2, do
     V alpha = Add(diagonal, part), delta = Sub(diagonal, part);
     if (gaps) {
         // the smaller entry is exp(-N Im K) + ratio (sine - |traceless|), of which neither cancels
-        const V less = Div(off_diagonal, Add(sine, Abs(traceless)));
+        const V less = Div(Mul(beta, gamma), Add(sine, Abs(traceless)));
         const V small_entry = Mul(sign, NegMulAdd(ratio, less, decay));
         const Mask deep = hn::Gt(exponent, one);
         const Mask opposed = hn::Lt(Mul(part, sign), zero);
         alpha = IfThenElse(And(deep, opposed), small_entry, alpha);
         delta = IfThenElse(hn::AndNot(opposed, deep), small_entry, delta);
     }
-    const V beta = Mul(factor, m.beta), gamma = Mul(factor, m.gamma);
+    beta = Mul(factor, beta);
+    gamma = Mul(factor, gamma);
     const Cx b = f.b, c = f.c;
     f.b = {MulAdd(beta, c.im, Mul(alpha, b.re)), NegMulAdd(beta, c.re, Mul(alpha, b.im))};
     f.c = {MulAdd(gamma, b.im, Mul(delta, c.re)), NegMulAdd(gamma, b.re, Mul(delta, c.im))};

@@ -1,5 +1,6 @@
 #include "core/color/bloch/one_mirror.hpp"
 
+#include "core/color/held_stack.hpp"
 #include "core/error.hpp"
 
 namespace irido {
@@ -25,10 +26,6 @@ Pair pair_of(const std::vector<Element>& elements) {
     if (!inside.first || (group->repeat > 1 && inside.repeat > 1)) return {};
     inside.repeat *= group->repeat;
     return inside;
-}
-
-bool is_real(const Material& material) {
-    return is_constant(material) && index_at(material, 550).imag() == 0;
 }
 
 }  // namespace

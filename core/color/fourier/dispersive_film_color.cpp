@@ -1,12 +1,11 @@
 
 #include "core/color/fourier/film_parts.hpp"
 #include "core/math/constants.hpp"
+#include "core/math/imaginary.hpp"
 
 namespace irido {
 
 namespace {
-
-constexpr Complex kI{0, 1};
 
 /// The nearest path that SensitivityTransform takes.
 Complex admitted(Complex path_nm) {

@@ -22,14 +22,6 @@ constexpr double kRounding = 1e-13;
 /// Standard deviations within which a Gaussian has all but 1e-15 of its weight.
 constexpr double kReach = 8;
 
-bool is_real(const Material& material) {
-    const auto* index = std::get_if<RefractiveIndex>(&material.model);
-    if (!index) return false;
-    if (const auto* k = std::get_if<Constant>(&index->k)) return k->value == 0;
-    const auto* k = std::get_if<Table>(&index->k);
-    return k && std::ranges::all_of(k->value, [](double value) { return value == 0; });
-}
-
 class ConstantFilm : public ColorAlgorithm {
 public:
     ConstantFilm(const ColorTables& tables, const Stack& stack, const ColorMethod& method,

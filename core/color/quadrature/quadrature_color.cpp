@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -32,7 +33,9 @@ constexpr double kOpaquePeriods = 32;
 
 /// Layers computed for one spectrum before it is given up, about a second's worth of either kernel,
 /// and points that any stack may have.
-constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kFewestPoints = 4096;
+/// Means may take longer: where they are tried, points do not resolve the fringes.
+constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kMostMeanWork = 1e8,
+                 kFewestPoints = 4096;
 
 /// Points of a panel that is not cut any further.
 constexpr std::size_t kPanelPoints = 129;
@@ -59,33 +62,42 @@ constexpr double kFine_nm = 4e6, kPointsPerPath = 0.032, kPeriodsOfMean = 4;
 constexpr double kSlow = 0.01;
 
 /// Twice the optical thickness, nm, of what light passes on its way to faces that it returns from,
-/// and the exponent of its loss.
+/// and what it loses on its way: exponents of what is absorbed, and of the gaps through which it
+/// tunnels.
 struct Path {
     double length_nm = 0;
-    double exponent = 0;
+    double absorbed = 0, tunnelled = 0;
+    double exponent() const { return absorbed + tunnelled; }
 };
+
+/// Gaps that stand in periods attenuate with each of these, or, in bands as wide as a gap of one
+/// period makes them, once.
+enum class Gaps { attenuate, have_bands };
 
 /// Goes on to what is `opaque`, an exponent.
 ///   normal  kz/k0 of every material
 void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
-              double opaque, Path& path) {
+              double opaque, Gaps gaps, Path& path) {
     for (const Element& element : elements) {
-        if (path.exponent >= opaque) return;
+        if (path.exponent() >= opaque) return;
         if (const Layer* layer = std::get_if<Layer>(&element.value)) {
             const Complex kz = normal[layer->material];
             const double exponent = 2 * k0 * std::abs(kz.imag()) * layer->thickness_nm;
             if (layer->coherent && exponent < opaque)
                 path.length_nm += 2 * layer->thickness_nm * std::abs(kz.real());
-            path.exponent += exponent;
+            (kz.real() == 0 ? path.tunnelled : path.absorbed) += exponent;
         } else {
             const Group& group = std::get<Group>(element.value);
             Path period;
-            add_path(group.elements, normal, k0, opaque, period);
+            add_path(group.elements, normal, k0, opaque, gaps, period);
             const auto repeat = static_cast<double>(group.repeat);
-            const bool has_end = repeat * period.exponent < opaque;
+            const double absorbed = repeat * period.absorbed;
+            const double tunnelled = (gaps == Gaps::attenuate ? repeat : 1) * period.tunnelled;
+            const bool has_end = absorbed + tunnelled < opaque;
             path.length_nm +=
                 (has_end ? repeat : std::min(repeat, kOpaquePeriods)) * period.length_nm;
-            path.exponent += repeat * period.exponent;
+            path.absorbed += absorbed;
+            path.tunnelled += tunnelled;
         }
     }
 }
@@ -111,7 +123,7 @@ std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double pat
 
 /// Wavelengths at which paths are as long as anywhere, more or less.
 std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
-    if (constant) return {support.first_nm};
+    if (constant) return {support.first_nm, support.last_nm};
     std::vector<double> wavelengths;
     for (int i = 0; i <= 4; ++i)
         wavelengths.push_back(support.first_nm + (support.last_nm - support.first_nm) * i / 4);
@@ -227,16 +239,20 @@ private:
         return true;
     }
 
-    double optical_path_nm(std::span<const Element> elements, IncidentAngle incidence,
+    double optical_path_nm(std::span<const Element> elements, IncidentAngle incidence, Gaps gaps,
                            std::vector<Complex>& normal) const {
         double longest = 0;
         normal.resize(on_path_.materials());
-        for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
+        // exponents alone make the last wavelength differ where media are constant
+        const std::size_t count =
+            constant_ && gaps == Gaps::attenuate ? 1 : on_path_.wavelength_nm().size();
+        for (std::size_t w = 0; w < count; ++w) {
             const double n0 = on_path_.n(on_path_.incident())[w];
             for (std::size_t m = 0; m < normal.size(); ++m)
                 normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, incidence).q2);
             Path path;
-            add_path(elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance), path);
+            add_path(elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance), gaps,
+                     path);
             longest = std::max(longest, path.length_nm);
         }
         return longest;
@@ -246,10 +262,14 @@ private:
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
         if (incidence.cos == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
-        const double path_nm = optical_path_nm(stack.elements, incidence, scratch.normal);
-        const bool is_fine = path_nm > kFine_nm ||
-                             kPointsPerPath * path_nm > static_cast<double>(limits.evaluations);
-        if (is_fine && try_mean(stack, incidence, path_nm, limits, colors, scratch)) return;
+        const auto path_of = [&](Gaps gaps) {
+            return optical_path_nm(stack.elements, incidence, gaps, scratch.normal);
+        };
+        const double path_nm = path_of(Gaps::attenuate), longest_nm = path_of(Gaps::have_bands);
+        const bool is_fine = longest_nm > kFine_nm ||
+                             kPointsPerPath * longest_nm > static_cast<double>(limits.evaluations);
+        for (StackColor& color : colors) color.error = std::numeric_limits<double>::infinity();
+        if (is_fine && try_mean(stack, incidence, longest_nm, limits, colors, scratch)) return;
         const PanelTree::Start& start = start_of(path_class(path_nm));
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
@@ -273,12 +293,19 @@ private:
         integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, limits,
                         scratch.integration, scratch.integrals);
         for (std::size_t i = 0; i < colors.size(); ++i)
-            colors[i] = {scratch.integrals[i].xyz, scratch.integrals[i].error,
-                         scratch.integrals[i].evaluations, ColorMethod::Kind::quadrature};
+            take_better(colors[i], scratch.integrals[i], scratch.integrals[i].error);
+        const bool done = std::ranges::all_of(
+            colors, [&](const StackColor& c) { return c.error <= limits.tolerance; });
+        if (!done && !is_fine) try_mean(stack, incidence, longest_nm, limits, colors, scratch);
+    }
+
+    static void take_better(StackColor& color, const ColorIntegral& integral, double error) {
+        if (error < color.error || !std::isfinite(color.error))
+            color = {integral.xyz, error, integral.evaluations, ColorMethod::Kind::quadrature};
     }
 
     /// The mean over the phase of the element of the longest path, where its fringes are too fine
-    /// to be seen; false if that cannot be promised.
+    /// to be seen; false if it is not known to the tolerance.
     bool try_mean(const Stack& stack, IncidentAngle incidence, double path_nm,
                   const IntegrationLimits& limits, std::span<StackColor> colors,
                   Scratch& scratch) const {
@@ -289,7 +316,7 @@ private:
         double longest_nm = 0, period_nm = 0;
         for (std::size_t i = 0; i < stack.elements.size(); ++i) {
             const auto path_of = [&](std::span<const Element> elements) {
-                return optical_path_nm(elements, incidence, scratch.normal);
+                return optical_path_nm(elements, incidence, Gaps::have_bands, scratch.normal);
             };
             const double nm = path_of({&stack.elements[i], 1});
             if (nm <= longest_nm) continue;
@@ -309,22 +336,22 @@ private:
                             samples, scratch);
         };
         const auto affordable = static_cast<std::size_t>(
-            std::max(kFewestPoints, kMostPlainWork / work_of(stack.elements)));
+            std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
         scratch.integrals.resize(colors.size());
         integrate_color(
             sensitivity_, start, polarizations, sample,
-            {limits.tolerance / 2, std::min(limits.evaluations, affordable), limits.simd},
+            {limits.tolerance / 2, std::min(request_.evaluations, affordable), limits.simd},
             scratch.integration, scratch.integrals);
+        bool done = true;
         for (std::size_t i = 0; i < colors.size(); ++i) {
             double error = scratch.integrals[i].error;
             for (std::size_t k = 0; k < polarizations; ++k)
                 error += scratch.left_out[k].error(request_.sides[i], tables_, only_edges) /
                          static_cast<double>(polarizations);
-            if (!(error <= limits.tolerance)) return false;
-            colors[i] = {scratch.integrals[i].xyz, error, scratch.integrals[i].evaluations,
-                         ColorMethod::Kind::quadrature};
+            done = done && error <= limits.tolerance;
+            take_better(colors[i], scratch.integrals[i], error);
         }
-        return true;
+        return done;
     }
 
     /// Means of the polarizations, and their denominators.
@@ -478,7 +505,8 @@ double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_
         normal[m] =
             std::sqrt(medium(indices.index(m, 0), indices.n(indices.incident())[0], incidence).q2);
     Path path;
-    add_path(stack.elements, normal, indices.k0()[0], opaque_exponent(kUsualTolerance), path);
+    add_path(stack.elements, normal, indices.k0()[0], opaque_exponent(kUsualTolerance),
+             Gaps::attenuate, path);
     return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *
            work_of(stack.elements);
 }

@@ -10,8 +10,12 @@
 #include "tests/core/coherent/ask.hpp"
 #include "tests/oracle/random_stacks.hpp"
 #include "tests/oracle/stack_oracle.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
+using namespace irido::cli;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 using oracle::incoherent;
@@ -154,8 +158,7 @@ TEST_CASE("no stack with incoherent layers gains or loses light", "[incoherent]"
         const Question question = random_question(random);
         CAPTURE(i, text_of(question));
         const Spectra plain = answer(question, SimdLevel::plain);
-        for (const SimdLevel level : kSimdLevels) {
-            if (!is_available(level)) continue;
+        for (const SimdLevel level : tested_levels()) {
             const Spectra at = answer(question, level);
             CAPTURE(name_of(level));
             for (const auto polarization : {&Spectra::s, &Spectra::p}) {

@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "core/math/random.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
+using namespace irido::cli;
 
 namespace {
 
@@ -36,8 +40,7 @@ std::vector<double> angles(double size) {
 }  // namespace
 
 TEST_CASE("sine and cosine are within 1 ulp at every level, from 1e-160 to 1e12 rad") {
-    for (const SimdLevel level : kSimdLevels) {
-        if (level == SimdLevel::plain || !is_available(level)) continue;
+    for (const SimdLevel level : tested_vector_levels()) {
         double worst = 0;
         for (const double size : {1e-8, 0.5, 3.0, 1e2, 1e5, 1e7, 1e12}) {
             const std::vector<double> x = angles(size);
@@ -63,8 +66,7 @@ TEST_CASE("exp(x) - 1 keeps its digits near 0 and saturates at every level") {
     Random random(5);
     std::vector<double> x{0, -1e-300, -1e-17, -0.34, -0.35, -708, -1e6, -1e300};
     for (int i = 0; i < 20000; ++i) x.push_back(-std::pow(10, random.uniform(-20, 3)));
-    for (const SimdLevel level : kSimdLevels) {
-        if (level == SimdLevel::plain || !is_available(level)) continue;
+    for (const SimdLevel level : tested_vector_levels()) {
         std::vector<double> out(x.size());
         expm1(x, out, level);
         double worst = 0;
@@ -77,8 +79,7 @@ TEST_CASE("exp(x) - 1 keeps its digits near 0 and saturates at every level") {
 }
 
 TEST_CASE("multiply-adds converge where their fixed point is") {
-    for (const SimdLevel level : kSimdLevels) {
-        if (!is_available(level)) continue;
+    for (const SimdLevel level : tested_levels()) {
         CHECK(lanes(level) >= 1);
         // ten chains x -> x (1 - 2^-20) + 2^-20 from 0.5, summed
         const double after = multiply_adds(200'000'000 / 10, level);

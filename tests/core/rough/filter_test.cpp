@@ -12,6 +12,7 @@
 #include "core/rough/ggx.hpp"
 #include "core/truth/filter_reference.hpp"
 #include "tests/oracle/filter_oracle.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
 using Catch::Contains;
@@ -77,9 +78,8 @@ TEST_CASE("the closed form of the filter is within 1e-14 at every level and roug
             const double exact = reference_filter(alpha, at.i, at.d);
             CAPTURE(alpha, at.i, at.d);
             CHECK_THAT(filter(at.i, at.d), WithinRel(exact, 1e-14));
-            for (const SimdLevel level : kSimdLevels)
-                if (is_available(level))
-                    CHECK_THAT(row_of_one(filter, at, level), WithinRel(exact, 1e-14));
+            for (const SimdLevel level : tested_levels())
+                CHECK_THAT(row_of_one(filter, at, level), WithinRel(exact, 1e-14));
         }
     }
 }
@@ -130,8 +130,7 @@ TEST_CASE("rows of the filter are filled to their last angle", "[rough]") {
     for (std::size_t count = 1; count < 20; ++count) {
         std::vector<double> theta(count), F(count + 1, -1);
         for (std::size_t i = 0; i < count; ++i) theta[i] = 90 - 4.5 * static_cast<double>(i);
-        for (const SimdLevel level : kSimdLevels) {
-            if (!is_available(level)) continue;
+        for (const SimdLevel level : tested_levels()) {
             filter.row(50, FilterAxis(theta, "theta_d_deg"), std::span(F).first(count), level);
             for (std::size_t i = 0; i < count; ++i)
                 CHECK_THAT(F[i], WithinRel(filter(50, theta[i]), 1e-14));

@@ -7,6 +7,7 @@
 #include "core/spectrum/spectrum.hpp"
 #include "core/truth/stability.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
 
@@ -49,9 +50,7 @@ bool agree(const std::vector<Power>& a, const std::vector<Power>& b) {
 
 TEST_CASE("levels that differ are within the bounds of the question, in every regime",
           "[stability][slow]") {
-    std::vector<SimdLevel> levels;
-    for (const SimdLevel level : kSimdLevels)
-        if (is_available(level)) levels.push_back(level);
+    const std::vector<SimdLevel> levels = tested_levels();
     for (const Regime& regime : regimes()) {
         std::uint64_t differ = 0, wrong = 0, first = 0;
         for (std::uint64_t i = 0; i < stacks_of(regime); ++i) {

@@ -11,8 +11,12 @@
 #include "core/truth/reference.hpp"
 #include "tests/oracle/random_stacks.hpp"
 #include "tests/oracle/stack_oracle.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
+using namespace irido::cli;
 using Catch::WithinAbs;
 using Catch::WithinRel;
 
@@ -176,6 +180,35 @@ TEST_CASE("conditions bound the scatter under shifted inputs, and by not too muc
     }
 }
 
+TEST_CASE("answers nearby are those of inputs some roundings away", "[reference]") {
+    // quarter waves: R is least, so that no shift makes it less; a fringe's flank takes any value
+    const Stack quarter = one_film(1, 1.25, 120, 1.5625), flank = one_film(1, 2.1, 100000037, 1.5);
+    const auto nearby = [](const Stack& stack, double R, double roundings) {
+        return is_answer_nearby(stack, 600, 0, Polarization::s, &Power::R, R, roundings);
+    };
+    CHECK(nearby(quarter, 1e-32, 10));
+    CHECK_FALSE(nearby(quarter, 1e-28, 10));
+    const ConditionedPower at = conditioned_power(flank, 600, 0)[0];
+    const double one = at.condition.R * kUnitRoundoff;
+    REQUIRE(one > 1e-11);
+    for (const double sign : {-1.0, 1.0}) {
+        CHECK(nearby(flank, at.power.R + sign * one, 10));
+        CHECK_FALSE(nearby(flank, at.power.R + sign * 11 * one, 10));
+    }
+    // fringes of 1e9 periods at the edge of a gap: roundings pass several of them
+    StackBuilder b;
+    b.add(StackBuilder::group(1000000000, {b.layer(1.9414075972902767, 276.97186290031675),
+                                           b.layer(1.571263563779457, 230.45921505710186)}));
+    const Stack edge = b.over({2.3390270034281309, 1.8062682845058275});
+    const auto at_edge = [&](double T) {
+        return is_answer_nearby(edge, 591.98617818459923, 0, Polarization::s, &Power::T, T, 10);
+    };
+    CHECK(at_edge(3.9e-11));
+    CHECK(at_edge(1e-2));
+    CHECK_FALSE(at_edge(0.9));  // where sin NK = 0 the substrate alone is left, T = 0.62
+    CHECK_THROWS_AS(nearby(bare(1, {-1, 0}), 0.5, 10), DomainError);
+}
+
 TEST_CASE("every regime has its own name and says what it is", "[stability]") {
     std::set<std::string_view> names;
     for (const Regime& regime : regimes()) {
@@ -225,8 +258,7 @@ TEST_CASE("well-posed questions are answered to 1e-13 by every instruction set",
     CHECK(error_bound(0) == 1e-13);
     CHECK(error_bound(80) == 1e-13);
     CHECK_THAT(error_bound(1e6), WithinRel(1e7 * kUnitRoundoff, 1e-15));
-    for (const SimdLevel level : kSimdLevels) {
-        if (!is_available(level)) continue;
+    for (const SimdLevel level : tested_levels()) {
         const RegimeReport report = measure_stability(*find_regime("ordinary"), 40, 1, {0, level});
         CAPTURE(name_of(level));
         CHECK(report.first_violation == "");

@@ -5,8 +5,12 @@
 
 #include "core/spectrum/spectrum.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
+using namespace irido::cli;
 using Catch::WithinAbs;
 using oracle::incoherent;
 using oracle::spread;
@@ -102,13 +106,6 @@ void check_same(const Spectrum& a, const Spectrum& b) {
     CHECK(a.log_scale == b.log_scale);
 }
 
-std::vector<SimdLevel> vector_levels() {
-    std::vector<SimdLevel> levels;
-    for (const SimdLevel level : kSimdLevels)
-        if (level != SimdLevel::plain && is_available(level)) levels.push_back(level);
-    return levels;
-}
-
 }  // namespace
 
 TEST_CASE("stored layers do what they do one by one", "[slow]") {
@@ -120,7 +117,7 @@ TEST_CASE("stored layers do what they do one by one", "[slow]") {
         const std::vector<std::size_t> varied = random_places(stack.elements.size(), random);
         const IndexTable table(stack, random_wavelengths(13, random));
         const std::vector<double> cosines{random.uniform(0.05, 1), 1, 0, random.uniform(0.01, 0.1)};
-        for (const SimdLevel level : vector_levels()) {
+        for (const SimdLevel level : tested_vector_levels()) {
             StackPower power(stack);
             SpectrumKernel kernel = kernel_of(power, table, kAlmostEverything, varied, level);
             shared += kernel.shares_layers();
@@ -201,7 +198,7 @@ TEST_CASE("points of which stored layers come in parts are the same to the last 
         const std::vector<double> wavelengths = random_wavelengths(60, random);
         const IndexTable table(stack, wavelengths);
         const std::vector<double> cosines{1, 0.6};
-        for (const SimdLevel level : vector_levels()) {
+        for (const SimdLevel level : tested_vector_levels()) {
             const StackPower power(stack);
             const SpectrumKernel kernel = kernel_of(power, table, kAlmostEverything, varied, level);
             if (!kernel.shares_layers()) continue;

@@ -7,8 +7,12 @@
 #include "core/error.hpp"
 #include "core/spectrum/spectrum.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
+using namespace irido::schemas;
+using namespace irido::tables;
+using namespace irido::cli;
 using Catch::WithinAbs;
 using oracle::incoherent;
 using oracle::StackBuilder;
@@ -91,14 +95,6 @@ void check_close(const Spectrum& a, const Spectrum& b, std::size_t i, Sort sort)
     CHECK_THAT(ratio, WithinAbs(1, 1e-8));
 }
 
-/// All levels that the machine has, without the plain kernel.
-std::vector<SimdLevel> vector_levels() {
-    std::vector<SimdLevel> levels;
-    for (const SimdLevel level : kSimdLevels)
-        if (level != SimdLevel::plain && is_available(level)) levels.push_back(level);
-    return levels;
-}
-
 void check_same_point(const Spectrum& a, std::size_t i, const Spectrum& b, std::size_t j) {
     CHECK(a.R[i] == b.R[j]);
     CHECK(a.T[i] == b.T[j]);
@@ -120,7 +116,7 @@ TEST_CASE("every instruction set agrees with the plain kernel") {
         const std::vector<IncidentAngle> cosines{random.uniform(0, 1), 1,
                                                  random.uniform(0.01, 0.1)};
         const Spectra plain = spectra(power, table, cosines, kEverything, {1, SimdLevel::plain});
-        for (const SimdLevel level : vector_levels()) {
+        for (const SimdLevel level : tested_vector_levels()) {
             CAPTURE(name_of(level));
             CHECK(work_of(power, table, cosines, kEverything, {1, level}).kernel == level);
             const Spectra fast = spectra(power, table, cosines, kEverything, {1, level});
@@ -154,7 +150,7 @@ TEST_CASE("incoherent layers between vector blocks agree with the plain kernel")
         const StackPower power(stack);
         const Needs needs{.denominators = true};
         const Spectra plain = spectra(power, table, cosines, needs, {1, SimdLevel::plain});
-        for (const SimdLevel level : vector_levels()) {
+        for (const SimdLevel level : tested_vector_levels()) {
             const Spectra fast = spectra(power, table, cosines, needs, {1, level});
             for (std::size_t j = 0; j < plain.s.R.size(); ++j)
                 for (const auto of : {&Spectra::s, &Spectra::p}) {
@@ -173,7 +169,7 @@ TEST_CASE("a point's result does not depend on its company") {
         for (int i = 0; i < 9; ++i) wavelengths.push_back(random.uniform(300, 900));
         for (int i = 0; i < 12; ++i) cosines.push_back(random.uniform(0, 1));
         const StackPower power(stack);
-        for (const SimdLevel level : vector_levels()) {
+        for (const SimdLevel level : tested_vector_levels()) {
             CAPTURE(name_of(level));
             const Spectra all =
                 spectra(power, IndexTable(stack, wavelengths), cosines, kEverything, {1, level});
@@ -231,7 +227,7 @@ TEST_CASE("zeros are not negative") {
     b.add(b.layer(1.46, 25));
     const Stack stack = b.over({3.9, 0.02});
     const std::vector<double> cosines{1, 0.3};
-    for (const SimdLevel level : vector_levels()) {
+    for (const SimdLevel level : tested_vector_levels()) {
         const Spectra at =
             spectra(StackPower(stack), IndexTable(stack, {633}), cosines, kEverything, {1, level});
         for (const double A : {at.s.A[0], at.s.A[1], at.p.A[1]}) {
@@ -332,7 +328,7 @@ TEST_CASE("thicknesses whose phases are too large for the vector sine go the pla
 
 TEST_CASE("a laser threshold is an error at every level") {
     // (n - 1)/(n + 1) exp(gain) = 1 at normal incidence is met by scanning the gain of a film
-    for (const SimdLevel level : vector_levels()) {
+    for (const SimdLevel level : tested_vector_levels()) {
         StackBuilder b;
         b.add(b.layer({1.5, -1e300}, 100));
         const Stack stack = b.over(1);

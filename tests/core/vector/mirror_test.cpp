@@ -11,6 +11,7 @@
 #include "core/truth/reference.hpp"
 #include "core/truth/stability.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
 using Catch::WithinAbs;
@@ -51,13 +52,6 @@ bool takes_closed_form(const Stack& stack, const Needs& needs = {}) {
     const IncidentAngle cosine(0.7);
     return work_of(StackPower(stack), IndexTable(stack, {500, 600}), std::span(&cosine, 1), needs)
         .mirror;
-}
-
-std::vector<SimdLevel> vector_levels() {
-    std::vector<SimdLevel> levels;
-    for (const SimdLevel level : kSimdLevels)
-        if (level != SimdLevel::plain && is_available(level)) levels.push_back(level);
-    return levels;
 }
 
 Mirror random_mirror(Random& random, double most_repeats) {
@@ -125,7 +119,7 @@ TEST_CASE("every instruction set has the same mirrors, whatever stands beside a 
         for (int w = 0; w < 11; ++w) wavelengths.push_back(random.uniform(300, 900));
         const Spectra plain = at(stack, wavelengths, cosines, {}, SimdLevel::plain);
         CAPTURE(oracle::text_of(stack), cosines[1]);
-        for (const SimdLevel level : vector_levels()) {
+        for (const SimdLevel level : tested_vector_levels()) {
             const Spectra all = at(stack, wavelengths, cosines, {}, level);
             for (std::size_t w = 0; w < wavelengths.size(); ++w) {
                 const Spectra across = at(stack, {wavelengths[w]}, cosines, {}, level);
@@ -407,7 +401,7 @@ TEST_CASE("a mirror's denominator is that of the general kernel, sign and all", 
         REQUIRE(takes_closed_form(stack, needs));
         const std::vector<double> cosines{1, random.uniform(0.05, 1)};
         CAPTURE(oracle::text_of(stack));
-        for (const SimdLevel level : vector_levels()) {
+        for (const SimdLevel level : tested_vector_levels()) {
             const double nm = random.uniform(350, 800);
             const Spectra a = at(stack, {nm}, cosines, needs, level);
             const Spectra b = at(without_host(stack), {nm}, cosines, needs, level);

@@ -10,6 +10,7 @@
 #include "core/material/library.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/simd_levels.hpp"
 
 using namespace irido;
 using oracle::Kind;
@@ -227,8 +228,7 @@ TEST_CASE("many angles are the same as one by one, at every level", "[film_color
         CHECK(together[2 * i].xyz == alone[0].xyz);
         CHECK(together[2 * i + 1].xyz == alone[1].xyz);
     }
-    for (const SimdLevel level : kSimdLevels) {
-        if (!is_available(level)) continue;
+    for (const SimdLevel level : tested_levels()) {
         ColorRequest at_level = request;
         at_level.simd = level;
         const auto same = colors(stack, angles, at_level);
