@@ -91,8 +91,9 @@ TEST_CASE("each room has its namespace", "[architecture]") {
             std::ifstream stream(fs::path(IRIDO_SOURCE_DIR) / file);
             for (std::string line; std::getline(stream, line);) {
                 if (!line.starts_with("namespace ") || !line.ends_with(" {")) continue;
+                if (line == "namespace {") continue;
                 const std::string opened = line.substr(10, line.size() - 12);
-                if (opened.empty() || others.contains(opened)) continue;
+                if (others.contains(opened)) continue;
                 INFO(file << " opens namespace " << opened);
                 CHECK(opened == name);
             }
@@ -107,7 +108,7 @@ TEST_CASE("includes run one way between the rooms inside a room", "[architecture
           "spectrum", "periodic", "colorimetry", "color", "rough", "truth"}},
         {"schemas", {"", "readers", "documents"}},
         {"tables", {"", "files", "records", "resume", "pictures", "lut", "shaders"}},
-        {"cli", {"", "options", "queries", "sweep", "commands", "bench"}},
+        {"cli", {"", "options", "queries", "sweep", "manual", "commands", "bench"}},
     };
     for (const auto& [room, inner] : order) {
         const auto place = [&names = inner](const std::string& name) {

@@ -37,8 +37,8 @@ std::string header_with(const std::string& commit) {
 }  // namespace
 
 TEST_CASE("a build is told by version and commit", "[version]") {
-    CHECK(to_text({"1.2.3", "0123456789ab"}) == "1.2.3 (0123456789ab)");
-    CHECK(to_text({"1.2.3", ""}) == "1.2.3");
+    CHECK(version_text({"1.2.3", "0123456789ab"}) == "1.2.3 (0123456789ab)");
+    CHECK(version_text({"1.2.3", ""}) == "1.2.3");
     const Build& build = this_build();
     CHECK(std::regex_match(build.version, std::regex("[0-9]+\\.[0-9]+\\.[0-9]+")));
     CHECK(std::regex_match(build.commit, std::regex("([0-9a-f]{12,40}(-dirty-[0-9a-f]{8})?)?")));
