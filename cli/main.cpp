@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <new>
 
 #include "cli/exit_status.hpp"
@@ -24,29 +26,52 @@ int fail(const std::string& text, int status = kBadInput) {
     return status;
 }
 
+/// Adds the command that was typed, or all of them where none was: to build all of them takes half
+/// of a short run.
+void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
+    struct Command {
+        std::string_view name;
+        std::function<void()> add;
+    };
+    const auto simple = [&](void (*add)(CLI::App&, Run&)) {
+        return [&program, &run, add] { add(program, run); };
+    };
+    const std::array commands{
+        Command{"spectrum", simple(add_spectrum_command)},
+        Command{"color", simple(add_color_command)},
+        Command{"cm", simple(add_cm_command)},
+        Command{"bands", simple(add_bands_command)},
+        Command{"sweep", [&] { add_sweep_command(program, run, words); }},
+        Command{"lut", simple(add_lut_command)},
+        Command{"plan", simple(add_plan_command)},
+        Command{"bake", simple(add_bake_command)},
+        Command{"materials", simple(add_materials_command)},
+        Command{"validate", simple(add_validate_command)},
+        Command{"convert", simple(add_convert_command)},
+        Command{"bench", simple(add_bench_command)},
+    };
+    if (words.size() == 2 && std::string_view(words[1]) == "--version") return;
+    const auto typed =
+        words.size() < 2 ? commands.end() : std::ranges::find(commands, words[1], &Command::name);
+    if (typed != commands.end()) return typed->add();
+    for (const Command& command : commands) command.add();
+    add_manual_command(program, run);  // of all the others
+    add_completion_command(program, run);
+}
+
 int run_command_line(int argc, char** argv) {
     CLI::App program("Spectra, colours and look-up tables of thin-film stacks.", "irido");
     program.require_subcommand(1);
     program.set_version_flag("--version", version_text, "version, commit, compiler and SIMD level");
-    program.get_formatter()->column_width(26);
+    set_help_pages(program);
     Run run;
-    add_spectrum_command(program, run);
-    add_color_command(program, run);
-    add_cm_command(program, run);
-    add_bands_command(program, run);
-    add_sweep_command(program, run, {argv, static_cast<std::size_t>(argc)});
-    add_lut_command(program, run);
-    add_plan_command(program, run);
-    add_bake_command(program, run);
-    add_materials_command(program, run);
-    add_validate_command(program, run);
-    add_convert_command(program, run);
-    add_bench_command(program, run);
+    const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
+    add_commands(program, run, words);
     set_examples(program,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
                   "irido color \"air | TiO2@35 | Ti\" -a 0:80:10", "irido COMMAND --help"});
     add_missing_options(program);
-    check_command_line(program, {argv, static_cast<std::size_t>(argc)});
+    check_command_line(program, words);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version

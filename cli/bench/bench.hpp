@@ -16,6 +16,14 @@ void add_bench_stability(CLI::App& bench, Run& run);
 void add_bench_pareto(CLI::App& bench, Run& run);
 void add_bench_scene(CLI::App& bench, Run& run);
 
+/// The names of cases, for completions; all of them is one, too.
+template <class Case>
+std::vector<std::string> case_names(std::span<const Case> all) {
+    std::vector<std::string> names{"all"};
+    for (const Case& one : all) names.emplace_back(one.name);
+    return names;
+}
+
 /// The cases of "a,b" or "all" in that order; `bench` is the subcommand whose help lists them.
 /// Throws UsageError.
 template <class Case>
@@ -29,11 +37,9 @@ std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> al
             chosen.push_back(*found);
             continue;
         }
-        std::vector<std::string> names;
-        for (const Case& one : all) names.emplace_back(one.name);
         throw UsageError("--cases: there is no case '" + std::string(name) + "'" +
-                         schemas::did_you_mean(name, names) + " (see irido bench " + bench +
-                         " --help)");
+                         schemas::did_you_mean(name, case_names(all)) + " (see irido bench " +
+                         bench + " --help)");
     }
     return chosen;
 }

@@ -221,6 +221,8 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
     const auto options = std::make_shared<ParetoOptions>();
     command->add_option("-c,--cases", options->cases, cases_help<ColorCase>(color_cases()))
         ->type_name("NAMES");
+    const auto names = [] { return case_names<ColorCase>(color_cases()); };
+    offer(*command, "cases", names, OfferedWords::Use::several);
     command
         ->add_option("-n,--count", options->count,
                      "stacks of each random set, one angle each, [1, 1e5] [50]")

@@ -425,6 +425,8 @@ void add_bench_speed(CLI::App& bench, Run& run) {
         ->type_name("S");
     command->add_option("-c,--cases", options->cases, cases_help<SpeedCase>(kCases))
         ->type_name("NAMES");
+    const auto names = [] { return case_names<SpeedCase>(kCases); };
+    offer(*command, "cases", names, OfferedWords::Use::several);
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
     set_examples(

@@ -116,6 +116,8 @@ void add_bench_stability(CLI::App& bench, Run& run) {
                      "stack i of a regime depends on seed + i only, [0, 2^53] [1]")
         ->type_name("S");
     command->add_option("-r,--regime", options->regimes, regimes_help())->type_name("NAMES");
+    offer(
+        *command, "regime", [] { return case_names(regimes()); }, OfferedWords::Use::several);
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
     set_examples(

@@ -282,6 +282,8 @@ void add_kind_options(CLI::App& command, const tables::LutKind& kind, LutCommand
         constexpr std::array<const char*, 4> types{"LIST", "NUMBER", "N", "NAME"};
         command.add_option(spelled, typed.options[name], std::string(option.help))
             ->type_name(types[static_cast<std::size_t>(option.type)]);
+        if (!option.words.empty())
+            offer(command, option.name, [&option] { return std::span(option.words); });
     }
 }
 
@@ -301,10 +303,12 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
         add_side_options(*command, typed->color,
                          kind.name == "albedo" ? "R (reflected), the only side of this table [R]"
                                                : "R (reflected) or T (transmitted) [R]");
+    if (kind.color) offer(*command, "side", kind.name == "albedo" ? "R" : "R T");
     if (kind.light) add_light_options(*command, typed->color);
     if (kind.color) add_space_options(*command, typed->color);
     command->add_option("--dtype", typed->type, "numbers: f16, f32 or f64 [f32]")
         ->type_name("NAME");
+    offer(*command, "dtype", "f16 f32 f64");
     command
         ->add_option("--size", typed->size,
                      "samples along the axes, [1, 8192]: 64x512, in the order of the axes, or\n"
@@ -350,6 +354,7 @@ void add_list(CLI::App& lut, Run& run) {
     CLI::App* command = lut.add_subcommand("list", "The kinds of tables.");
     const auto output = std::make_shared<OutputOptions>();
     add_output_options(*command, *output, "csv or json [csv]");
+    set_examples(*command, {"irido lut list", "irido lut list -f json"});
     command->callback([output, &run] { run = [output] { return list_kinds(*output); }; });
 }
 
@@ -426,6 +431,8 @@ void add_shader(CLI::App& lut, Run& run) {
         names += (names.empty() ? "" : ", ") + std::string(name);
     shader->add_option("NAME", typed->name, "one of " + names)->required();
     shader->add_option("--language", typed->language, "glsl or hlsl [glsl]")->type_name("NAME");
+    offer(*shader, "NAME", tables::shader_names);
+    offer(*shader, "language", tables::shader_languages);
     set_examples(
         *shader,
         {"irido lut shader color > color.glsl",

@@ -112,6 +112,7 @@ void add_show(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& opti
     show->add_option("-w,--wavelengths", options->wavelengths,
                      "vacuum wavelengths, nm [380:780:1, where it is known]")
         ->type_name("LIST");
+    offer(*show, "NAME", library_names_and_aliases, OfferedWords::Use::one_or_file);
     add_output_options(*show, options->output, record_formats_text());
     show->add_flag("--quiet", options->quiet, "no source, range and notes on standard error");
     set_examples(*show, {"irido materials show Au -w 400:800:100",

@@ -416,7 +416,7 @@ void add_manifest_option(CLI::App& command, SceneCommand& typed) {
             [&typed](const std::string& name) { typed.place.manifest = manifest_name(name); },
             "the manifest's name in the folder, one for each scene that is baked\n"
             "there [manifest.json]")
-        ->type_name("NAME");
+        ->type_name("FILE");
 }
 
 void add_common(CLI::App& command, SceneCommand& typed) {
@@ -441,8 +441,9 @@ void add_plan_command(CLI::App& program, Run& run) {
         ->type_name("DIR");
     add_manifest_option(*command, *typed);
     command->add_option("-f,--format", typed->format, "text or json [text]")->type_name("FORMAT");
+    offer(*command, "format", "text json");
     command->add_option("--explain", typed->explained, "the long form for one material")
-        ->type_name("NAME");
+        ->type_name("MATERIAL");
     set_examples(
         *command, {"irido plan vehicle.json", "irido plan vehicle.json --explain rim"},
         "size: samples along the axes; bytes: of the table's numbers; cost: how often the\n"

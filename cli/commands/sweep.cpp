@@ -376,9 +376,7 @@ const QuestionKind* typed_kind(std::span<char* const> arguments) {
         }
         for (const QuestionKind& kind : question_kinds())
             if (kind.name == argument) return &kind;
-        std::vector<std::string_view> names;
-        for (const QuestionKind& kind : question_kinds()) names.push_back(kind.name);
-        throw UsageError("--compute: " + not_one_of(names, std::string(argument)));
+        throw UsageError("--compute: " + not_one_of(question_names(), std::string(argument)));
     }
     return nullptr;
 }
@@ -404,6 +402,7 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
                     "spectrum, color, bands or cm, with the options of that command:\n"
                     "irido sweep --compute color --help shows them, too")
         ->type_name("COMMAND");
+    offer(command, "compute", question_names);
     command
         .add_option("--shard", typed.shard,
                     "only part K of N, K in [1, N], each about as much work; for --merge,\n"

@@ -95,14 +95,17 @@ int run_validate(const std::vector<std::string>& files) {
     return status;
 }
 
+std::vector<std::string> schema_names() {
+    std::vector<std::string> names;
+    for (const SchemaText& schema : kSchemas) names.emplace_back(schema.name);
+    return names;
+}
+
 int print_schema(const std::string& name) {
     const auto found = std::ranges::find(kSchemas, name, &SchemaText::name);
-    if (found == kSchemas.end()) {
-        std::vector<std::string> names;
-        for (const SchemaText& schema : kSchemas) names.emplace_back(schema.name);
+    if (found == kSchemas.end())
         throw UsageError("--schema: must be one of stack, scene, manifest, lut (got '" + name +
-                         "')" + schemas::did_you_mean(name, names));
-    }
+                         "')" + schemas::did_you_mean(name, schema_names()));
     tables::write_stdout(found->text());
     return 0;
 }
@@ -123,6 +126,7 @@ void add_validate_command(CLI::App& program, Run& run) {
                          "lut's metadata, which explains every key [stack]")
             ->type_name("[NAME]")
             ->expected(0, 1);
+    offer(*command, "schema", schema_names);
     command
         ->add_option("FILE", *files,
                      "stack or scene files or manifests (.json), material files (.csv,\n"

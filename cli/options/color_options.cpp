@@ -201,6 +201,7 @@ void add_side_options(CLI::App& command, ColorOptions& options, const std::strin
         .add_option("-p,--polarization", options.polarization,
                     "s, p or u (unpolarized: the mean of both) [u]")
         ->type_name("LETTER");
+    offer(command, "polarization", "s p u");
 }
 
 void add_light_options(CLI::App& command, ColorOptions& options) {
@@ -211,6 +212,8 @@ void add_light_options(CLI::App& command, ColorOptions& options) {
         ->type_name("NAME");
     command.add_option("--observer", options.observer, "2 (CIE 1931) or 10 (CIE 1964) degrees [2]")
         ->type_name("DEGREES");
+    offer(command, "illuminant", illuminant_names, OfferedWords::Use::one_or_file);
+    offer(command, "observer", "2 10");
 }
 
 void add_space_options(CLI::App& command, ColorOptions& options) {
@@ -224,10 +227,13 @@ void add_space_options(CLI::App& command, ColorOptions& options) {
                     "chromatic adaptation to the white of the space: bradford (a\n"
                     "perfect mirror is r = g = b = 1) or none [bradford]")
         ->type_name("NAME");
+    offer(command, "space", rgb_space_names);
+    offer(command, "adaptation", "bradford none");
 }
 
 void add_color_options(CLI::App& command, ColorOptions& options) {
     add_side_options(command, options, "R (reflected), T (transmitted) or R,T [R]");
+    offer(command, "side", "R T", OfferedWords::Use::several);
     add_light_options(command, options);
     add_space_options(command, options);
     command
@@ -250,6 +256,7 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
                     "observer as Gaussians; gltf (-p u): the formulas of\n"
                     "KHR_materials_iridescence, as in three.js; smits: a single round trip")
         ->type_name("METHOD");
+    offer(command, "method", method_names);
     command
         .add_option("--subdivide", options.subdivide,
                     "for landmarks: split boxes next to gap m into S - m, [1, 1000] [1]")

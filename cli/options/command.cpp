@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include "cli/options/picture_options.hpp"
 #include "core/error.hpp"
@@ -50,6 +51,20 @@ std::string title_of(const schemas::StackDocument& document, const schemas::Stac
     return document.name.empty() ? request.stack : document.name;
 }
 
+namespace {
+
+/// The names in "csv, json or svg: a strip of the colours [csv]".
+std::vector<std::string> names_before_notes(std::string formats) {
+    formats.resize(std::min(formats.size(), formats.find_first_of(":([")));
+    std::ranges::replace(formats, ',', ' ');
+    std::istringstream stream(formats);
+    std::vector<std::string> names(std::istream_iterator<std::string>(stream), {});
+    std::erase(names, "or");
+    return names;
+}
+
+}  // namespace
+
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats) {
     command
         .add_option_function<std::string>(
@@ -59,6 +74,7 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
             "extension; - is standard output [-]")
         ->type_name("FILE");
     command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
+    offer(command, "format", [formats] { return names_before_notes(formats); });
 }
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "cli/message.hpp"
 #include "cli/options/list.hpp"
+#include "cli/options/words.hpp"
 #include "core/math/simd_level.hpp"
 #include "schemas/documents/stack_document.hpp"
 #include "tables/records/record_format.hpp"
@@ -32,6 +33,8 @@ void add_materials_command(CLI::App& program, Run& run);
 void add_validate_command(CLI::App& program, Run& run);
 void add_convert_command(CLI::App& program, Run& run);
 void add_bench_command(CLI::App& program, Run& run);
+void add_manual_command(CLI::App& program, Run& run);
+void add_completion_command(CLI::App& program, Run& run);
 
 /// Where a command's answer goes, as typed.
 struct OutputOptions {
@@ -48,7 +51,7 @@ schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bo
 /// What a stack is called in a picture: its name, or what was typed.
 std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request);
 
-/// -o and -f; `formats` as the help shows them.
+/// -o and -f; `formats` as the help shows them, first their names with commas or "or" in between.
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
 
 /// Where records may go: any format, or those that standard output takes; or a picture of them.
@@ -80,6 +83,17 @@ SimdLevel available_or_less(SimdLevel level);
 /// How to run: with that instruction set, or the next lesser one that the machine has, or its best
 /// one if none is named. Throws UsageError.
 Execution execution_of(unsigned threads = 0);
+
+/// What a LIST of the command line is.
+inline constexpr std::string_view kListHelp =
+    "v | start:stop:step | start:stop/count, or several of them with commas. The stop of\n"
+    "start:stop:step is included where it lies on the grid, both ends of start:stop/count are.";
+
+/// Whether an option of the command is a LIST.
+bool takes_list(const CLI::App& command);
+
+/// How the program's help pages look, and those of the commands that are added afterwards.
+void set_help_pages(CLI::App& program);
 
 /// The last lines of a help page, after `notes` if there are any.
 void set_examples(CLI::App& command, const std::vector<std::string>& examples,

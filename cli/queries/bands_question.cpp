@@ -282,6 +282,7 @@ std::unique_ptr<QuestionOptions> BandsOptions::add(CLI::App& command) {
     command
         .add_option("-p,--polarization", options->polarization, "s, p or both with a comma [s,p]")
         ->type_name("LETTERS");
+    offer(command, "polarization", "s p", OfferedWords::Use::several);
     command
         .add_option("--range", options->range,
                     "vacuum wavelengths that are looked at, nm, in [1, 1e7] [360:830]")

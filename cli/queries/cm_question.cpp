@@ -186,9 +186,9 @@ std::unique_ptr<QuestionOptions> CmOptions::add(CLI::App& command) {
         ->type_name("LETTERS");
     command.add_option("--side", options->sides, "R (reflected), T (transmitted) or R,T [R]")
         ->type_name("SIDES");
-    command
-        .add_option("--orders", options->orders,
-                    "orders m, whole numbers in [0, 1e6], as --angles has its values [0:5:1]")
+    offer(command, "polarization", "s p", OfferedWords::Use::several);
+    offer(command, "side", "R T", OfferedWords::Use::several);
+    command.add_option("--orders", options->orders, "orders m, whole numbers in [0, 1e6] [0:5:1]")
         ->type_name("LIST");
     command
         .add_option("--at", options->at,

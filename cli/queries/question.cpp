@@ -87,4 +87,10 @@ std::span<const QuestionKind> question_kinds() {
     return kinds;
 }
 
+std::vector<std::string_view> question_names() {
+    std::vector<std::string_view> names;
+    for (const QuestionKind& kind : question_kinds()) names.push_back(kind.name);
+    return names;
+}
+
 }  // namespace irido::cli

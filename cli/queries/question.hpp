@@ -137,5 +137,6 @@ struct QuestionKind {
 
 /// spectrum, color, bands and cm.
 std::span<const QuestionKind> question_kinds();
+std::vector<std::string_view> question_names();
 
 }  // namespace irido::cli

@@ -105,6 +105,10 @@ void append_values(SpectrumColumn column, const RowValues& values) {
 
 }  // namespace
 
+std::span<const std::string_view> spectrum_column_names() {
+    return kNames;
+}
+
 std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text) {
     std::vector<SpectrumColumn> columns;
     if (text.empty()) return columns;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,9 @@ namespace irido::cli {
 
 /// The columns that can be asked for beside R, T and A.
 enum class SpectrumColumn { r_re, r_im, t_re, t_im, psi_deg, delta_deg, A_layers };
+
+/// Their names.
+std::span<const std::string_view> spectrum_column_names();
 
 /// "r_re,psi_deg", in the order typed; "" for none. Throws UsageError for names that are unknown
 /// or doubled.

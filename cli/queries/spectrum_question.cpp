@@ -438,8 +438,7 @@ std::unique_ptr<QuestionOptions> SpectrumOptions::add(CLI::App& command) {
     auto options = std::make_unique<SpectrumOptions>();
     command
         .add_option("-w,--wavelengths", options->wavelengths,
-                    "vacuum wavelengths, nm, [1, 1e7]: v, v1,v2, start:stop:step\n"
-                    "or start:stop/count [380:780:1]")
+                    "vacuum wavelengths, nm, [1, 1e7] [380:780:1]")
         ->type_name("LIST");
     add_angles_option(command, options->angles);
     command
@@ -456,7 +455,9 @@ std::unique_ptr<QuestionOptions> SpectrumOptions::add(CLI::App& command) {
                     "A_layers  A_1 A_2 ..., absorbed in each layer, at most 1000\n"
                     "    (np.load needs max_header_size=100000 for more than 500)\n"
                     "All but A_layers need -p s, p or s,p and coherent layers")
-        ->type_name("LIST");
+        ->type_name("NAMES");
+    offer(command, "polarization", "s p u", OfferedWords::Use::several);
+    offer(command, "columns", spectrum_column_names, OfferedWords::Use::several);
     return options;
 }
 

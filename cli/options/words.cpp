@@ -1,0 +1,40 @@
+#include "cli/options/words.hpp"
+
+#include <algorithm>
+#include <ranges>
+#include <sstream>
+
+namespace irido::cli {
+
+namespace {
+
+/// Of all commands: CLI11 has no place for it in its options.
+std::vector<OfferedWords>& all_words() {
+    static std::vector<OfferedWords> all;
+    return all;
+}
+
+}  // namespace
+
+void offer(OfferedWords words) {
+    constexpr std::size_t kExpected = 128;
+    if (all_words().empty()) all_words().reserve(kExpected);
+    all_words().push_back(std::move(words));
+}
+
+void offer(const CLI::App& command, std::string_view option, const char* words,
+           OfferedWords::Use use) {
+    const auto make = [words] {
+        std::istringstream stream(words);
+        return std::vector<std::string>(std::istream_iterator<std::string>(stream), {});
+    };
+    offer({&command, option, make, use});
+}
+
+const OfferedWords* words_offered(const CLI::App& command, std::string_view option) {
+    for (const OfferedWords& words : all_words() | std::views::reverse)
+        if (words.command == &command && words.option == option) return &words;
+    return nullptr;
+}
+
+}  // namespace irido::cli
