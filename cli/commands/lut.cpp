@@ -206,8 +206,9 @@ tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat* 
 void draw_lut(const LutCommand& command, const tables::LutKind& kind,
               const tables::LutRequest& request, const tables::PictureFormat& picture,
               const tables::Lut& lut) {
+    const std::string_view summary = kind.summary.substr(0, kind.summary.find_last_not_of('.') + 1);
     const std::string title =
-        kind.stack ? title_of(request.document, command.stack) : std::string(kind.summary);
+        kind.stack ? title_of(request.document, command.stack) : std::string(summary);
     const auto figure = [&] {
         tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture));
         for (const std::string& text : drawn.notes) note(text, command.quiet);

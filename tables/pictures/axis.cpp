@@ -9,6 +9,8 @@ namespace irido::tables {
 
 namespace {
 
+/// Values of a flat curve differ by less than this part.
+constexpr double kFlat = 1e-3;
 constexpr const char* kMinus = "\u2212";
 /// Coordinates beyond are of no use to any format.
 constexpr double kFarthest = 20000;
@@ -36,7 +38,8 @@ std::string tick_text(double value, double step) {
     std::array<char, 48> text{};
     const double size = std::abs(value);
     const std::string sign = value < 0 ? kMinus : "";
-    if (size < 1e6 && step >= 0.99e-4) {
+    // zeros in front of few digits are powers of ten
+    if (size < 1e6 && (step >= 0.99e-4 || size > 1000 * step)) {
         const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
         std::snprintf(text.data(), text.size(), "%.*f", decimals, size);
         return sign + text.data();
@@ -58,7 +61,8 @@ std::string tick_text(double value, double step) {
 AxisPlaces::AxisPlaces(const FigureAxis& axis, double low, double high, bool widen, double from,
                        double to)
     : axis_(axis), from_(from), to_(to) {
-    if (axis.from_zero && low <= high / 2) {
+    // far from 0, or flat
+    if (axis.from_zero && (low <= high / 2 || high - low < kFlat * high)) {
         low = std::min(low, 0.0);
         high = std::max(high, 0.0);
     }

@@ -61,6 +61,7 @@ void add_path(Panel& panel, const ChromaticityPath& path, std::size_t style, Pla
         if (stop.xyz[0] + stop.xyz[1] + stop.xyz[2] > 0) stops.push_back(&stop);
     if (stops.empty()) throw PictureError("black has no chromaticity to draw");
     const std::size_t n = stops.size(), last = n - 1;
+    std::vector<Label> labels;
     for (std::size_t i = 0; i < n; ++i) {
         line.points.push_back(place(stops[i]->xyz));
         const auto in_turn = [&](std::size_t most) {  // whether it is one of so many
@@ -70,8 +71,10 @@ void add_path(Panel& panel, const ChromaticityPath& path, std::size_t style, Pla
             dots.points.push_back(line.points.back());
             dots.inks.push_back(stops[i]->ink);
         }
-        if (in_turn(kMostStopLabels)) panel.labels.push_back({line.points.back(), stops[i]->label});
+        if (in_turn(kMostStopLabels)) labels.push_back({line.points.back(), stops[i]->label});
     }
+    std::swap(labels[std::min<std::size_t>(1, last)], labels.back());  // both ends first
+    panel.labels.insert(panel.labels.begin(), labels.begin(), labels.end());
     if (n > 1) panel.series.push_back(std::move(line));
     panel.series.push_back(std::move(dots));
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr double kTitleSize = 16, kBody = 12, kSmall = 11;
 constexpr double kSide = 14, kGap = 22, kTickGap = 6, kAxisTitle = 20, kTickHeight = 16;
 constexpr double kBarGap = 14, kBarWidth = 14, kLegendRow = 20, kLegendSample = 40;
-constexpr double kXSpace = 52, kYSpace = 30;
+constexpr double kInnerGap = 6, kXSpace = 52, kYSpace = 30;
 constexpr Ink kPale = ink(0x555555);
 
 /// The text, or as much of both its ends as fits.
@@ -160,7 +160,10 @@ private:
     }
 
     bool has_y_labels(std::size_t column) const { return !figure_.shared_y || column == 0; }
-    bool has_x_labels(std::size_t row) const { return !figure_.shared_x || row + 1 == rows_; }
+    /// Of a panel that has none below, if they are shared.
+    bool has_x_labels(std::size_t row, std::size_t column) const {
+        return !figure_.shared_x || (row + 1) * columns_ + column >= figure_.panels.size();
+    }
     static double hues(const FigureAxis& axis) { return axis.hues ? kHueStrip : 0; }
 
     /// Room for labels left and right of the panels of a column, of panels so high.
@@ -220,7 +223,8 @@ private:
                                  put_panel(panel, {left, top, left + width, top + height}, row, c));
                 x += width + right_[c] + gap;
             }
-            y_ = top + height + below;
+            const bool is_inner = figure_.shared_x && row + 1 < rows_;
+            y_ = top + height + (is_inner ? kInnerGap : below);
         }
     }
 
@@ -234,8 +238,8 @@ private:
                       .text = fitted(schemas::well_formed(panel.title), kBody, box.width()),
                       .anchor = figure_.joined ? Anchor::middle : Anchor::start,
                       .ink = kLetters});
-        double below = 6;
-        if (has_x_labels(row)) below = put_x_labels(panel, places, axes);
+        double below = kInnerGap;
+        if (has_x_labels(row, column)) below = put_x_labels(panel, places, axes);
         if (has_y_labels(column)) put_y_labels(panel, places, axes, left_[column]);
         if (places.bar) put_bar(panel, places, axes);
         draw_panel(panel, places, drawing_.groups, notes_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tables/pictures/glyphs.hpp"
 
@@ -60,7 +61,7 @@ void add_line(const std::vector<Point>& line, double half,
         if (i > 0 && along.x * before.x + along.y * before.y < kSharpCorner) {
             std::vector<Point> corner;
             for (int k = 0; k < kCornerPieces; ++k) {
-                const double turn = -2 * M_PI * k / kCornerPieces;
+                const double turn = 2 * std::numbers::pi * k / kCornerPieces;
                 corner.push_back({a.x + half * std::cos(turn), a.y + half * std::sin(turn)});
             }
             outlines.push_back(std::move(corner));

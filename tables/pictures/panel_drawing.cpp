@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tables/pictures/glyphs.hpp"
 #include "tables/pictures/inks.hpp"
@@ -43,8 +44,8 @@ Path marker(std::size_t style, Point at, Ink color) {
         case 0:
             path.lines.emplace_back();
             for (int k = 0; k < 16; ++k)
-                path.lines[0].push_back(
-                    {at.x + 3.4 * std::cos(k * M_PI / 8), at.y + 3.4 * std::sin(k * M_PI / 8)});
+                path.lines[0].push_back({at.x + 3.4 * std::cos(k * std::numbers::pi / 8),
+                                         at.y + 3.4 * std::sin(k * std::numbers::pi / 8)});
             break;
         case 1:
             path.lines = {around({{-3, -3}, {3, -3}, {3, 3}, {-3, 3}})};

@@ -45,7 +45,8 @@ function readPng(...args) {
 function readPdf(...args) {
     const file = `${folder}/x.pdf`;
     irido(...args, '--quiet', '-o', file);
-    const ppm = execFileSync('pdftoppm', ['-r', '192', '-singlefile', '-aa', 'no', file]);
+    const ppm = execFileSync('pdftoppm', ['-r', '192', '-singlefile', '-aa', 'no', file],
+        { maxBuffer: 2 ** 26 });
     const head = /^P6\n(\d+) (\d+)\n255\n/.exec(ppm.toString('latin1', 0, 40));
     return { width: Number(head[1]), height: Number(head[2]), channels: 3, data: ppm.subarray(head[0].length) };
 }

@@ -92,6 +92,9 @@ TEST_CASE("a line is as wide as it says, and dashes leave their part out", "[pic
     CHECK_THAT(area_of(rasterized(drawing_of(line), 1)), WithinAbs(32, 1e-2));
     line.dash = {3, 1};
     CHECK_THAT(area_of(rasterized(drawing_of(line), 1)), WithinAbs(24, 1e-2));
+    // two bars of 36 and 20 less what they share, and the corner's quarter of twelve sides
+    const Path corner{.lines = {{{3, 3}, {12, 3}, {12, 8}}}, .stroke = ink(0x000000), .width = 4};
+    CHECK_THAT(area_of(rasterized(drawing_of(corner), 1)), WithinAbs(36 + 20 - 4 + 3, 0.05));
     Path steep = line_path({2, 1}, {5, 5}, ink(0x000000), 1);
     CHECK_THAT(area_of(rasterized(drawing_of(steep), 4)), WithinAbs(5 * 16, 0.5));
 }

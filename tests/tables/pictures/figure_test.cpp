@@ -53,6 +53,11 @@ TEST_CASE("labels of axes are short and round", "[pictures]") {
     CHECK(tick_text(2e6, 1e6) == "2\u00b710\u2076");
     CHECK(tick_text(1.5e-7, 0.5e-7) == "1.5\u00b710\u207b\u2077");
     CHECK(tick_text(1e7, 1e7) == "10\u2077");
+    CHECK(tick_text(0.039946, 2e-6) == "0.039946");
+    const FigureAxis share{.quantity = "R", .from_zero = true};
+    CHECK(AxisPlaces(share, 0.2, 0.8, true, 0, 1).first() == 0);
+    CHECK_THAT(AxisPlaces(share, 0.95, 0.99, true, 0, 1).first(), WithinAbs(0.95, 1e-12));
+    CHECK(AxisPlaces(share, 0.04, 0.0400001, true, 0, 1).first() == 0);  // flat
     const FigureAxis plain{.quantity = "q"};
     const AxisPlaces places(plain, 0.1, 9.7, true, 0, 400);
     CHECK(places.first() == 0);
