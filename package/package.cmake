@@ -43,11 +43,11 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)  # what every dpkg reads
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "spectra, colours and look-up tables of thin films")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION  # CPack puts the summary before it
-    " irido computes reflectance, transmittance, absorptance and colour of stacks of
- thin films, the landmarks of Bragg mirrors and the fringes of single films,
- and bakes them into look-up tables for shaders and renderers.
- .
- It sweeps over any values of a stack, reads materials from common file
- formats, and comes with a library of them, examples and JSON schemas.")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION  # CPack puts the summary before it and blanks at its lines
+    "irido computes reflectance, transmittance, absorptance and colour of stacks of
+thin films, the landmarks of Bragg mirrors and the fringes of single films,
+and bakes them into look-up tables for shaders and renderers.
+
+It sweeps over any values of a stack, reads materials from common file
+formats, and comes with a library of them, examples and JSON schemas.")
 include(CPack)

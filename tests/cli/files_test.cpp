@@ -255,7 +255,7 @@ TEST_CASE("an empty word is refused where it was typed", "[cli][files]") {
              {"sweep --merge a b -o ''", "--output: must name a file"},
              {"plan scene.json -o ''", "--output: must name a folder"},
              {"bake scene.json -o ''", "--output: must name a folder"},
-             {"bake scene.json -o b --manifest ''", "--manifest: must not be empty"},
+             {"bake scene.json -o b --manifest ''", "--manifest: must name a file"},
              {"plan ''", "SCENE: must name a file"},
              {"validate ''", "FILE: must name a file"},
              {"lut check x ''", "FILE: must name a file"},
