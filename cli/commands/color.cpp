@@ -55,8 +55,9 @@ int run_color(const ColorCommand& command) {
     if (command.plot == "chromaticity" && !picture)
         throw UsageError("--plot: needs a picture, such as --output FILE.svg");
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const ColorQuestion question(static_cast<const ColorQuestionOptions&>(*command.typed),
-                                 {.execution = execution_of(command.threads), .note = say});
+    const ColorQuestion question(
+        static_cast<const ColorQuestionOptions&>(*command.typed),
+        {.execution = execution_of(command.threads), .note = say, .is_silent = command.quiet});
     const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
     check_writable(command.output);
     const schemas::StackDocument& document = prepared->document;

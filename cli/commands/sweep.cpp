@@ -316,7 +316,7 @@ int run_sweep(const SweepCommand& command) {
                               .varied = varied_layers(space),
                               .structures = structures_together(space),
                               .varies_wavelength = varies_wavelength(space),
-                              .in_sweep = true});
+                              .is_silent = true});
     const schemas::StackSource source = schemas::load_stack(command.stack);
     SweptStacks stacks(source, space, *question);
     SweepEngine engine(stacks, space, *question, command.keep_going);

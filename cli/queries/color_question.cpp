@@ -143,7 +143,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
 }
 
 tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const {
-    using enum tables::RecordField::Type;
+    using enum RecordField::Type;
     constexpr std::size_t hex_width = 7, longest_method = 24;
     tables::RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
     for (const char* name : {"X", "Y", "Z", "x", "y", "r", "g", "b"}) layout.push_back({name});
@@ -261,7 +261,7 @@ StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& st
         for (std::size_t i = 0; i < lightings_.size(); ++i) {
             result.colors.push_back(
                 stack_color(*algorithms[i], stack, sides().size(), angles_deg, threads));
-            if (answering_.in_sweep && !stats_ && !held_to_tolerance_) continue;
+            if (answering_.is_silent && !stats_ && !held_to_tolerance_) continue;
             approximate |= measure_errors(lightings_[i]->tables, stack, request_, angles_deg,
                                           threads, result.colors.back());
         }
@@ -280,7 +280,7 @@ void ColorQuestion::check_errors(const schemas::StackDocument& document, const S
         const auto worst = std::ranges::max_element(lit, {}, &StackColor::error);
         if (worst->error <= request_.tolerance) continue;
         if (!held_to_tolerance_ && (approximate || !std::isfinite(worst->error))) {
-            if (answering_.in_sweep) continue;
+            if (answering_.is_silent) continue;
             std::array<char, 32> text{};
             std::snprintf(text.data(), text.size(), "%.2g", worst->error);
             answering_.note(document.file + ": " + name_of(method_) + " is off by up to " +

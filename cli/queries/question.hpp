@@ -33,8 +33,9 @@ struct Answering {
     std::size_t structures = 1;
     /// Every stack comes with a wavelength of its own, instead of those asked for.
     bool varies_wavelength = false;
-    /// One of many: neither notes nor errors of methods that are not exact, unless asked for.
-    bool in_sweep = false;
+    /// Nobody reads notes, or there are too many stacks for any: no errors of methods that are not
+    /// exact either, unless asked for.
+    bool is_silent = false;
 };
 
 /// The light that falls on a stack.

@@ -46,17 +46,20 @@ Stack held_stack(const Stack& stack, const Sensitivity& sensitivity) {
     return held;
 }
 
-std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support) {
+std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support, bool with_rows) {
     std::vector<double> ends{support.first_nm, support.last_nm};
     const auto add = [&](double wavelength) {
         if (wavelength > support.first_nm && wavelength < support.last_nm)
             ends.push_back(wavelength);
     };
     for (const Material& material : stack.materials) {
-        for (const double kink : kinks(material, support)) add(kink);
+        const std::vector<double> rows =
+            with_rows ? std::vector<double>{} : table_rows(material, support);
         const WavelengthRange range = range_of(material);
-        add(range.first_nm);
-        add(range.last_nm);
+        std::vector<double> own = kinks(material, support);
+        own.insert(own.end(), {range.first_nm, range.last_nm});
+        for (const double nm : own)
+            if (!std::ranges::binary_search(rows, nm)) add(nm);
     }
     std::ranges::sort(ends);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());

@@ -24,8 +24,10 @@ std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensit
 Stack held_stack(const Stack& stack, const Sensitivity& sensitivity);
 
 /// The ends of `support` and the wavelengths between them where a material has a kink or ends,
-/// ascending: the stack's spectra are smooth in between.
-std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support);
+/// ascending: the stack's spectra are smooth in between, but for rows of tables if these are left
+/// out.
+std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support,
+                                  bool with_rows = true);
 
 /// Whether k is 0 at every wavelength.
 bool is_real(const Material& material);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -253,6 +254,20 @@ bool is_constant(const Material& material) {
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     return index != nullptr && std::holds_alternative<Constant>(index->n) &&
            std::holds_alternative<Constant>(index->k);
+}
+
+std::vector<double> table_rows(const Material& material, WavelengthRange between) {
+    std::vector<double> rows;
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    if (index == nullptr) return rows;
+    for (const Dispersion* dispersion : {&index->n, &index->k})
+        if (const auto* table = std::get_if<Table>(dispersion))
+            rows.insert(rows.end(), table->wavelength_nm.begin(), table->wavelength_nm.end());
+    const std::vector<double> all = kinks(material, between);
+    std::ranges::sort(rows);
+    std::vector<double> found;
+    std::ranges::set_intersection(all, rows, std::back_inserter(found));
+    return found;
 }
 
 std::vector<double> kinks(const Material& material, WavelengthRange between) {

@@ -106,4 +106,7 @@ bool is_constant(const Material& material);
 /// Wavelengths strictly inside (first_nm, last_nm) where n or k has a kink, sorted, unique.
 std::vector<double> kinks(const Material& material, WavelengthRange between);
 
+/// Those of them that are rows of a table.
+std::vector<double> table_rows(const Material& material, WavelengthRange between);
+
 }  // namespace irido

@@ -30,8 +30,14 @@ struct ChebyshevTransform::Plan {
     fftw_plan handle;
 };
 
-ChebyshevTransform::ChebyshevTransform(std::size_t degree)
-    : degree_(degree), plan_(std::make_unique<Plan>()) {
+ChebyshevTransform::ChebyshevTransform(std::size_t degree) : degree_(degree) {
+    if (degree <= kPlainDegree) {
+        for (std::size_t j = 0; j < 2 * degree; ++j)
+            cosine_.push_back(
+                std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree)));
+        return;
+    }
+    plan_ = std::make_unique<Plan>();
     std::vector<double> in(degree + 1), out(degree + 1);
     const std::scoped_lock guard(planner());
     // ESTIMATE, because measured plans depend on the machine's mood and with them the last digits
@@ -40,32 +46,54 @@ ChebyshevTransform::ChebyshevTransform(std::size_t degree)
 }
 
 ChebyshevTransform::~ChebyshevTransform() {
+    if (!plan_) return;
     const std::scoped_lock guard(planner());
     fftw_destroy_plan(plan_->handle);
 }
 
+void ChebyshevTransform::sum(std::span<const double> in, std::span<double> out) const {
+    for (std::size_t k = 0; k <= degree_; ++k) {
+        double sum = in[0] + (k % 2 == 0 ? in[degree_] : -in[degree_]);
+        std::size_t at = 0;
+        for (std::size_t j = 1; j < degree_; ++j) {
+            at += k;
+            if (at >= 2 * degree_) at -= 2 * degree_;
+            sum += 2 * in[j] * cosine_[at];
+        }
+        out[k] = sum;
+    }
+}
+
 void ChebyshevTransform::operator()(std::span<const double> in, std::span<double> out) const {
-    std::vector<double> copy(in.begin(), in.end());  // FFTW's interface has no const
-    fftw_execute_r2r(plan_->handle, copy.data(), out.data());
+    if (plan_) {
+        std::vector<double> copy(in.begin(), in.end());  // FFTW's interface has no const
+        fftw_execute_r2r(plan_->handle, copy.data(), out.data());
+    } else {
+        sum(in, out);
+    }
     const double scale = 1 / static_cast<double>(degree_);
     for (double& value : out) value *= scale;
     out.front() /= 2;
     out.back() /= 2;
 }
 
-void ChebyshevTransform::values(std::span<const double> coefficients, std::span<double> out) const {
-    std::vector<double> halved(coefficients.begin(), coefficients.end());
-    for (std::size_t k = 1; k < degree_; ++k) halved[k] /= 2;
-    fftw_execute_r2r(plan_->handle, halved.data(), out.data());
-}
-
-std::vector<double> chebyshev_derivative(std::span<const double> coefficients) {
-    std::vector<double> result(coefficients.size(), 0.0);
-    for (std::size_t k = coefficients.size() - 1; k > 0; --k)
-        result[k - 1] = (k + 1 < coefficients.size() ? result[k + 1] : 0.0) +
-                        2 * static_cast<double>(k) * coefficients[k];
-    result[0] /= 2;
-    return result;
+std::vector<double> chebyshev_slopes(std::size_t degree, std::size_t stride) {
+    const auto half_angle = [&](std::size_t j) {
+        return std::numbers::pi / 2 * static_cast<double>(j) / static_cast<double>(degree);
+    };
+    const auto end = [&](std::size_t j) { return j == 0 || j == degree ? 2.0 : 1.0; };
+    std::vector<double> rows((degree + 1) * stride, 0.0);
+    for (std::size_t i = 0; i <= degree; ++i) {
+        double* row = rows.data() + i * stride;
+        for (std::size_t j = 0; j <= degree; ++j) {
+            if (i == j) continue;
+            const double distance = 2 * std::sin(half_angle(i + j)) *
+                                    std::sin(i < j ? half_angle(j - i) : -half_angle(i - j));
+            row[j] = ((i + j) % 2 == 0 ? 1 : -1) * end(i) / end(j) / distance;
+            row[i] -= row[j];
+        }
+    }
+    return rows;
 }
 
 const ChebyshevTransform& chebyshev_transform(std::size_t degree) {

@@ -12,8 +12,9 @@ namespace irido {
 /// Chebyshev coefficients of the polynomial through values on the Chebyshev points of the second
 /// kind, x_j = cos(pi j / degree), j = 0 .. degree: f(x) = sum_k c_k T_k(x). The matrix is
 /// symmetric, so the same transform turns the moments of a weight against T_k into the weights of
-/// the interpolatory rule on these points. One type-I discrete cosine transform. Source: J. P.
-/// Boyd, Chebyshev and Fourier Spectral Methods (2001), section 5.5.
+/// the interpolatory rule on these points. One type-I discrete cosine transform: a fast one, or
+/// up to kPlainDegree the sums themselves, which need no plan. Source: J. P. Boyd, Chebyshev and
+/// Fourier Spectral Methods (2001), section 5.5.
 class ChebyshevTransform {
 public:
     explicit ChebyshevTransform(std::size_t degree);  ///< degree >= 1
@@ -25,17 +26,22 @@ public:
     /// Safe from many threads.
     void operator()(std::span<const double> in, std::span<double> out) const;
 
-    /// The way back: values of coefficients.
-    void values(std::span<const double> coefficients, std::span<double> out) const;
+    static constexpr std::size_t kPlainDegree = 128;
 
 private:
     struct Plan;
+    void sum(std::span<const double> in, std::span<double> out) const;
+
     std::size_t degree_;
-    std::unique_ptr<Plan> plan_;
+    std::vector<double> cosine_;  ///< of pi j / degree, j below 2 degree, up to kPlainDegree
+    std::unique_ptr<Plan> plan_;  ///< above it
 };
 
-/// Chebyshev coefficients of the derivative of a series. Source: Boyd, eq. A.15.
-std::vector<double> chebyshev_derivative(std::span<const double> coefficients);
+/// Rows that turn the values of a polynomial on the points of one degree into its slopes there:
+/// slope[i] = sum_j rows[i * stride + j] (value[j] - c) for any c. Source: L. N. Trefethen,
+/// Spectral Methods in MATLAB (2000), theorem 7, with differences of cosines as products of sines.
+///   stride  at least degree + 1; the rows are zero from there on
+std::vector<double> chebyshev_slopes(std::size_t degree, std::size_t stride);
 
 /// The transform of one degree, made once. Safe from many threads.
 const ChebyshevTransform& chebyshev_transform(std::size_t degree);

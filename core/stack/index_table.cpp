@@ -55,6 +55,19 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     }
 }
 
+void IndexTable::replace(std::size_t material, std::span<const Complex> index) {
+    const std::size_t count = wavelength_nm_.size();
+    for (std::size_t w = 0; w < count; ++w) {
+        n_[material * count + w] = index[w].real();
+        k_[material * count + w] = index[w].imag();
+        if (index[w] != index[0]) constant_[material] = false;
+        if (index[w].imag() != 0) absorbs_[material] = true;
+        if (index[w].imag() < 0) amplifies_[material] = true;
+        largest_wavenumber_ = std::max(
+            largest_wavenumber_, k0_[w] * (std::abs(index[w].real()) + std::abs(index[w].imag())));
+    }
+}
+
 void IndexTable::resize_like(const IndexTable& model, std::size_t count) {
     materials_ = model.materials_;
     incident_ = model.incident_;

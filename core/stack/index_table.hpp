@@ -26,6 +26,10 @@ public:
     /// Becomes the parts, tables of the same stack, one after the other; memory is used again.
     void assign(std::span<const IndexTable* const> parts);
 
+    /// Other indices of one material, as many as there are wavelengths, which are not checked; they
+    /// absorb and amplify where the old ones do at most.
+    void replace(std::size_t material, std::span<const Complex> index);
+
     const std::vector<double>& wavelength_nm() const { return wavelength_nm_; }
     std::size_t materials() const { return materials_; }
     /// Real and imaginary part of one material's index at all wavelengths.

@@ -211,6 +211,70 @@ ColorFamily bragg(Random& random) {
     return at_some_angle(random, b.over(1.52));
 }
 
+/// A film of the first material, of a spread of thicknesses, on the second one, at three angles.
+ColorFamily tabulated_film(std::string_view film, double thickest_nm, std::string_view base) {
+    ColorFamily family{{}, {0, 40, 70}};
+    for (const double t : steps(16)) {
+        StackBuilder b;
+        b.add(StackBuilder::layer_of(b.material(built_in(film)), thickest_nm * (t + 0.1)));
+        family.variants.push_back(b.over_material(b.material(built_in(base))));
+    }
+    return family;
+}
+ColorFamily anodized(Random&) {
+    return tabulated_film("TiO2", 180, "Ti");
+}
+ColorFamily ito_glass(Random&) {
+    return tabulated_film("ITO", 400, "BK7");
+}
+
+/// Silver between two oxides on glass, all of them scaled.
+ColorFamily low_e(Random&) {
+    ColorFamily family{{}, {0, 40, 70}};
+    for (const double t : steps(16)) {
+        const double scale = 0.7 + 0.6 * t;
+        StackBuilder b;
+        const std::size_t oxide = b.material(built_in("TiO2")), silver = b.material(built_in("Ag"));
+        b.add(StackBuilder::layer_of(oxide, 38 * scale));
+        b.add(StackBuilder::layer_of(silver, 11 * scale));
+        b.add(StackBuilder::layer_of(oxide, 34 * scale));
+        family.variants.push_back(b.over_material(b.material(built_in("BK7"))));
+    }
+    return family;
+}
+
+/// Six layers of a table, or of an index like it.
+template <bool is_table>
+ColorFamily six_oxides(Random&) {
+    ColorFamily family{{}, {0, 40, 70}};
+    for (const double t : steps(16)) {
+        StackBuilder b;
+        const std::size_t low = b.material(built_in("MgF2")), high = b.material(built_in("TiO2"));
+        for (int i = 0; i < 6; ++i) {
+            const double nm = (40 + 12 * i) * (0.7 + 0.6 * t);
+            if (i % 2 == 1) {
+                b.add(is_table ? StackBuilder::layer_of(low, nm) : b.layer(1.38, nm));
+            } else {
+                b.add(is_table ? StackBuilder::layer_of(high, nm) : b.layer(2.4, nm));
+            }
+        }
+        family.variants.push_back(b.over(1.52));
+    }
+    return family;
+}
+
+ColorFamily absorbing_bragg(Random&) {
+    ColorFamily family{{}, {0, 40, 70}};
+    for (const double t : steps(16)) {
+        StackBuilder b;
+        const double scale = 0.9 + 0.2 * t;
+        b.add(StackBuilder::group(
+            10, {b.layer({2.3, 0.01}, 60 * scale), b.layer({1.46, 0.002}, 94 * scale)}));
+        family.variants.push_back(b.over({1.9, 1.5}));
+    }
+    return family;
+}
+
 constexpr std::array kCases{
     ColorCase{"bb17_fig7", "BB17 figure 7: 525 nm of 1.5 on 1.09", false, bb17_fig7},
     ColorCase{"butanol_glass", "BB17 figure 8: 666 nm of butanol on BK7", false, butanol_glass},
@@ -246,6 +310,13 @@ constexpr std::array kCases{
     ColorCase{"dispersive", "built-in films on built-in metals and glass", true, dispersive},
     ColorCase{"multilayer", "2 to 9 random layers, some absorbing", true, multilayer},
     ColorCase{"bragg", "2 to 30 periods of two random layers", true, bragg},
+    ColorCase{"anodized", "16 films of TiO2 on titanium, 0, 40 and 70 degrees", false, anodized},
+    ColorCase{"ito_glass", "the same of ITO on BK7", false, ito_glass},
+    ColorCase{"low_e", "TiO2, silver, TiO2 on BK7, scaled", false, low_e},
+    ColorCase{"six_tables", "six layers of TiO2 and MgF2, scaled", false, six_oxides<true>},
+    ColorCase{"six_constant", "the same of 2.4 and 1.38", false, six_oxides<false>},
+    ColorCase{"absorbing_bragg", "10 absorbing periods on an absorber, scaled", false,
+              absorbing_bragg},
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ public:
           held_(std::move(held)),
           polarizations_(polarizations(request.light)),
           limits_{kTwoBeamTolerance, request.evaluations, request.simd},
-          tree_(tables, [this](std::vector<double> wavelength_nm) {
+          tree_(tables, [this](std::vector<double> wavelength_nm, const IndexFit*) {
               SpectralPoints points{std::move(wavelength_nm), nullptr};
               points.indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
               return points;

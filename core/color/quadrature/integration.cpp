@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -40,6 +41,9 @@ constexpr double kLargestHalfTurn = 16;
 /// A panel is halved where twice the degree promises more than this times the error allowed.
 constexpr double kHopeful = 10;
 
+/// Part of the error allowed that may be lost to a panel's fitted indices, and that is planned for.
+constexpr double kMostLost = 0.6, kPlannedLost = 0.4;
+
 /// Where the points are dense for a denominator, differences of neighbours are its slope.
 constexpr double kDense = 3.2;
 
@@ -56,6 +60,17 @@ struct Denominator {
     std::span<const double> re, im, log_scale;
 };
 
+/// chebyshev_slopes() of each of kDegrees, the stride that of the rule.
+const std::vector<double>& slope_rows(std::size_t degree) {
+    static const auto all = [] {
+        std::array<std::vector<double>, kDegrees.size()> rows;
+        for (std::size_t d = 0; d < kDegrees.size(); ++d)
+            rows[d] = chebyshev_slopes(kDegrees[d], whole_vectors(kDegrees[d] + 1));
+        return rows;
+    }();
+    return all[degree];
+}
+
 /// |a| < factor |b|, by squares where these decide it: roots take long.
 bool is_smaller(Complex a, Complex b, double factor) {
     const double a2 = std::norm(a), b2 = std::norm(b) * factor * factor;
@@ -68,14 +83,17 @@ bool is_smaller(Complex a, Complex b, double factor) {
 /// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
 /// step from there, -D/D', is shorter than the way to the next point. D is interpolated after an
 /// exponential trend, which has no zeros, is taken out of it.
-void mark_hidden_zeros(std::span<const double> x, const Denominator& d,
-                       IntegrationMemory::Zeros& memory, std::vector<bool>& marked) {
+///   slope_rows  of the points
+void mark_hidden_zeros(const QuadratureRule& rule, std::span<const double> slope_rows,
+                       const Denominator& d, SimdLevel simd, IntegrationMemory::Zeros& memory,
+                       std::vector<bool>& marked) {
+    const std::vector<double>& x = rule.panel.x;
     const std::size_t degree = x.size() - 1;
     const double first = d.log_scale.front(), last = d.log_scale.back();
-    auto& [parts, slopes, coefficients] = memory;
+    auto& [parts, slopes] = memory;
     for (std::size_t part = 0; part < 2; ++part) {
-        parts[part].resize(degree + 1);
-        slopes[part].resize(degree + 1);
+        parts[part].assign(rule.stride, 0);
+        slopes[part].resize(rule.points);
     }
     for (std::size_t j = 0; j <= degree; ++j) {
         const double trend = (first + last) / 2 + (first - last) / 2 * x[j];
@@ -83,12 +101,9 @@ void mark_hidden_zeros(std::span<const double> x, const Denominator& d,
         parts[0][j] = d.re[j] * scale;
         parts[1][j] = d.im[j] * scale;
     }
-    const ChebyshevTransform& transform = chebyshev_transform(degree);
-    coefficients.resize(degree + 1);
-    for (std::size_t part = 0; part < 2; ++part) {
-        transform(parts[part], coefficients);
-        transform.values(chebyshev_derivative(coefficients), slopes[part]);
-    }
+    for (std::size_t part = 0; part < 2; ++part)
+        row_sums(slope_rows.data(), rule.points, rule.stride, parts[part].data(), parts[part][0],
+                 slopes[part].data(), simd);
     for (std::size_t j = 0; j <= degree; ++j) {
         const double before = j > 0 ? x[j - 1] - x[j] : 0, after = j < degree ? x[j] - x[j + 1] : 0;
         const double spacing = std::max(before, after);
@@ -227,9 +242,11 @@ private:
                 return;
             }
             case Outcome::halves:
-                for (std::size_t half = 0; half < 2; ++half)
-                    next_.push_back(
-                        {&job.node->half(half), job.degree - 1, job.half_turn / 2, job.share / 2});
+                for (std::size_t half = 0; half < 2; ++half) {
+                    PanelTree::Node& node = job.node->half(half);
+                    next_.push_back({&node, node.seeing(std::max<std::size_t>(job.degree, 1) - 1),
+                                     job.node->half_turn(half, job.half_turn), job.share / 2});
+                }
         }
     }
 
@@ -270,6 +287,8 @@ private:
         const bool narrow = is_narrow(job.node->range());
         const bool must_end = evaluations_ >= limits_.evaluations || (last_degree && narrow);
         const Poles poles = poles_of(job, samples, first);
+        const Triple lost = lost_by_fit(job, poles);
+        if (!must_end && !is_below(lost, scaled(allowed, kMostLost))) return Outcome::halves;
         const std::size_t width = rule.row_count();
         memory_.sums.resize(integrals_.size() * width);
         std::vector<Triple>& panel_errors = memory_.panel_errors;
@@ -278,6 +297,7 @@ private:
             row_sums(rule.rows.data(), width, rule.stride, samples.row(k) + first, reference_[k],
                      sums, limits_.simd);
             panel_errors[k] = rule.error({sums, width}, poles.rate);
+            for (std::size_t c = 0; c < 3; ++c) panel_errors[k][c] += lost[c];
             if (must_end || is_below(panel_errors[k], allowed)) continue;
             const bool halves =
                 last_degree ||
@@ -285,7 +305,7 @@ private:
             return halves ? Outcome::halves : Outcome::twice_the_degree;
         }
         if (!poles.all_far && denominators_ > 0) {
-            mark_points(rule, samples, first);
+            mark_points(job, samples, first);
             const bool resolved = static_cast<double>(kDegrees[job.degree]) >= job.half_turn;
             for (std::size_t k = 0; k < integrals_.size(); ++k) {
                 const double foot =
@@ -307,6 +327,10 @@ private:
         return Outcome::settled;
     }
 
+    static Triple scaled(const Triple& values, double factor) {
+        return {factor * values[0], factor * values[1], factor * values[2]};
+    }
+
     static bool is_below(const Triple& error, const Triple& allowed) {
         return error[0] <= allowed[0] && error[1] <= allowed[1] && error[2] <= allowed[2];
     }
@@ -325,35 +349,64 @@ private:
     struct Poles {
         bool all_far;      ///< none is closer to a point than the next one, for certain
         std::size_t rate;  ///< at which coefficients fall, an index into kFallRates
+        double slope;      ///< largest |D'|/|D| seen, in x
     };
     /// What differences of the denominators say at once.
     Poles poles_of(const Job& job, const Samples& samples, std::size_t first) const {
         const QuadratureRule& rule = job.rule();
         const auto degree = static_cast<double>(kDegrees[job.degree]);
-        if (denominators_ == 0 || degree < kDense * job.half_turn) return {false, 0};
+        const bool is_dense = degree >= kDense * job.half_turn;
+        if (denominators_ == 0 || (!is_dense && !job.node->fit())) return {false, 0, 0};
         double largest = 0;
         for (std::size_t d = 0; d < denominators_; ++d) {
             const std::size_t row = integrals_.size() + 3 * d;
             largest = std::max(largest,
                                steepness(samples.row(row) + first, samples.row(row + 1) + first,
                                          samples.row(row + 2) + first, rule.inverse_spacing.data(),
-                                         rule.points, rule.stride, limits_.simd));
+                                         rule.stride, limits_.simd));
         }
-        if (!(largest < degree / std::numbers::pi)) return {false, 0};
+        if (!is_dense || !(largest < degree / std::numbers::pi))
+            return {false, 0, std::max(largest, job.half_turn)};
         std::size_t rate = 0;
         while (rate + 1 < kFallRates.size() && largest <= rule.steepest[rate + 1]) ++rate;
-        return {true, rate};
+        return {true, rate, largest};
+    }
+
+    /// What the fit of the panel's indices takes from X, Y, Z at most.
+    Triple lost_by_fit(const Job& job, const Poles& poles) const {
+        Triple lost{};
+        const IndexFit* fit = job.node->fit();
+        if (!fit || limits_.index_effects.empty()) return lost;
+        if (job.degree >= IndexFit::kLevels) {
+            lost.fill(std::numeric_limits<double>::infinity());
+            return lost;
+        }
+        const WavelengthRange range = job.node->range();
+        const double per_log = 2 / (1 - range.first_nm / range.last_nm);  // dx / d ln lambda
+        Triple root{};
+        for (const IndexFit::Error& error : fit->errors(job.degree, poles.rate)) {
+            const double effect =
+                index_effect(limits_.index_effects[error.material], poles.slope * per_log);
+            for (std::size_t c = 0; c < 3; ++c) {
+                lost[c] += effect * error.first[c];
+                root[c] += effect * std::sqrt(error.second[c]);
+            }
+        }
+        for (std::size_t c = 0; c < 3; ++c) lost[c] += root[c] * root[c];
+        return lost;
     }
 
     /// Marks the points that have a zero of a denominator next to them.
-    void mark_points(const QuadratureRule& rule, const Samples& samples, std::size_t first) const {
+    void mark_points(const Job& job, const Samples& samples, std::size_t first) const {
+        const QuadratureRule& rule = job.rule();
         std::vector<bool>& marked = memory_.marked;
         marked.assign(rule.points, false);
         for (std::size_t d = 0; d < denominators_; ++d) {
             const auto row = [&](std::size_t r) {
                 return std::span(samples.row(integrals_.size() + 3 * d + r) + first, rule.points);
             };
-            mark_hidden_zeros(rule.panel.x, {row(0), row(1), row(2)}, memory_.zeros, marked);
+            mark_hidden_zeros(rule, slope_rows(job.degree), {row(0), row(1), row(2)}, limits_.simd,
+                              memory_.zeros, marked);
         }
     }
 
@@ -403,25 +456,45 @@ const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
 
 const SpectralPoints& PanelTree::Node::all_points(std::size_t degree) {
     const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    const IndexFit* indices = fit();
     return all_[degree].get(
-        lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points(every)); });
+        lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points(every, indices)); });
 }
 
 const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
     const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    const IndexFit* indices = fit();
     return added_[degree].get(lock_, [&] {
         std::vector<double> odd;
         for (std::size_t j = 1; j < every.size(); j += 2) odd.push_back(every[j]);
-        return std::make_unique<SpectralPoints>(tree_.make_points(std::move(odd)));
+        return std::make_unique<SpectralPoints>(tree_.make_points(std::move(odd), indices));
     });
 }
 
 PanelTree::Node& PanelTree::Node::half(std::size_t which) {
     return halves_[which].get(lock_, [&] {
-        const double middle = 2 / (1 / range_.first_nm + 1 / range_.last_nm);
+        const double middle = has_rows_ ? tree_.indices_->middle_row(range_)
+                                        : 2 / (1 / range_.first_nm + 1 / range_.last_nm);
         return std::make_unique<Node>(tree_, which == 0 ? WavelengthRange{range_.first_nm, middle}
                                                         : WavelengthRange{middle, range_.last_nm});
     });
+}
+
+const IndexFit* PanelTree::Node::fit() {
+    if (!has_rows_) return nullptr;
+    return &fit_.get(lock_, [&] { return tree_.indices_->fit(range_); });
+}
+
+std::size_t PanelTree::Node::seeing(std::size_t degree) {
+    if (const IndexFit* indices = fit())
+        while (kDegrees[degree] < indices->degree()) ++degree;
+    return degree;
+}
+
+double PanelTree::Node::half_turn(std::size_t which, double half_turn) {
+    const WavelengthRange part = half(which).range();
+    return half_turn * (1 / part.first_nm - 1 / part.last_nm) /
+           (1 / range_.first_nm - 1 / range_.last_nm);
 }
 
 PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, double tolerance,
@@ -432,7 +505,7 @@ PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, doub
     const double largest =
         std::max(kLargestHalfTurn, 2 * half_turns / static_cast<double>(most_panels));
     Start start;
-    std::vector<double> wavelengths;
+    std::vector<SpectralPoints> parts;
     for (const SpectralPanel& panel : panels) {
         Node* root = nullptr;
         {
@@ -440,32 +513,77 @@ PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, doub
             const std::pair key{panel.range.first_nm, panel.range.last_nm};
             root = &roots_.try_emplace(key, *this, panel.range).first->second;
         }
-        begin_with(*root, panel.half_turn, largest, tolerance, start, wavelengths);
+        begin_with(*root, panel.half_turn, largest, tolerance, start, parts);
     }
-    start.points = make_points(std::move(wavelengths));
+    std::vector<const IndexTable*> indices;
+    for (const SpectralPoints& part : parts) {
+        start.points.wavelength_nm.insert(start.points.wavelength_nm.end(),
+                                          part.wavelength_nm.begin(), part.wavelength_nm.end());
+        indices.push_back(part.indices.get());
+    }
+    if (indices.front()) {
+        auto all = std::make_unique<IndexTable>(*indices.front());
+        all->assign(indices);
+        start.points.indices = std::move(all);
+    }
+    start.points.id = points_made_++;
     return start;
 }
 
-SpectralPoints PanelTree::make_points(std::vector<double> wavelength_nm) const {
-    SpectralPoints points = make_points_(std::move(wavelength_nm));
+SpectralPoints PanelTree::make_points(std::vector<double> wavelength_nm,
+                                      const IndexFit* fit) const {
+    SpectralPoints points = make_points_(std::move(wavelength_nm), fit);
     points.id = points_made_++;
     return points;
 }
 
+/// Whether what the fit of a panel's indices loses is small enough, as far as is known before the
+/// first evaluation: denominators turn as their fringes do.
+bool PanelTree::is_smooth(Node& node, double half_turn, std::size_t degree, double tolerance) {
+    const IndexFit* fit = node.fit();
+    if (!fit) return true;
+    if (degree >= IndexFit::kLevels) return false;
+    const WavelengthRange range = node.range(), all = tables_.sensitivity().support();
+    const std::vector<double> inverse = indices_->inverse_indices(range);
+    const double slope = half_turn / (1 - range.first_nm / range.last_nm);
+    const auto n = static_cast<double>(kDegrees[degree]);
+    std::size_t rate = 0;
+    while (rate + 1 < kFallRates.size() && half_turn <= steepest_of(kFallRates[rate + 1], n))
+        ++rate;
+    const Triple light = tables_.sensitivity().integral(range);
+    const double share =
+        (1 / range.first_nm - 1 / range.last_nm) / (1 / all.first_nm - 1 / all.last_nm);
+    for (std::size_t c = 0; c < 3; ++c) {
+        double lost = 0, root = 0;
+        for (const IndexFit::Error& error : fit->errors(degree, rate)) {
+            const double effect = index_effect(inverse[error.material], slope);
+            lost += effect * error.first[c];
+            root += effect * std::sqrt(error.second[c]);
+        }
+        const double part = light[c] / tables_.sensitivity().white()[c] + share;
+        if (!(lost + root * root <= kPlannedLost * tolerance / 2 * part)) return false;
+    }
+    return true;
+}
+
 void PanelTree::begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,
-                           Start& start, std::vector<double>& wavelengths) {
-    if (half_turn > largest_half_turn) {
+                           Start& start, std::vector<SpectralPoints>& parts) {
+    const std::size_t degree = node.seeing(first_degree(half_turn, tolerance));
+    if (half_turn > largest_half_turn || !is_smooth(node, half_turn, degree, tolerance)) {
         for (std::size_t half = 0; half < 2; ++half)
-            begin_with(node.half(half), half_turn / 2, largest_half_turn, tolerance, start,
-                       wavelengths);
+            begin_with(node.half(half), node.half_turn(half, half_turn), largest_half_turn,
+                       tolerance, start, parts);
         return;
     }
-    const std::size_t degree = first_degree(half_turn, tolerance);
+    std::size_t first = 0;
+    if (!start.panels.empty()) {
+        const Start::Panel& before = start.panels.back();
+        first = before.first + kDegrees[before.degree];
+    }
+    start.panels.push_back({&node, degree, half_turn, first});
     const std::vector<double>& points = node.rule(degree).panel.wavelength_nm;
-    const std::size_t shared = wavelengths.empty() ? 0 : 1;
-    start.panels.push_back({&node, degree, half_turn, wavelengths.size() - shared});
-    wavelengths.insert(wavelengths.end(), points.begin() + static_cast<std::ptrdiff_t>(shared),
-                       points.end());
+    parts.push_back(
+        make_points_({points.begin() + (parts.empty() ? 0 : 1), points.end()}, node.fit()));
 }
 
 void integrate_color(const Sensitivity& sensitivity, const PanelTree::Start& start,

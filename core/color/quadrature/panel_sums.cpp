@@ -1,10 +1,6 @@
 // Compiled once for every instruction set: this file includes itself through foreach_target.h.
 #include "core/color/quadrature/panel_sums.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/color/quadrature/panel_sums.cpp"
 #include "core/math/vector_targets.hpp"
@@ -45,24 +41,24 @@ void all_row_sums(const double* rows, std::size_t count, std::size_t stride, con
 }
 
 double steepest(const double* re, const double* im, const double* log_scale,
-                const double* inverse_spacing, std::size_t count, std::size_t stride) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    for (std::size_t j = 0; j < count; ++j)
-        if (log_scale[j] != log_scale[0]) return kNone;
+                const double* inverse_spacing, std::size_t stride) {
     V largest = constant(0);
     const V tiny = constant(1e-300);
     for (std::size_t j = 0; j < stride; j += hn::Lanes(Lanes())) {
         const V x = hn::LoadU(Lanes(), re + j), next_x = hn::LoadU(Lanes(), re + j + 1);
         const V y = hn::LoadU(Lanes(), im + j), next_y = hn::LoadU(Lanes(), im + j + 1);
         const V inverse = hn::LoadU(Lanes(), inverse_spacing + j);
+        const V change =
+            hn::Sub(hn::LoadU(Lanes(), log_scale + j + 1), hn::LoadU(Lanes(), log_scale + j));
+        const V scaled = hn::Mul(hn::Abs(change), inverse);
         const V dx = hn::Mul(hn::Sub(next_x, x), inverse);
         const V dy = hn::Mul(hn::Sub(next_y, y), inverse);
         const V slope = hn::MulAdd(dx, dx, hn::Mul(dy, dy));
         const V size = hn::Min(hn::MulAdd(x, x, hn::Mul(y, y)),
                                hn::MulAdd(next_x, next_x, hn::Mul(next_y, next_y)));
-        largest = hn::Max(largest, hn::Div(slope, hn::Max(size, tiny)));
+        largest = hn::Max(largest, hn::Add(hn::Sqrt(hn::Div(slope, hn::Max(size, tiny))), scaled));
     }
-    return std::sqrt(hn::GetLane(hn::MaxOfLanes(Lanes(), largest)));
+    return hn::GetLane(hn::MaxOfLanes(Lanes(), largest));
 }
 
 }  // namespace irido::HWY_NAMESPACE
@@ -78,9 +74,8 @@ void row_sums(const double* rows, std::size_t count, std::size_t stride, const d
 }
 
 double steepness(const double* re, const double* im, const double* log_scale,
-                 const double* inverse_spacing, std::size_t count, std::size_t stride,
-                 SimdLevel level) {
-    return IRIDO_DISPATCH(level, steepest)(re, im, log_scale, inverse_spacing, count, stride);
+                 const double* inverse_spacing, std::size_t stride, SimdLevel level) {
+    return IRIDO_DISPATCH(level, steepest)(re, im, log_scale, inverse_spacing, stride);
 }
 
 }  // namespace irido

@@ -113,6 +113,9 @@ double work_of(std::span<const Element> elements) {
     return work;
 }
 
+/// Squares of normal indices below this part of the index' own are taken to be that.
+constexpr double kLeastNormal = 1e-6;
+
 std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double path_nm) {
     std::vector<SpectralPanel> panels;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i)
@@ -156,20 +159,26 @@ public:
           sensitivity_(tables.sensitivity()),
           request_(request),
           held_(held_stack(stack, sensitivity_)),
-          pieces_(smooth_pieces(held_, sensitivity_.support())),
+          pieces_(smooth_pieces(held_, sensitivity_.support(), false)),
           constant_(std::ranges::all_of(held_.materials,
                                         [](const Material& m) { return is_constant(m); })),
           on_path_(held_, path_wavelengths(constant_, sensitivity_.support())),
           needs_(needs_of(request)),
           varied_(varied_elements(held_, request.varied)),
           fixed_layers_(request.kept_numbers),
-          tree_(tables, [this](std::vector<double> wavelength_nm) {
-              SpectralPoints points{std::move(wavelength_nm), nullptr};
-              if (!constant_)
-                  points.indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
-              return points;
-          }) {
-        const IndexTable survey(held_, pieces_);
+          smooth_(held_, sensitivity_),
+          tree_(
+              tables,
+              [this](std::vector<double> wavelength_nm, const IndexFit* fit) {
+                  SpectralPoints points{std::move(wavelength_nm), nullptr};
+                  if (constant_) return points;
+                  auto indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
+                  if (fit) fit->replace(*indices);
+                  points.indices = std::move(indices);
+                  return points;
+              },
+              &smooth_) {
+        const IndexTable survey(held_, smooth_pieces(held_, sensitivity_.support()));
         absorbs_ = survey.absorbs();
         amplifies_ = survey.amplifies();
         for (std::size_t m = 0; m < held_.materials.size(); ++m) {
@@ -210,6 +219,7 @@ private:
         IntegrationMemory integration;
         std::vector<ColorIntegral> integrals;
         std::vector<Medium> media;
+        std::vector<double> effects;
         std::array<LeftOutFringes, 2> left_out;  ///< of s and p
     };
 
@@ -258,6 +268,23 @@ private:
         return longest;
     }
 
+    /// Of IntegrationLimits.
+    std::span<const double> index_effects(IncidentAngle incidence,
+                                          std::vector<double>& effects) const {
+        effects.assign(on_path_.materials(), 0);
+        for (std::size_t m = 0; m < effects.size(); ++m) {
+            if (!smooth_.is_tabulated(m)) continue;
+            for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
+                const Medium here =
+                    medium(on_path_.index(m, w), on_path_.n(on_path_.incident())[w], incidence);
+                effects[m] = std::max(
+                    effects[m], std::sqrt(std::abs(here.eps)) /
+                                    std::max(std::abs(here.q2), kLeastNormal * std::abs(here.eps)));
+            }
+        }
+        return effects;
+    }
+
     void integrate(const SpectrumKernel& kernel, const Stack& stack, IncidentAngle incidence,
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
@@ -271,6 +298,8 @@ private:
         for (StackColor& color : colors) color.error = std::numeric_limits<double>::infinity();
         if (is_fine && try_mean(stack, incidence, longest_nm, limits, colors, scratch)) return;
         const PanelTree::Start& start = start_of(path_class(path_nm));
+        IntegrationLimits known = limits;
+        if (!constant_) known.index_effects = index_effects(incidence, scratch.effects);
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
         const bool with_p = needs_.p && !(with_s && incidence.cos == 1);
@@ -290,7 +319,7 @@ private:
             fill(with_s ? at.s : at.p, with_s && with_p ? &at.p : nullptr, samples);
         };
         scratch.integrals.resize(colors.size());
-        integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, limits,
+        integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, known,
                         scratch.integration, scratch.integrals);
         for (std::size_t i = 0; i < colors.size(); ++i)
             take_better(colors[i], scratch.integrals[i], scratch.integrals[i].error);
@@ -483,6 +512,7 @@ private:
     std::vector<bool> absorbs_, amplifies_;
     std::vector<std::size_t> varied_;  ///< elements, if only these differ
     mutable FixedLayersCache fixed_layers_;
+    SmoothIndices smooth_;
     mutable PanelTree tree_;
     mutable Pool<Scratch> scratch_;
     mutable std::mutex lock_;

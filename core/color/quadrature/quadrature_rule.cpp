@@ -27,6 +27,10 @@ double error_per_coefficient(const std::vector<double>& moment, double fall) {
 
 }  // namespace
 
+double steepest_of(double rate, double degree) {
+    return 1 / (2 * std::sinh(rate / degree));
+}
+
 QuadratureRule::QuadratureRule(const Sensitivity& sensitivity, WavelengthRange range,
                                std::size_t degree)
     : panel(panel_rule(sensitivity, range, degree)),
@@ -52,7 +56,7 @@ QuadratureRule::QuadratureRule(const Sensitivity& sensitivity, WavelengthRange r
     for (std::size_t j = 0; j < degree; ++j) inverse_spacing[j] = 1 / (panel.x[j] - panel.x[j + 1]);
     for (std::size_t rate = 0; rate < kFallRates.size(); ++rate) {
         step[rate] = std::exp(-kFallRates[rate] / n);
-        steepest[rate] = 1 / (2 * std::sinh(kFallRates[rate] / n));
+        steepest[rate] = steepest_of(kFallRates[rate], n);
     }
     for (std::size_t c = 0; c < 3; ++c) light[c] = panel.moment[c][0] / sensitivity.white()[c];
     for (std::size_t rate = 0; rate < kFallRates.size(); ++rate)

@@ -16,6 +16,10 @@ inline constexpr std::array<std::size_t, 6> kDegrees{4, 8, 16, 32, 64, 128};
 /// other.
 inline constexpr std::array<double, 6> kFallRates{2, 4, 8, 12, 16, 24};
 
+/// Largest |D'|/|D| of a denominator whose zeros are as far as a rate of kFallRates takes: twice as
+/// far as the ellipse around the panel on which coefficients fall by that.
+double steepest_of(double rate, double degree);
+
 /// A panel's rule with what judges its error.
 struct QuadratureRule {
     QuadratureRule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree);
@@ -31,11 +35,9 @@ struct QuadratureRule {
     std::vector<double> inverse_spacing;  ///< of each point to the next in x; 0 from the last on
     /// Error of the integrals per unit of the last coefficient, for each of kFallRates.
     std::array<Triple, kFallRates.size()> per_coefficient;
-    std::array<double, kFallRates.size()> step;  ///< from one coefficient to the next
-    /// Largest |D'|/|D| of a denominator whose zeros are as far as each rate takes: twice as far as
-    /// the ellipse around the panel on which coefficients fall by that.
-    std::array<double, kFallRates.size()> steepest;
-    Triple light;  ///< part of the white that is in the panel
+    std::array<double, kFallRates.size()> step;      ///< from one coefficient to the next
+    std::array<double, kFallRates.size()> steepest;  ///< steepest_of() each rate
+    Triple light;                                    ///< part of the white that is in the panel
 
     std::size_t row_count() const { return 3 + middle + tail; }
     /// Size of the middle coefficients over that of the last ones; for degrees from 16 on.

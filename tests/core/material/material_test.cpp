@@ -255,6 +255,7 @@ TEST_CASE("the Lorentz-Drude model gives the index of silver of Rakic et al.", "
     CHECK(error_of(material, 200) == "Ag-LD is known from 247.97 to 12398 nm (asked for 200)");
     CHECK_FALSE(is_constant(material));
     CHECK(kinks(material, kAllWavelengths).empty());
+    CHECK(table_rows(material, kAllWavelengths).empty());
 }
 
 TEST_CASE("a Drude metal without losses has n = 0 and k > 0 below its plasma energy",
@@ -279,6 +280,7 @@ TEST_CASE("kinks are the rows of both tables inside the interval", "[material]")
     Material material = with_tables(n, Table{{300, 500, 600, 900}, {0, 0, 0, 0}});
     CHECK_THAT(kinks(material, {400, 800}), Equals(std::vector<double>{500, 600}));
     CHECK_THAT(kinks(material, {500, 600}), Equals(std::vector<double>{}));
+    CHECK_THAT(table_rows(material, {400, 800}), Equals(kinks(material, {400, 800})));
     CHECK_THAT(kinks(material, {350, 850}), Equals(std::vector<double>{400, 500, 600, 800}));
     CHECK(kinks(with_formula(5, {1.5}, {400, 700}), {300, 800}).empty());
     material = with_formula(5, {1.5}, {400, 700});

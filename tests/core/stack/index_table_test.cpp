@@ -53,3 +53,19 @@ TEST_CASE("constant indices are taken to other wavelengths") {
     all.assign(model, parts);
     check_same(all, IndexTable(stack, {700, 380, 420, 555.5}));
 }
+
+TEST_CASE("one material's indices are replaced") {
+    StackBuilder b;
+    b.add(b.layer(1.7, 300));
+    const Stack stack = b.over({2.1, 0.1});
+    StackBuilder c;
+    c.add(c.layer({1.8, 0.3}, 300));
+    IndexTable table(stack, {700, 380}), other(c.over({2.1, 0.1}), {700, 380});
+    const std::size_t film = std::get<Layer>(stack.elements[0].value).material;
+    table.replace(film, std::vector<Complex>{{1.8, 0.3}, {1.8, 0.3}});
+    check_same(table, other);
+    table.replace(film, std::vector<Complex>{{1.8, 0}, {9, -0.3}});
+    CHECK_FALSE(table.is_constant(film));
+    CHECK(table.amplifies()[film]);
+    CHECK(table.largest_wavenumber() >= table.k0()[1] * 9);
+}

@@ -27,7 +27,7 @@ const Sensitivity& d65() {
 ColorIntegral integrate(const IntegrationLimits& limits,
                         const std::function<double(double wavelength_nm)>& f,
                         const std::vector<SpectralPanel>& panels = {{kVisible, 4}}) {
-    PanelTree tree(tables(), [](std::vector<double> wavelength_nm) {
+    PanelTree tree(tables(), [](std::vector<double> wavelength_nm, const IndexFit*) {
         return SpectralPoints{std::move(wavelength_nm), nullptr};
     });
     const SampleAt sample = [&](std::span<const SpectralPoints* const> parts, Samples& samples) {

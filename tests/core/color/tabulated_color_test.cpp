@@ -1,0 +1,186 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <string>
+
+#include "core/color/stack_color.hpp"
+#include "core/colorimetry/difference.hpp"
+#include "core/colorimetry/illuminant.hpp"
+#include "core/material/library.hpp"
+#include "tests/oracle/color_oracle.hpp"
+#include "tests/oracle/random_stacks.hpp"
+
+using namespace irido;
+using oracle::Random;
+using oracle::StackBuilder;
+
+namespace {
+
+const ColorMethod kQuadrature{ColorMethod::Kind::quadrature};
+
+/// IRIDO_TEST_TOLERANCES: stacks to try, 100000 of which take a night.
+std::size_t stacks_to_try() {
+    const char* const text = std::getenv("IRIDO_TEST_TOLERANCES");
+    return text ? std::strtoull(text, nullptr, 10) : 0;
+}
+
+const ColorTables& tables_of(std::string_view light) {
+    static std::map<std::string, ColorTables, std::less<>> tables;
+    const auto known = tables.find(light);
+    if (known != tables.end()) return known->second;
+    return tables.try_emplace(std::string(light), Sensitivity(observer(2), illuminant(light)))
+        .first->second;
+}
+
+StackColor color(const Stack& stack, double angle_deg, const ColorRequest& request,
+                 const ColorTables& tables = tables_of("D65"),
+                 const ColorMethod& method = kQuadrature) {
+    return stack_color(tables, stack, method, request, std::span(&angle_deg, 1)).front();
+}
+
+/// Rows 0.7 to 40 nm apart of a curve with a line, half of them with noise.
+Table random_rows(Random& random, bool absorbs) {
+    const double step = random.log_uniform(0.7, 40);
+    const double size = absorbs ? random.log_uniform(1e-4, 3) : random.uniform(1.2, 2.6);
+    const double slope = random.uniform(-0.3, 0.3), line = random.uniform(-0.5, 0.5);
+    const double at = random.uniform(350, 800), width = random.log_uniform(10, 300);
+    const double noise = random.one_in(2) ? random.log_uniform(1e-5, 1e-2) : 0;
+    Table table;
+    for (double nm = random.uniform(300, 400); nm < 850; nm += step * random.uniform(0.5, 1.5)) {
+        const double value = size * (1 + slope * (nm - 550) / 300 +
+                                     line * std::exp(-std::pow((nm - at) / width, 2)));
+        table.wavelength_nm.push_back(nm);
+        table.value.push_back(
+            std::max(absorbs ? 0.0 : 0.05, value + noise * random.uniform(-1, 1)));
+    }
+    return table;
+}
+
+Material random_material(Random& random) {
+    constexpr std::array names{"TiO2", "Ti",        "ITO",          "Ag",   "Au",    "Cu",  "Al",
+                               "Si",   "Ta2O5",     "Nb2O5",        "ZrO2", "Fe2O3", "TiN", "W",
+                               "Cr",   "SiO2-film", "TiO2-anatase", "GaAs", "PMMA",  "ZnS", "Hg"};
+    if (random.one_in(2)) return find_material(names[random.below(names.size())])->material;
+    RefractiveIndex index{random_rows(random, false), Constant{0}};
+    if (random.one_in(3)) index.k = random_rows(random, true);
+    return {"rows", index, Outside::clamp};
+}
+
+Stack tabulated_stack(Random& random) {
+    StackBuilder b;
+    std::vector<std::size_t> known;
+    for (std::size_t left = 1 + random.below(6); left > 0; --left) {
+        if (random.one_in(3)) {
+            const double n = random.uniform(1.2, 2.6);
+            const double k = random.one_in(4) ? random.log_uniform(1e-3, 1) : 0;
+            b.add(b.layer({n, k}, random.uniform(5, 400)));
+            continue;
+        }
+        if (known.empty() || !random.one_in(3))
+            known.push_back(b.material(random_material(random)));
+        const double nm = random.one_in(6) ? random.log_uniform(400, 8000) : random.uniform(2, 300);
+        b.add(StackBuilder::layer_of(known[random.below(known.size())], nm));
+    }
+    if (random.one_in(8)) {
+        const std::size_t material = b.material(random_material(random));
+        const Element first = StackBuilder::layer_of(material, random.uniform(30, 150));
+        const Element second = b.layer(random.uniform(1.3, 1.6), random.uniform(40, 150));
+        b.add(StackBuilder::group(2 + random.below(20), {first, second}));
+    }
+    if (random.one_in(2)) return b.over_material(b.material(random_material(random)));
+    return b.over(random.one_in(2) ? Complex(1.52) : Complex(0.2, 3.4));
+}
+
+Stack absorbing_stack(Random& random) {
+    StackBuilder b;
+    for (std::size_t left = 1 + random.below(8); left > 0; --left) {
+        const double n = random.uniform(0.1, 2.7);
+        const double k = random.one_in(4) ? 0 : random.log_uniform(1e-3, 4);
+        b.add(b.layer({n, k}, random.log_uniform(3, 1000)));
+    }
+    return b.over({random.uniform(0.1, 3), random.uniform(0, 5)});
+}
+
+Light random_light(Random& random) {
+    return static_cast<Light>(random.below(3));
+}
+
+}  // namespace
+
+TEST_CASE("kinks of tables cost and lose no more than the tolerance asks for", "[slow]") {
+    // against other ways to compute: few by an oracle, many by the rows themselves
+    for (std::uint64_t i = 0; i < 3; ++i) {
+        Random random(i);
+        const Stack stack = tabulated_stack(random);
+        const double angle = random.uniform(0, 80);
+        const Triple exact =
+            oracle::stack_xyz(stack, observer(2), illuminant("D65"), angle, false, 1e-8);
+        for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+            const StackColor result = color(stack, angle, {.tolerance = tolerance});
+            CAPTURE(i, oracle::text_of(stack), angle, tolerance);
+            CHECK(result.error <= tolerance);
+            CHECK(largest_difference(result.xyz, exact) <= result.error + 1e-8);
+        }
+    }
+    for (std::uint64_t i = 0; i < std::max<std::size_t>(stacks_to_try(), 5); ++i) {
+        Random random(Random(i).bits());
+        const auto lights = illuminant_names();
+        const ColorTables& tables = tables_of(lights[random.below(lights.size())]);
+        const Stack stack = tabulated_stack(random);
+        const double angle = random.one_in(3) ? random.uniform(60, 89.5) : random.uniform(0, 80);
+        ColorRequest request{.sides = {random.one_in(3) ? Side::transmitted : Side::reflected},
+                             .light = random_light(random),
+                             .tolerance = 1e-11};
+        const Triple exact = color(stack, angle, request, tables).xyz;
+        for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+            request.tolerance = tolerance;
+            const StackColor result = color(stack, angle, request, tables);
+            CAPTURE(i, oracle::text_of(stack), angle, tolerance);
+            CHECK(result.error <= tolerance);
+            CHECK(largest_difference(result.xyz, exact) <= result.error + 1e-10);
+        }
+    }
+}
+
+TEST_CASE("absorbing stacks have their colour within the error", "[slow]") {
+    // equal wavelengths 0.05 nm apart, which hold every kink of the light, are good to 1e-7
+    const ColorMethod equal{ColorMethod::Kind::equal, 9401};
+    for (std::uint64_t i = 0; i < std::max<std::size_t>(stacks_to_try(), 100); ++i) {
+        Random random(Random(i).bits());
+        const Stack stack = absorbing_stack(random);
+        const double angle = random.uniform(0, 89);
+        const ColorRequest request{
+            .sides = {random.one_in(3) ? Side::transmitted : Side::reflected},
+            .light = random_light(random)};
+        const StackColor result = color(stack, angle, request);
+        const StackColor other = color(stack, angle, request, tables_of("D65"), equal);
+        CAPTURE(i, oracle::text_of(stack), angle);
+        CHECK(result.error <= 1e-6);
+        CHECK(largest_difference(result.xyz, other.xyz) <= result.error + 1e-7);
+    }
+}
+
+TEST_CASE("a table costs what the question needs, not what its rows are") {
+    StackBuilder b;
+    b.add(StackBuilder::layer_of(b.material(find_material("TiO2")->material), 35));
+    const Stack anodized = b.over_material(b.material(find_material("Ti")->material));
+    const auto evaluations = [](const Stack& stack, double tolerance) {
+        return color(stack, 30, {.tolerance = tolerance}).evaluations;
+    };
+    CHECK(evaluations(anodized, 1e-2) < 40);
+    CHECK(evaluations(anodized, 1e-4) < 120);
+    // a smooth curve of 1 nm rows
+    Table rows;
+    for (double nm = 350; nm <= 840; ++nm) {
+        rows.wavelength_nm.push_back(nm);
+        rows.value.push_back(1.5 + 1e4 / (nm * nm));
+    }
+    StackBuilder c;
+    c.add(StackBuilder::layer_of(
+        c.material({"rows", RefractiveIndex{rows, Constant{0}}, Outside::clamp}), 300));
+    const Stack dense = c.over(1.8);
+    CHECK(evaluations(dense, 1e-2) < 40);
+    CHECK(evaluations(dense, 1e-6) < 400);
+}
