@@ -67,9 +67,18 @@ int run_command_line(int argc, char** argv) {
     Run run;
     const std::span<char* const> words(argv, static_cast<std::size_t>(argc));
     add_commands(program, run, words);
-    set_examples(program,
-                 {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
-                  "irido color \"air | TiO2@35 | Ti\" -a 0:80:10", "irido COMMAND --help"});
+    set_examples(
+        program,
+        {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
+         "irido color \"air | TiO2@35 | Ti\" -a 0:80:10", "irido COMMAND --help"},
+        "A STACK is a file (.json), - for standard input, or an expression: media from the\n"
+        "incident side, with thicknesses in nm after @, such as\n"
+        "    \"air | (TiO2@58.5 | 1.46@94.2)^10 | BK7\"\n"
+        "(irido materials list names materials). Rows go to standard output, or with -o to a\n"
+        "file, whose extension says the format. Each command has a page of its own: irido\n"
+        "COMMAND --help, or man irido-COMMAND.\n\n"
+        "A LIST, of wavelengths with -w and of angles with -a, is\n" +
+            std::string(kListHelp));
     add_missing_options(program);
     check_command_line(program, words);
     try {

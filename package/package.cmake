@@ -21,17 +21,17 @@ set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # no tests are needed for it
 install(DIRECTORY ${made}/man ${made}/bash-completion ${made}/fish
     DESTINATION ${CMAKE_INSTALL_DATADIR})
 install(CODE "
+    set(share \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")
     set(folder site-functions)
-    if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")  # where Debian's packages have theirs
+    if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")  # a Debian package
         set(folder vendor-completions)
+        file(INSTALL \"${PROJECT_SOURCE_DIR}/package/lintian-overrides\"
+            DESTINATION \"\${share}/lintian/overrides\" RENAME irido)
     endif()
-    file(INSTALL \"${made}/zsh/_irido\"
-        DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/zsh/\${folder}\")")
+    file(INSTALL \"${made}/zsh/_irido\" DESTINATION \"\${share}/zsh/\${folder}\")")
 install(FILES package/copyright ${made}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES tables/shaders/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
     RENAME shaders.MIT-0)
-install(FILES package/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
-    RENAME irido)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME irido)
