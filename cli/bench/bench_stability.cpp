@@ -122,12 +122,13 @@ void add_bench_stability(CLI::App& bench, Run& run) {
         *command,
         {"irido bench stability --count 1000 -o stability.csv",
          "irido bench stability --regime band_edge,critical --seed 7 -f json"},
-        "Columns: count of answers (two polarizations a stack); worst and p99 (99 of 100)\n"
+        "Columns: count of evaluations (two polarizations a stack); worst and p99 (99 of 100)\n"
         "error against 50 digits of R, T, A and relative T and A; condition at the worst\n"
         "one: its change over the relative change of all inputs; roundings: the largest\n"
         "error / (2^-53 (1 + condition)). not_finite, negative and above_one (R + T) must\n"
         "be 0 without gain, and so must beyond_bound: errors above max(1e-13, 10 condition\n"
-        "2^-53), 100 for relative T, max(1e-9, ...) for relative A, and answers refused.\n"
+        "2^-53), 100 for relative T, max(1e-9, ...) for relative A, and refusals of passive "
+        "stacks.\n"
         "thresholds: stacks refused because they amplify without bound.");
     command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
 }

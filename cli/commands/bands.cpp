@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "cli/options/command.hpp"
-#include "cli/queries/bands_question.hpp"
+#include "cli/queries/bands_query.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 struct BandsCommand {
     schemas::StackRequest stack;
-    std::unique_ptr<QuestionOptions> typed;
+    std::unique_ptr<QueryOptions> typed;
     std::optional<std::string> plot;
     OutputOptions output;
     bool quiet = false;
@@ -27,11 +27,10 @@ tables::BandDiagram::Edges wavelengths_of(const BandGap& gap) {
     return {kTwoPi / gap.high_per_nm, kTwoPi / gap.low_per_nm};
 }
 
-std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
-                    const std::string& title) {
-    const std::span<const double> angles = question.angles_deg();
+std::string picture(const BandsQuery& query, const BraggMirror& mirror, const std::string& title) {
+    const std::span<const double> angles = query.angles_deg();
     tables::BandDiagram diagram{
-        title, question.first_nm(), question.last_nm(), {angles.begin(), angles.end()}, {}};
+        title, query.first_nm(), query.last_nm(), {angles.begin(), angles.end()}, {}};
     std::ranges::sort(diagram.angles_deg);
     const auto repeated = std::ranges::unique(diagram.angles_deg);
     diagram.angles_deg.erase(repeated.begin(), repeated.end());
@@ -39,7 +38,7 @@ std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
     std::map<double, tables::BandDiagram::Gap> gaps;
     for (const double angle_deg : diagram.angles_deg)
         for (const Polarization p : kBoth)
-            for (const BandGap& gap : band_gaps(mirror.period_at(angle_deg, p), question.omega()))
+            for (const BandGap& gap : band_gaps(mirror.period_at(angle_deg, p), query.omega()))
                 gaps[gap.order].order = gap.order;
     for (auto& [order, gap] : gaps) {
         for (const double angle_deg : diagram.angles_deg) {
@@ -51,10 +50,10 @@ std::string picture(const BandsQuestion& question, const BraggMirror& mirror,
     return tables::write_band_diagram(diagram);
 }
 
-std::string picture(const BandsQuestion& question, const schemas::StackDocument& document,
+std::string picture(const BandsQuery& query, const schemas::StackDocument& document,
                     const std::string& title) {
     try {
-        return picture(question, question.mirror(document, document.stack),
+        return picture(query, query.mirror(document, document.stack),
                        document.name.empty() ? title : document.name);
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());
@@ -63,17 +62,16 @@ std::string picture(const BandsQuestion& question, const schemas::StackDocument&
 
 int run_bands(const BandsCommand& command) {
     resolved_record_format(command.output);
-    const BandsQuestion question(
-        static_cast<const BandsOptions&>(*command.typed),
-        {.note = [&](const std::string& text) { note(text, command.quiet); }});
-    const auto [least, most] = std::ranges::minmax(question.angles_deg());
+    const BandsQuery query(static_cast<const BandsOptions&>(*command.typed),
+                           {.note = [&](const std::string& text) { note(text, command.quiet); }});
+    const auto [least, most] = std::ranges::minmax(query.angles_deg());
     if (command.plot && least == most)
         throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
-    const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+    const auto prepared = query.prepare(read_noted_stack(command.stack, command.quiet));
     check_plot(command.plot, command.output);
-    const tables::Records records = records_of(question, *prepared);
+    const tables::Records records = records_of(query, *prepared);
     const std::string drawn =
-        command.plot ? picture(question, prepared->document, command.stack.stack) : "";
+        command.plot ? picture(query, prepared->document, command.stack.stack) : "";
     write_records(records, command.output);
     if (command.plot) tables::write_file(*command.plot, drawn);
     return 0;

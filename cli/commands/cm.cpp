@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "cli/options/command.hpp"
-#include "cli/queries/cm_question.hpp"
+#include "cli/queries/cm_query.hpp"
 
 namespace irido::cli {
 
@@ -9,16 +9,16 @@ namespace {
 
 struct CmCommand {
     schemas::StackRequest stack;
-    std::unique_ptr<QuestionOptions> typed;
+    std::unique_ptr<QueryOptions> typed;
     OutputOptions output;
     bool quiet = false;
 };
 
 int run_cm(const CmCommand& command) {
     resolved_record_format(command.output);
-    const auto question = command.typed->parse({});
-    const auto prepared = question->prepare(read_noted_stack(command.stack, command.quiet));
-    write_records(records_of(*question, *prepared), command.output);
+    const auto query = command.typed->parse({});
+    const auto prepared = query->prepare(read_noted_stack(command.stack, command.quiet));
+    write_records(records_of(*query, *prepared), command.output);
     return 0;
 }
 

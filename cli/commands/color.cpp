@@ -2,7 +2,7 @@
 
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
-#include "cli/queries/color_question.hpp"
+#include "cli/queries/color_query.hpp"
 #include "tables/pictures/swatches.hpp"
 
 namespace irido::cli {
@@ -11,22 +11,21 @@ namespace {
 
 struct ColorCommand {
     schemas::StackRequest stack;
-    std::unique_ptr<QuestionOptions> typed;
+    std::unique_ptr<QueryOptions> typed;
     OutputOptions output;
     unsigned threads = 0;
     bool quiet = false;
 };
 
-std::string picture(const ColorQuestion& question, const StackColors& stack,
-                    const std::string& title) {
+std::string picture(const ColorQuery& query, const StackColors& stack, const std::string& title) {
     tables::Swatches swatches{title, "angle of incidence, degrees", stack.angles_deg, {}};
     const RgbSpace& space = rgb_space("srgb");
-    const std::size_t sides = question.sides().size();
+    const std::size_t sides = query.sides().size();
     for (std::size_t l = 0; l < stack.colors.size(); ++l) {
-        const Illumination& lighting = *question.lightings()[l];
+        const Illumination& lighting = *query.lightings()[l];
         const RgbTransform transform = rgb_transform(space, lighting.white(), Adaptation::bradford);
         for (std::size_t s = 0; s < sides; ++s) {
-            const std::string side(letter(question.sides()[s]));
+            const std::string side(letter(query.sides()[s]));
             tables::Swatches::Strip strip{
                 stack.colors.size() == 1 ? side : lighting.name + " " + side, {}};
             for (std::size_t i = s; i < stack.colors[l].size(); i += sides)
@@ -41,18 +40,18 @@ int run_color(const ColorCommand& command) {
     const bool is_picture = resolved_format(command.output) == "svg";
     if (!is_picture) resolved_record_format(command.output, RecordTarget::stream_or_svg);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const ColorQuestion question(static_cast<const ColorQuestionOptions&>(*command.typed),
-                                 {.execution = execution_of(command.threads), .note = say});
-    const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+    const ColorQuery query(static_cast<const ColorQueryOptions&>(*command.typed),
+                           {.execution = execution_of(command.threads), .note = say});
+    const auto prepared = query.prepare(read_noted_stack(command.stack, command.quiet));
     check_writable(command.output);
     const schemas::StackDocument& document = prepared->document;
-    note_long_work(seconds_of_rows(question, document, command.threads), false, say);
-    const StackColors colors = question.colors(*prepared, document.stack, question.angles_deg());
+    note_long_work(seconds_of_rows(query, document, command.threads), false, say);
+    const StackColors colors = query.colors(*prepared, document.stack, query.angles_deg());
     if (is_picture) {
         const std::string title = document.name.empty() ? command.stack.stack : document.name;
-        write_bytes(picture(question, colors, title), command.output, false);
+        write_bytes(picture(query, colors, title), command.output, false);
     } else {
-        write_records(question.records({colors}), command.output);
+        write_records(query.records({colors}), command.output);
     }
     return 0;
 }
@@ -64,7 +63,7 @@ void add_color_command(CLI::App& program, Run& run) {
         "color", "X, Y, Z and linear RGB of the light that a stack reflects or transmits.");
     const auto options = std::make_shared<ColorCommand>();
     add_stack_options(*command, options->stack);
-    options->typed = ColorQuestionOptions::add(*command);
+    options->typed = ColorQueryOptions::add(*command);
     add_output_options(*command, options->output, record_formats_text(RecordTarget::stream_or_svg));
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");

@@ -3,7 +3,7 @@
 
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
-#include "cli/queries/spectrum_question.hpp"
+#include "cli/queries/spectrum_query.hpp"
 #include "tables/resume/record_stream.hpp"
 
 namespace irido::cli {
@@ -12,7 +12,7 @@ namespace {
 
 struct SpectrumCommand {
     schemas::StackRequest stack;
-    std::unique_ptr<QuestionOptions> typed;
+    std::unique_ptr<QueryOptions> typed;
     OutputOptions output;
     unsigned threads = 0;
     bool stats = false;
@@ -22,19 +22,18 @@ struct SpectrumCommand {
 int run_spectrum(const SpectrumCommand& command) {
     const tables::RecordFormat& format = resolved_record_format(command.output);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
-                                    {.execution = execution_of(command.threads), .note = say});
+    const SpectrumQuery query(static_cast<const SpectrumOptions&>(*command.typed),
+                              {.execution = execution_of(command.threads), .note = say});
     const schemas::StackDocument document = read_noted_stack(command.stack, command.quiet);
-    const tables::RecordLayout layout = question.layout(document);
-    const auto stream =
-        tables::counted_output(command.output.file, format, layout, question.rows());
-    note_long_work(seconds_of_rows(question, document, command.threads), false, say);
-    question.each_block(document, [&](const tables::Records& rows) {
+    const tables::RecordLayout layout = query.layout(document);
+    const auto stream = tables::counted_output(command.output.file, format, layout, query.rows());
+    note_long_work(seconds_of_rows(query, document, command.threads), false, say);
+    query.each_block(document, [&](const tables::Records& rows) {
         stream->append(format.rows(layout, rows), 0, rows.rows());
     });
     stream->finish();
     if (command.stats)
-        for (const std::string& line : question.stats(*question.prepare(document)))
+        for (const std::string& line : query.stats(*query.prepare(document)))
             std::cerr << "irido: stats: " << line << '\n';
     return 0;
 }

@@ -25,8 +25,8 @@ struct SweepCommand {
     schemas::StackRequest stack;
     std::vector<std::string> vary;
     std::string points;
-    const QuestionKind* kind = nullptr;
-    std::unique_ptr<QuestionOptions> typed;  ///< of the kind
+    const QueryKind* kind = nullptr;
+    std::unique_ptr<QueryOptions> typed;  ///< of the kind
     std::string compute;
     OutputOptions output;
     std::string shard;
@@ -123,7 +123,7 @@ bool varies_wavelength(const SweepSpace& space) {
 }
 
 /// All that the rows depend on, but for the machine.
-std::string request_hash(const SweepCommand& command, const Question& question,
+std::string request_hash(const SweepCommand& command, const Query& query,
                          const schemas::StackSource& source, const schemas::StackDocument& first,
                          const SweepSpace& space) {
     nlohmann::json vary = nlohmann::json::array();
@@ -131,7 +131,7 @@ std::string request_hash(const SweepCommand& command, const Question& question,
         vary.push_back({column.path, column.numbers, column.texts, column.codes, column.of_points});
     const nlohmann::json request{{"compute", command.kind->name},
                                  {"options", command.typed->typed()},
-                                 {"data", question.data()},
+                                 {"data", query.data()},
                                  {"stack", source.document},
                                  {"first", schemas::canonical_stack(first.stack)},
                                  {"vary", std::move(vary)}};
@@ -272,21 +272,20 @@ int run_sweep(const SweepCommand& command) {
     const SweepSpace space(command.vary, command.points);
     require_once(command, space);
     const Execution machine{1, execution_of(command.threads).simd};
-    const auto question =
-        command.typed->parse({.execution = machine,
-                              .note = [&](const std::string& text) { notes(text); },
-                              .stacks = stacks_of_structure(space),
-                              .varied = varied_layers(space),
-                              .structures = structures_together(space),
-                              .varies_wavelength = varies_wavelength(space),
-                              .in_sweep = true});
+    const auto query = command.typed->parse({.execution = machine,
+                                             .note = [&](const std::string& text) { notes(text); },
+                                             .stacks = stacks_of_structure(space),
+                                             .varied = varied_layers(space),
+                                             .structures = structures_together(space),
+                                             .varies_wavelength = varies_wavelength(space),
+                                             .in_sweep = true});
     const schemas::StackSource source = schemas::load_stack(command.stack);
-    SweptStacks stacks(source, space, *question);
-    SweepEngine engine(stacks, space, *question, command.keep_going);
+    SweptStacks stacks(source, space, *query);
+    SweepEngine engine(stacks, space, *query, command.keep_going);
     const std::vector<std::uint64_t> ends =
         shard.of > 1 ? engine.shard_ends(shard.of) : std::vector<std::uint64_t>{0, engine.units()};
     const tables::StreamIdentity identity{
-        request_hash(command, *question, source, stacks.first(), space),
+        request_hash(command, *query, source, stacks.first(), space),
         std::string(name_of(machine.simd)),
         shard.number,
         shard.of,
@@ -324,7 +323,7 @@ int run_sweep(const SweepCommand& command) {
 }
 
 /// The kind that follows --compute on the command line; nullptr if there is none.
-const QuestionKind* typed_kind(std::span<char* const> arguments) {
+const QueryKind* typed_kind(std::span<char* const> arguments) {
     for (std::size_t i = 2; i < arguments.size(); ++i) {
         std::string_view argument = arguments[i];
         constexpr std::string_view option = "--compute";
@@ -335,10 +334,10 @@ const QuestionKind* typed_kind(std::span<char* const> arguments) {
         } else {
             continue;
         }
-        for (const QuestionKind& kind : question_kinds())
+        for (const QueryKind& kind : query_kinds())
             if (kind.name == argument) return &kind;
         std::vector<std::string_view> names;
-        for (const QuestionKind& kind : question_kinds()) names.push_back(kind.name);
+        for (const QueryKind& kind : query_kinds()) names.push_back(kind.name);
         throw UsageError("--compute: " + not_one_of(names, std::string(argument)));
     }
     return nullptr;

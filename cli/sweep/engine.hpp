@@ -16,14 +16,13 @@ struct SweepCounts {
 };
 
 /// The rows of a sweep, block by block. Its units of work are the combinations, each angle of the
-/// question by itself where it can be; they have an order, and so have their rows.
+/// query by itself where it can be; they have an order, and so have their rows.
 class SweepEngine {
 public:
     /// keep_going  leaves out combinations that cannot be computed
     /// All arguments must outlive it. Throws InputError or UsageError if the first combination
     /// cannot be prepared.
-    SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Question& question,
-                bool keep_going);
+    SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Query& query, bool keep_going);
 
     std::uint64_t units() const { return units_; }
     const tables::RecordLayout& layout() const { return layout_; }
@@ -63,14 +62,14 @@ private:
     /// Takes one unit, or leaves it out.
     void take_alone(std::uint64_t unit, const std::function<void()>& take);
     std::size_t add(std::uint64_t unit, std::size_t count, SweptStacks::Walk& walk,
-                    Answers& answers);
+                    QueryResult& result);
     /// Computes so many units, or part of one, and forgets them; returns how many it were.
     double try_units(std::uint64_t first, double units);
-    tables::Records assembled(tables::Records leading, tables::Records answered) const;
+    tables::Records assembled(tables::Records leading, tables::Records computed) const;
 
     SweptStacks& stacks_;
     const SweepSpace& space_;
-    const Question& question_;
+    const Query& query_;
     bool keep_going_;
     std::span<const double> angles_;   ///< of one combination but for its angle, one a unit
     bool is_inner_angle_ = false;      ///< they are the space's last column

@@ -60,10 +60,9 @@ schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSp
 
 }  // namespace
 
-SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space,
-                         const Question& question)
+SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space, const Query& query)
     : space_(space),
-      question_(question),
+      query_(query),
       structural_(columns_where(space, false)),
       thicknesses_(columns_where(space, true)),
       varied_(with_thicknesses(source, space, thicknesses_), paths_of(space, structural_)),
@@ -114,7 +113,7 @@ std::shared_ptr<const PreparedStack> SweptStacks::prepared(const std::vector<std
     const std::shared_ptr<Structure> structure = entry(key);
     const std::scoped_lock guard(structure->making);
     if (!structure->prepared) {
-        structure->prepared = question_.prepare(document(key));
+        structure->prepared = query_.prepare(document(key));
         ++prepared_count_;
     }
     return structure->prepared;

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 #include "cli/sweep/space.hpp"
 #include "schemas/documents/varied_stack.hpp"
 
@@ -17,9 +17,9 @@ namespace irido::cli {
 /// threads.
 class SweptStacks {
 public:
-    /// Refers to space and question. Throws InputError for the first value that is wrong by itself,
+    /// Refers to space and query. Throws InputError for the first value that is wrong by itself,
     /// whatever the others are.
-    SweptStacks(schemas::StackSource source, const SweepSpace& space, const Question& question);
+    SweptStacks(schemas::StackSource source, const SweepSpace& space, const Query& query);
 
     static constexpr std::size_t kMostStructures = 32;
 
@@ -65,7 +65,7 @@ private:
     std::shared_ptr<Structure> entry(const std::vector<std::size_t>& key);
 
     const SweepSpace& space_;
-    const Question& question_;
+    const Query& query_;
     std::vector<std::size_t> structural_, thicknesses_;  ///< columns of the space
     schemas::VariedStack varied_;
     std::string file_;

@@ -1,4 +1,4 @@
-#include "cli/queries/color_question.hpp"
+#include "cli/queries/color_query.hpp"
 
 #include <algorithm>
 #include <array>
@@ -93,24 +93,24 @@ Illumination::Illumination(std::string named, Sensitivity sensitivity, const Rgb
       tables(std::move(sensitivity)),
       transform(rgb_transform(space, white(), adaptation)) {}
 
-class ColorAnswers : public Answers {
+class ColorResult : public QueryResult {
 public:
-    explicit ColorAnswers(const ColorQuestion& question) : question_(question) {}
+    explicit ColorResult(const ColorQuery& query) : query_(query) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
-        stacks_.push_back(question_.colors(prepared, stack, incidence.angles_deg));
-        return incidence.angles_deg.size() * question_.rows_per_angle();
+        stacks_.push_back(query_.colors(prepared, stack, incidence.angles_deg));
+        return incidence.angles_deg.size() * query_.rows_per_angle();
     }
 
-    tables::Records records() override { return question_.records(std::exchange(stacks_, {})); }
+    tables::Records records() override { return query_.records(std::exchange(stacks_, {})); }
 
 private:
-    const ColorQuestion& question_;
+    const ColorQuery& query_;
     std::vector<StackColors> stacks_;
 };
 
-ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering& answering)
+ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       illuminant_(parse_illuminant(typed.color.illuminant)),
       method_(parse_method(typed.color)),
@@ -119,17 +119,17 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
       space_(&parse_space(typed.color.space)),
       stats_(typed.stats),
       strict_(typed.strict),
-      answering_(answering) {
+      run_(run) {
     const Adaptation adaptation = parse_adaptation(typed.color.adaptation);
     request_.sides = parse_sides(typed.color.sides);
     request_.light = parse_light(typed.color.polarization);
     request_.tolerance = parse_tolerance(typed.color.tolerance);
     request_.colors = static_cast<std::size_t>(
-        std::min(1e15, answering.stacks * static_cast<double>(angles_deg_.size())));
-    request_.varied = answering.varied;
-    request_.kept_numbers = std::min(request_.kept_numbers,
-                                     kKeptNumbers / std::max<std::size_t>(1, answering.structures));
-    request_.simd = answering.execution.simd;
+        std::min(1e15, run.stacks * static_cast<double>(angles_deg_.size())));
+    request_.varied = run.varied;
+    request_.kept_numbers =
+        std::min(request_.kept_numbers, kKeptNumbers / std::max<std::size_t>(1, run.structures));
+    request_.simd = run.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
     const std::string first = schemas::well_formed(typed.color.illuminant);  // perhaps a file's
     lightings_.push_back(
@@ -141,7 +141,7 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
                 std::string(name), Sensitivity(eye, illuminant(name)), *space_, adaptation));
 }
 
-tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const {
+tables::RecordLayout ColorQuery::layout(const schemas::StackDocument&) const {
     using enum tables::RecordField::Type;
     constexpr std::size_t hex_width = 7, longest_method = 24;
     tables::RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
@@ -161,17 +161,16 @@ tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const 
     return layout;
 }
 
-nlohmann::json ColorQuestion::data() const {
+nlohmann::json ColorQuery::data() const {
     return {illuminant_.wavelength_nm, illuminant_.value};
 }
 
-std::unique_ptr<const PreparedStack> ColorQuestion::prepare(schemas::StackDocument document) const {
-    report_held_ranges(document, lightings_.front()->tables.sensitivity(), strict_,
-                       answering_.note);
+std::unique_ptr<const PreparedStack> ColorQuery::prepare(schemas::StackDocument document) const {
+    report_held_ranges(document, lightings_.front()->tables.sensitivity(), strict_, run_.note);
     const std::string file = document.file;
     try {
         const WavelengthRange support = lightings_.front()->tables.sensitivity().support();
-        note_incident(document, incident_table(document.stack, support), answering_.note);
+        note_incident(document, incident_table(document.stack, support), run_.note);
         auto prepared = std::make_unique<ColorStack>(std::move(document));
         for (const auto& lighting : lightings_)
             prepared->algorithms.push_back(
@@ -185,12 +184,12 @@ std::unique_ptr<const PreparedStack> ColorQuestion::prepare(schemas::StackDocume
     }
 }
 
-std::unique_ptr<Answers> ColorQuestion::answers() const {
-    return std::make_unique<ColorAnswers>(*this);
+std::unique_ptr<QueryResult> ColorQuery::new_result() const {
+    return std::make_unique<ColorResult>(*this);
 }
 
-double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
-                              std::optional<double>) const {
+double ColorQuery::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                           std::optional<double>) const {
     constexpr double kColor = 1, kLayer = 0.012, kPathWavelength_nm = 500;
     const Sensitivity& sensitivity = lightings_.front()->tables.sensitivity();
     const Stack& model = prepared.document.stack;
@@ -200,8 +199,8 @@ double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
            (kColor + kLayer * quadrature_work(stack, indices, pieces, incident_angle(angle_deg)));
 }
 
-double ColorQuestion::try_share(const schemas::StackDocument& document, const Incidence& incidence,
-                                double share) const {
+double ColorQuery::try_share(const schemas::StackDocument& document, const Incidence& incidence,
+                             double share) const {
     constexpr double kUsualWavelengths = 1000;  // of a colour, as --stats says
     const ColorTables& tables = lightings_.front()->tables;
     const auto lightings = static_cast<double>(lightings_.size());
@@ -227,17 +226,17 @@ double ColorQuestion::try_share(const schemas::StackDocument& document, const In
     return count / kUsualWavelengths / lightings;
 }
 
-StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& stack,
-                                  std::span<const double> angles_deg) const {
+StackColors ColorQuery::colors(const PreparedStack& prepared, const Stack& stack,
+                               std::span<const double> angles_deg) const {
     const auto& algorithms = static_cast<const ColorStack&>(prepared).algorithms;
-    const unsigned threads = answering_.execution.threads;
+    const unsigned threads = run_.execution.threads;
     StackColors result{{angles_deg.begin(), angles_deg.end()}, {}};
     bool approximate = method_.count > 0;
     try {
         for (std::size_t i = 0; i < lightings_.size(); ++i) {
             result.colors.push_back(
                 stack_color(*algorithms[i], stack, sides().size(), angles_deg, threads));
-            if (answering_.in_sweep && !stats_ && !held_to_tolerance_) continue;
+            if (run_.in_sweep && !stats_ && !held_to_tolerance_) continue;
             approximate |= measure_errors(lightings_[i]->tables, stack, request_, angles_deg,
                                           threads, result.colors.back());
         }
@@ -250,17 +249,17 @@ StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& st
 
 /// Methods that are not exact are held to nothing by themselves: a note says how far they are off
 /// if it is more than the default tolerance.
-void ColorQuestion::check_errors(const schemas::StackDocument& document, const StackColors& colors,
-                                 bool approximate) const {
+void ColorQuery::check_errors(const schemas::StackDocument& document, const StackColors& colors,
+                              bool approximate) const {
     for (const std::vector<StackColor>& lit : colors.colors) {
         const auto worst = std::ranges::max_element(lit, {}, &StackColor::error);
         if (worst->error <= request_.tolerance) continue;
         if (!held_to_tolerance_ && (approximate || !std::isfinite(worst->error))) {
-            if (answering_.in_sweep) continue;
+            if (run_.in_sweep) continue;
             std::array<char, 32> text{};
             std::snprintf(text.data(), text.size(), "%.2g", worst->error);
-            answering_.note(document.file + ": " + name_of(method_) + " is off by up to " +
-                            text.data() + " in X, Y, Z here");
+            run_.note(document.file + ": " + name_of(method_) + " is off by up to " + text.data() +
+                      " in X, Y, Z here");
             continue;
         }
         const auto i = static_cast<std::size_t>(worst - lit.begin());
@@ -274,7 +273,7 @@ void ColorQuestion::check_errors(const schemas::StackDocument& document, const S
     }
 }
 
-tables::Records ColorQuestion::records(const std::vector<StackColors>& stacks) const {
+tables::Records ColorQuery::records(const std::vector<StackColors>& stacks) const {
     ColorRows rows;
     for (const Side side : sides()) rows.side.values.emplace_back(letter(side));
     for (const auto& lighting : lightings_) rows.illuminant.values.push_back(lighting->name);
@@ -319,8 +318,8 @@ tables::Records ColorQuestion::records(const std::vector<StackColors>& stacks) c
     return records;
 }
 
-std::unique_ptr<QuestionOptions> ColorQuestionOptions::add(CLI::App& command) {
-    auto options = std::make_unique<ColorQuestionOptions>();
+std::unique_ptr<QueryOptions> ColorQueryOptions::add(CLI::App& command) {
+    auto options = std::make_unique<ColorQueryOptions>();
     add_angles_option(command, options->angles);
     add_color_options(command, options->color);
     command.add_flag("--compare-illuminants", options->compare,
@@ -334,11 +333,11 @@ std::unique_ptr<QuestionOptions> ColorQuestionOptions::add(CLI::App& command) {
     return options;
 }
 
-std::unique_ptr<const Question> ColorQuestionOptions::parse(const Answering& answering) const {
-    return std::make_unique<ColorQuestion>(*this, answering);
+std::unique_ptr<const Query> ColorQueryOptions::parse(const QueryRun& run) const {
+    return std::make_unique<ColorQuery>(*this, run);
 }
 
-nlohmann::json ColorQuestionOptions::typed() const {
+nlohmann::json ColorQueryOptions::typed() const {
     return {{"angles", angles},
             {"side", color.sides},
             {"polarization", color.polarization},

@@ -1,4 +1,4 @@
-#include "cli/queries/spectrum_question.hpp"
+#include "cli/queries/spectrum_query.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -206,24 +206,24 @@ std::vector<IncidentAngle> incident_angles_of(std::span<const double> angles_deg
 
 }  // namespace
 
-class SpectrumAnswers : public Answers {
+class SpectrumResult : public QueryResult {
 public:
-    explicit SpectrumAnswers(const SpectrumQuestion& question)
-        : SpectrumAnswers(question, question.polarizations_) {}
-    SpectrumAnswers(const SpectrumQuestion& question, std::string polarizations)
-        : question_(question), polarizations_(std::move(polarizations)) {}
+    explicit SpectrumResult(const SpectrumQuery& query)
+        : SpectrumResult(query, query.polarizations_) {}
+    SpectrumResult(const SpectrumQuery& query, std::string polarizations)
+        : query_(query), polarizations_(std::move(polarizations)) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
         const StackPower power = stack_power(prepared.document, stack);
-        const Needs needs = spectrum_needs(polarizations_, question_.columns_, power);
+        const Needs needs = spectrum_needs(polarizations_, query_.columns_, power);
         const bool is_other = incidence.wavelength_nm.has_value();
         const IndexTable& table =
             is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
                      : static_cast<const SpectrumStack&>(prepared).table;
         try {
             spectra(power, table, incident_angles_of(incidence.angles_deg), needs,
-                    question_.execution_, spectra_);
+                    query_.execution_, spectra_);
         } catch (const DomainError& error) {
             throw schemas::InputError(prepared.document.file, "", error.what());
         }
@@ -247,7 +247,7 @@ public:
 private:
     void begin(std::size_t layers) {
         layers_ = layers;
-        names_ = spectrum_number_names(question_.columns_, layers);
+        names_ = spectrum_number_names(query_.columns_, layers);
         numbers_.assign(names_.size(), {});
         wavelength_ = {};
         angle_ = {};
@@ -258,7 +258,7 @@ private:
     std::size_t append(const Incidence& incidence, const std::vector<double>& wavelengths_nm) {
         const SpectrumShape shape{incidence.angles_deg.size(), polarizations_,
                                   wavelengths_nm.size()};
-        append_spectrum_numbers(shape, question_.columns_, layers_, spectra_, numbers_);
+        append_spectrum_numbers(shape, query_.columns_, layers_, spectra_, numbers_);
         if (incidence.wavelength_nm || !shared_wavelengths_) {
             first_wavelength_ = static_cast<std::uint32_t>(wavelength_.values.size());
             wavelength_.values.insert(wavelength_.values.end(), wavelengths_nm.begin(),
@@ -279,7 +279,7 @@ private:
         return shape.rows();
     }
 
-    const SpectrumQuestion& question_;
+    const SpectrumQuery& query_;
     std::string polarizations_;
     Spectra spectra_;
     std::optional<IndexTable> other_;
@@ -288,12 +288,12 @@ private:
     std::vector<tables::Column::Numbers> numbers_;
     tables::Column::CodedNumbers wavelength_, angle_;
     tables::Column::CodedTexts polarization_;
-    bool shared_wavelengths_ = false;  ///< the last values are those of the question
+    bool shared_wavelengths_ = false;  ///< the last values are those of the query
     std::uint32_t first_wavelength_ = 0;
 };
 
-SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering)
-    : varies_wavelength_(answering.varies_wavelength),
+SpectrumQuery::SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run)
+    : varies_wavelength_(run.varies_wavelength),
       wavelengths_nm_(varies_wavelength_
                           ? std::vector<double>{}
                           : parse_list("--wavelengths", typed.wavelengths, kAllWavelengths.first_nm,
@@ -301,10 +301,10 @@ SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering
       angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
       columns_(parse_spectrum_columns(typed.columns)),
-      execution_(answering.execution),
-      note_(answering.note) {}
+      execution_(run.execution),
+      note_(run.note) {}
 
-tables::RecordLayout SpectrumQuestion::layout(const schemas::StackDocument& document) const {
+tables::RecordLayout SpectrumQuery::layout(const schemas::StackDocument& document) const {
     const StackPower power = stack_power(document, document.stack);
     const bool by_layer = spectrum_needs(polarizations_, columns_, power).layers;
     tables::RecordLayout layout{
@@ -314,20 +314,19 @@ tables::RecordLayout SpectrumQuestion::layout(const schemas::StackDocument& docu
     return layout;
 }
 
-std::unique_ptr<const PreparedStack> SpectrumQuestion::prepare(
-    schemas::StackDocument document) const {
+std::unique_ptr<const PreparedStack> SpectrumQuery::prepare(schemas::StackDocument document) const {
     spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));
     auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
     note_incident(prepared->document, prepared->table, note_);
     return prepared;
 }
 
-std::unique_ptr<Answers> SpectrumQuestion::answers() const {
-    return std::make_unique<SpectrumAnswers>(*this);
+std::unique_ptr<QueryResult> SpectrumQuery::new_result() const {
+    return std::make_unique<SpectrumResult>(*this);
 }
 
-double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
-                                 double angle_deg, std::optional<double> wavelength_nm) const {
+double SpectrumQuery::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                              std::optional<double> wavelength_nm) const {
     constexpr double kStack = 2, kRow = 0.2, kOperation = 3e-5, kPlainPoint = 2;
     const StackPower power = stack_power(prepared.document, stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
@@ -343,40 +342,40 @@ double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& sta
            point * static_cast<double>(work.points);
 }
 
-std::uint64_t SpectrumQuestion::rows() const {
+std::uint64_t SpectrumQuery::rows() const {
     return std::uint64_t{rows_per_angle()} * angles_deg_.size();
 }
 
-double SpectrumQuestion::try_share(const schemas::StackDocument& document,
-                                   const Incidence& incidence, double share) const {
+double SpectrumQuery::try_share(const schemas::StackDocument& document, const Incidence& incidence,
+                                double share) const {
     const std::size_t all = wavelengths_nm_.size();
-    if (incidence.wavelength_nm || all == 0) return Question::try_share(document, incidence, share);
+    if (incidence.wavelength_nm || all == 0) return Query::try_share(document, incidence, share);
     const auto wanted = static_cast<std::size_t>(std::round(share * static_cast<double>(all)));
     const std::size_t count = std::clamp<std::size_t>(wanted, 1, std::min(all, kBlockNumbers));
     std::vector<double> some;
     for (std::size_t i = 0; i < count; ++i)
         some.push_back(wavelengths_nm_[(2 * i + 1) * all / (2 * count)]);
     const SpectrumStack prepared(document, some);
-    answers()->add(prepared, document.stack, incidence);
+    new_result()->add(prepared, document.stack, incidence);
     return static_cast<double>(count) / static_cast<double>(all);
 }
 
-void SpectrumQuestion::each_block(const schemas::StackDocument& document,
-                                  const std::function<void(const tables::Records&)>& take) const {
+void SpectrumQuery::each_block(const schemas::StackDocument& document,
+                               const std::function<void(const tables::Records&)>& take) const {
     const std::size_t most = std::max<std::size_t>(1, kBlockNumbers / layout(document).size());
     if (rows_per_angle() > most) return each_part_of_angle(document, most, take);
     const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
     const std::size_t count = (angles + blocks - 1) / blocks;
     const auto prepared = prepare(document);
-    const auto answers = this->answers();
+    const auto result = new_result();
     for (std::size_t a = 0; a < angles; a += count) {
         const std::vector<double> some = part_of(angles_deg_, a, count);
-        answers->add(*prepared, document.stack, {some});
-        take(answers->records());
+        result->add(*prepared, document.stack, {some});
+        take(result->records());
     }
 }
 
-void SpectrumQuestion::each_part_of_angle(
+void SpectrumQuery::each_part_of_angle(
     const schemas::StackDocument& document, std::size_t most,
     const std::function<void(const tables::Records&)>& take) const {
     const std::size_t all = wavelengths_nm_.size();
@@ -399,11 +398,11 @@ void SpectrumQuestion::each_part_of_angle(
         part = std::make_unique<const SpectrumStack>(document, some);
         return *part;
     };
-    std::vector<SpectrumAnswers> answers;
+    std::vector<SpectrumResult> results;
     for (const char polarization : polarizations_)
-        answers.emplace_back(*this, std::string{polarization});
+        results.emplace_back(*this, std::string{polarization});
     for (const double angle_deg : angles_deg_)
-        for (SpectrumAnswers& of_polarization : answers)
+        for (SpectrumResult& of_polarization : results)
             for (std::size_t w = 0; w < all; w += most) {
                 of_polarization.add(prepared(w), document.stack, {{&angle_deg, 1}});
                 tables::Records rows = of_polarization.records();
@@ -412,7 +411,7 @@ void SpectrumQuestion::each_part_of_angle(
             }
 }
 
-std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) const {
+std::vector<std::string> SpectrumQuery::stats(const PreparedStack& prepared) const {
     const StackPower power = stack_power(prepared.document, prepared.document.stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
@@ -420,7 +419,7 @@ std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) 
     return lines_of(work, needs, angles_deg_.size(), why_plain(power, needs, execution_.simd));
 }
 
-std::unique_ptr<QuestionOptions> SpectrumOptions::add(CLI::App& command) {
+std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
     auto options = std::make_unique<SpectrumOptions>();
     command
         .add_option("-w,--wavelengths", options->wavelengths,
@@ -446,8 +445,8 @@ std::unique_ptr<QuestionOptions> SpectrumOptions::add(CLI::App& command) {
     return options;
 }
 
-std::unique_ptr<const Question> SpectrumOptions::parse(const Answering& answering) const {
-    return std::make_unique<SpectrumQuestion>(*this, answering);
+std::unique_ptr<const Query> SpectrumOptions::parse(const QueryRun& run) const {
+    return std::make_unique<SpectrumQuery>(*this, run);
 }
 
 nlohmann::json SpectrumOptions::typed() const {

@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "cli/options/color_options.hpp"
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 #include "core/color/color_tables.hpp"
 #include "core/color/stack_color.hpp"
 
 namespace irido::cli {
 
 /// What irido color is asked, as typed.
-struct ColorQuestionOptions : QuestionOptions {
+struct ColorQueryOptions : QueryOptions {
     std::string angles = "0";
     ColorOptions color;
     bool compare = false;
     bool stats = false;
     bool strict = false;
 
-    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
-    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    static std::unique_ptr<QueryOptions> add(CLI::App& command);
+    std::unique_ptr<const Query> parse(const QueryRun& run) const override;
     nlohmann::json typed() const override;
 };
 
@@ -46,9 +46,9 @@ struct StackColors {
 };
 
 /// X, Y, Z and RGB of what a stack reflects or transmits.
-class ColorQuestion : public Question {
+class ColorQuery : public Query {
 public:
-    ColorQuestion(const ColorQuestionOptions& typed, const Answering& answering);
+    ColorQuery(const ColorQueryOptions& typed, const QueryRun& run);
 
     std::span<const double> angles_deg() const override { return angles_deg_; }
     bool splits_angles() const override { return lightings_.size() == 1; }
@@ -56,7 +56,7 @@ public:
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     nlohmann::json data() const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
-    std::unique_ptr<Answers> answers() const override;
+    std::unique_ptr<QueryResult> new_result() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
     double try_share(const schemas::StackDocument& document, const Incidence& incidence,
@@ -83,7 +83,7 @@ private:
     bool held_to_tolerance_;  ///< one was given
     const RgbSpace* space_;
     bool stats_, strict_;
-    Answering answering_;
+    QueryRun run_;
 };
 
 }  // namespace irido::cli

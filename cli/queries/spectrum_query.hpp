@@ -3,27 +3,27 @@
 #include <string>
 #include <vector>
 
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 #include "cli/queries/spectrum_columns.hpp"
 
 namespace irido::cli {
 
 /// What irido spectrum is asked, as typed.
-struct SpectrumOptions : QuestionOptions {
+struct SpectrumOptions : QueryOptions {
     std::string wavelengths = "380:780:1";
     std::string angles = "0";
     std::string polarization = "u";
     std::string columns;
 
-    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
-    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    static std::unique_ptr<QueryOptions> add(CLI::App& command);
+    std::unique_ptr<const Query> parse(const QueryRun& run) const override;
     nlohmann::json typed() const override;
 };
 
 /// R, T, A and more over wavelengths and angles.
-class SpectrumQuestion : public Question {
+class SpectrumQuery : public Query {
 public:
-    SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering);
+    SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run);
 
     std::span<const double> angles_deg() const override { return angles_deg_; }
     bool takes_wavelength() const override { return true; }
@@ -32,7 +32,7 @@ public:
     }
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
-    std::unique_ptr<Answers> answers() const override;
+    std::unique_ptr<QueryResult> new_result() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
     double try_share(const schemas::StackDocument& document, const Incidence& incidence,
@@ -41,7 +41,7 @@ public:
     /// Rows of all wavelengths, angles and polarizations.
     std::uint64_t rows() const;
     /// Gives all rows of a stack in their order, block after block, in memory that does not grow
-    /// with their number: the values of prepare() and answers(). Throws as these.
+    /// with their number: the values of prepare() and new_result(). Throws as these.
     void each_block(const schemas::StackDocument& document,
                     const std::function<void(const tables::Records&)>& take) const;
 
@@ -49,7 +49,7 @@ public:
     std::vector<std::string> stats(const PreparedStack& prepared) const;
 
 private:
-    friend class SpectrumAnswers;
+    friend class SpectrumResult;
 
     void each_part_of_angle(const schemas::StackDocument& document, std::size_t most,
                             const std::function<void(const tables::Records&)>& take) const;
