@@ -25,7 +25,7 @@ int fail(const std::string& text, int status = kBadInput) {
 }
 
 int run_command_line(int argc, char** argv) {
-    CLI::App program("What a stack of thin films does to light: spectra and colours.", "irido");
+    CLI::App program("Spectra, colours and look-up tables of thin-film stacks.", "irido");
     program.require_subcommand(1);
     program.set_version_flag("--version", version_text, "version, commit, compiler and SIMD level");
     program.get_formatter()->column_width(26);

@@ -77,13 +77,13 @@ std::string escaped(std::string_view text) {
 }
 
 std::string message_line(std::string_view text) {
-    constexpr std::string_view gap = " ... ";
+    constexpr std::string_view ellipsis = " ... ";
     std::string line = escaped(text);
     if (line.size() <= kLongest) return line;
-    std::size_t head = kHead, tail = line.size() - (kLongest - kHead - gap.size());
+    std::size_t head = kHead, tail = line.size() - (kLongest - kHead - ellipsis.size());
     while (continues(line[head])) --head;
     while (continues(line[tail])) ++tail;
-    return line.substr(0, head).append(gap).append(line, tail);
+    return line.substr(0, head).append(ellipsis).append(line, tail);
 }
 
 std::string joined(const std::vector<std::string>& words, std::string_view separator) {

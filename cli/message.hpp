@@ -10,7 +10,7 @@ namespace irido::cli {
 /// direction of a text and bytes that are not UTF-8 become \n, \x1B, \u202E.
 std::string escaped(std::string_view text);
 
-/// The same for a message: of a long text only the beginning and the end, 400 bytes in all.
+/// `text` as the line of a message: escaped, and shortened in the middle to 400 bytes.
 std::string message_line(std::string_view text);
 
 /// "a, b, c".

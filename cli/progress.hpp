@@ -7,7 +7,7 @@
 
 namespace irido::cli {
 
-/// A bar on standard error, if that is a terminal and the work takes more than a second.
+/// A progress bar on standard error, shown on a terminal for work that takes more than a second.
 class Progress {
 public:
     explicit Progress(bool quiet);
@@ -16,9 +16,9 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     /// done  a fraction of the work, [0, 1]; from any thread
-    /// text  behind the bar
+    /// text  shown after the bar
     void set(double done, const std::string& text = "");
-    /// Takes the bar away.
+    /// Removes the bar.
     void clear();
 
 private:

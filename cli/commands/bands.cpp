@@ -66,7 +66,7 @@ int run_bands(const BandsCommand& command) {
                            {.note = [&](const std::string& text) { note(text, command.quiet); }});
     const auto [least, most] = std::ranges::minmax(query.angles_deg());
     if (command.plot && least == most)
-        throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
+        throw UsageError("--plot: requires several angles, such as --angles 0:89:1");
     const auto prepared = query.prepare(read_noted_stack(command.stack, command.quiet));
     check_plot(command.plot, command.output);
     const tables::Records records = records_of(query, *prepared);
@@ -87,7 +87,8 @@ void add_bands_command(CLI::App& program, Run& run) {
     options->typed = BandsOptions::add(*command);
     command
         ->add_option("--plot", options->plot,
-                     "draw the gaps over angle and wavelength as SVG, for several angles")
+                     "draw the gaps over angle and wavelength into FILE (.svg); requires\n"
+                     "several angles")
         ->type_name("FILE");
     add_output_options(*command, options->output, record_formats_text());
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
@@ -96,17 +97,16 @@ void add_bands_command(CLI::App& program, Run& run) {
         {"irido bands \"1 | (1@200 | 1.5@180)^10 | 1\" -a 20 -p p",
          "irido bands \"air | (TiO2@58.5 | SiO2@94.2)^10 | BK7\" -a 0:85:1 --gaps "
          "--plot bands.svg"},
-        "The STACK has one group of two transparent layers that is repeated, and any others "
-        "around\n"
-        "it; landmarks are those of the group without end. With a and b the phases across its\n"
-        "layers and KL that across both,\n"
+        "STACK contains one repeated group of two transparent layers, alone or among other\n"
+        "layers; landmarks are those of the infinitely repeated group. With a and b the phases\n"
+        "across its layers and KL the Bloch phase across both,\n"
         "    mode m  a + b = m pi      edge m  both ends of the gap around mode m\n"
         "    zero z  b = z pi          airy m  cos(KL) = 0 between the modes m and m + 1.\n"
-        "Closed gaps have two equal edges. Every landmark has the indices at its own wavelength\n"
-        "(edges of a gap past what is known of a material: those at its end). A k up to 0.1 and\n"
-        "thickness_sigma_nm are left out of landmarks, but not of R. An angle past the\n"
-        "critical angle of a layer is an error, as is dispersion so anomalous that the phase\n"
-        "of a layer grows with the wavelength.");
+        "Closed gaps have two equal edges. Indices are taken at each landmark's own wavelength\n"
+        "(beyond a material's range, edges of a gap use its end values). k up to 0.1 and\n"
+        "thickness_sigma_nm are ignored for landmarks, but not for R. An angle past the\n"
+        "critical angle of a layer is an error, and so is dispersion so anomalous that the\n"
+        "phase of a layer grows with the wavelength.");
     command->callback([options, &run] { run = [options] { return run_bands(*options); }; });
 }
 

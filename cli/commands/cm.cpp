@@ -26,20 +26,19 @@ int run_cm(const CmCommand& command) {
 
 void add_cm_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "cm", "Fourier series of a film's fringes: C_m, optical path and phase.");
+        "cm", "Fourier series of a film's fringes: C_m, optical path difference and phase.");
     const auto options = std::make_shared<CmCommand>();
     add_stack_options(*command, options->stack);
     options->typed = CmOptions::add(*command);
     add_output_options(*command, options->output, record_formats_text());
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
-    set_examples(
-        *command,
-        {"irido cm \"air | 1.42@400 | 1.87+1.182i\" -a 0,50 --orders 0:2:1",
-         "irido cm \"air | SiO2@300 | Si\" -a 0:80:20 -p s --side R,T --at 600"},
-        "The STACK is one film of a real index over any base. With opd_nm = D, phi_rad = phi\n"
-        "and the vacuum wavelength L in nm,\n"
-        "    R (or T) = C_0 + 2 sum over m of C_m cos(m (2 pi D / L + phi)).\n"
-        "A thickness_sigma_nm is left out.");
+    set_examples(*command,
+                 {"irido cm \"air | 1.42@400 | 1.87+1.182i\" -a 0,50 --orders 0:2:1",
+                  "irido cm \"air | SiO2@300 | Si\" -a 0:80:20 -p s --side R,T --at 600"},
+                 "STACK is one film of real index over any base. With opd_nm = D, phi_rad = phi\n"
+                 "and the vacuum wavelength L in nm,\n"
+                 "    R (or T) = C_0 + 2 sum over m of C_m cos(m (2 pi D / L + phi)).\n"
+                 "thickness_sigma_nm is ignored.");
     command->callback([options, &run] { run = [options] { return run_cm(*options); }; });
 }
 

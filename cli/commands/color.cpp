@@ -22,12 +22,13 @@ std::string picture(const ColorQuery& query, const StackColors& stack, const std
     const RgbSpace& space = rgb_space("srgb");
     const std::size_t sides = query.sides().size();
     for (std::size_t l = 0; l < stack.colors.size(); ++l) {
-        const Illumination& lighting = *query.lightings()[l];
-        const RgbTransform transform = rgb_transform(space, lighting.white(), Adaptation::bradford);
+        const Illumination& illumination = *query.illuminations()[l];
+        const RgbTransform transform =
+            rgb_transform(space, illumination.white(), Adaptation::bradford);
         for (std::size_t s = 0; s < sides; ++s) {
             const std::string side(letter(query.sides()[s]));
             tables::Swatches::Strip strip{
-                stack.colors.size() == 1 ? side : lighting.name + " " + side, {}};
+                stack.colors.size() == 1 ? side : illumination.name + " " + side, {}};
             for (std::size_t i = s; i < stack.colors[l].size(); i += sides)
                 strip.colors.push_back(hex(space, transform(stack.colors[l][i].xyz)));
             swatches.strips.push_back(std::move(strip));
@@ -60,7 +61,7 @@ int run_color(const ColorCommand& command) {
 
 void add_color_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "color", "X, Y, Z and linear RGB of the light that a stack reflects or transmits.");
+        "color", "Colour of the light that a stack reflects or transmits: X, Y, Z and linear RGB.");
     const auto options = std::make_shared<ColorCommand>();
     add_stack_options(*command, options->stack);
     options->typed = ColorQueryOptions::add(*command);

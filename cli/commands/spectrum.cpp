@@ -49,7 +49,7 @@ void add_spectrum_command(CLI::App& program, Run& run) {
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
     command->add_flag("--stats", options->stats,
-                      "say on standard error how it was computed and what was skipped");
+                      "report on standard error how it was computed and what was skipped");
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(*command,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",

@@ -26,7 +26,7 @@ struct SweepCommand {
     std::vector<std::string> vary;
     std::string points;
     const QueryKind* kind = nullptr;
-    std::unique_ptr<QueryOptions> typed;  ///< of the kind
+    std::unique_ptr<QueryOptions> typed;  ///< options of the kind
     std::string compute;
     OutputOptions output;
     std::string shard;
@@ -52,7 +52,7 @@ Shard parse_shard(const std::string& text) {
     return {parse_whole_number("--shard", text.substr(0, slash), 1, static_cast<double>(of)), of};
 }
 
-/// Says each note once.
+/// Prints each note once.
 class Notes {
 public:
     explicit Notes(bool quiet) : quiet_(quiet) {}
@@ -60,7 +60,7 @@ public:
     void operator()(const std::string& text) {
         const std::scoped_lock guard(lock_);
         if (said_.size() >= kMost || !said_.insert(text).second) return;
-        note(said_.size() < kMost ? text : "there are more notes like the ones above", quiet_);
+        note(said_.size() < kMost ? text : "further notes suppressed", quiet_);
     }
 
 private:
@@ -71,12 +71,12 @@ private:
     std::set<std::string> said_;
 };
 
-/// Whether stacks that differ in it only are of one structure.
+/// Whether stacks that differ only in this column have the same structure.
 bool is_shared(const SweptColumn& column) {
     return column.is_light() || schemas::VariedStack::is_thickness(column.path);
 }
 
-/// Stacks of one structure, as far as that is known before.
+/// Number of stacks per structure, as far as known in advance.
 double stacks_of_structure(const SweepSpace& space) {
     double stacks = 1, points = 1;
     bool points_share = true;
@@ -107,13 +107,13 @@ std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
     return places;
 }
 
-/// Angles and wavelengths come from one place.
+/// Refuses angles or wavelengths that are given twice.
 void require_once(const SweepCommand& command, const SweepSpace& space) {
     for (const SweptColumn& column : space.columns()) {
         if (column.path == kSweptAngle && command.has_angles)
-            throw UsageError("--angles: angle_deg varies, so leave out --angles");
+            throw UsageError("--angles: cannot be combined with a varied angle_deg");
         if (column.path == kSweptWavelength && command.has_wavelengths)
-            throw UsageError("--wavelengths: wavelength_nm varies, so leave out --wavelengths");
+            throw UsageError("--wavelengths: cannot be combined with a varied wavelength_nm");
     }
 }
 
@@ -122,7 +122,7 @@ bool varies_wavelength(const SweepSpace& space) {
            space.columns().end();
 }
 
-/// All that the rows depend on, but for the machine.
+/// Hash of all that the rows depend on, except the machine.
 std::string request_hash(const SweepCommand& command, const Query& query,
                          const schemas::StackSource& source, const schemas::StackDocument& first,
                          const SweepSpace& space) {
@@ -160,7 +160,7 @@ std::string short_number(double number) {
     return text.data();
 }
 
-/// Done, rate and time left.
+/// Shows rows done, rate and remaining time.
 class SweepProgress {
 public:
     SweepProgress(bool quiet, std::uint64_t units, const SweepCounts& counts)
@@ -195,9 +195,7 @@ void print_stats(const SweepEngine& engine, const SweptStacks& stacks,
     std::fprintf(stderr, "irido: stats: %llu rows in %.3g s, %.3g rows/s\n",
                  static_cast<unsigned long long>(counts.rows), progress.seconds(),
                  progress.rows_per_second());
-    std::fprintf(stderr,
-                 "irido: stats: stacks %llu, of structures %llu: so often were materials, index "
-                 "tables and weights made\n",
+    std::fprintf(stderr, "irido: stats: %llu stacks; %llu structures prepared\n",
                  static_cast<unsigned long long>(counts.stacks),
                  static_cast<unsigned long long>(stacks.prepared()));
 }
@@ -212,24 +210,25 @@ std::unique_ptr<tables::RecordStream> open_stream(const SweepCommand& command,
     if (!command.output.file.empty())
         return tables::record_file(command.output.file, format, engine.layout(), identity,
                                    command.resume, rows);
-    if (command.resume) throw UsageError("--resume: needs --output FILE");
+    if (command.resume) throw UsageError("--resume: requires --output FILE");
     const tables::RecordLayout layout = engine.layout();
     const bool counts = format.head(layout, 0, tables::HeadKind::final) !=
                         format.head(layout, 1, tables::HeadKind::final);
     if (counts && !is_known)
-        throw UsageError("--format: " + std::string(format.name) +
-                         " needs --output FILE where the number of rows is not known before");
+        throw UsageError(
+            "--format: " + std::string(format.name) +
+            " requires --output FILE where the number of rows is not known in advance");
     return tables::record_output(format, engine.layout(), rows);
 }
 
 int run_merge(const SweepCommand& command) {
-    if (command.output.file.empty()) throw UsageError("--merge: needs --output FILE");
+    if (command.output.file.empty()) throw UsageError("--merge: requires --output FILE");
     tables::merge_streams(command.merge, command.output.file,
                           resolved_record_format(command.output, RecordTarget::any));
     return 0;
 }
 
-/// Writes what is left of a stream's units. Returns the exit status.
+/// Computes and writes the remaining units of a stream. Returns the exit status.
 int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& stacks,
                const tables::RecordFormat& format, const tables::StreamIdentity& identity,
                tables::RecordStream& stream, const OrderlyEnd* orderly) {
@@ -243,19 +242,20 @@ int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& st
     progress.clear();
     if (!is_whole) {
         stream.suspend();
-        note("ended early; the same command with --resume goes on", command.quiet);
+        note("interrupted; rerun with --resume to continue", command.quiet);
         return 128 + orderly->signal();
     }
     const std::uint64_t left_out = engine.counts().left_out, all = identity.end - begin;
     if (left_out > 0 && left_out == all && stream.rows_done() == 0 && identity.shards == 1) {
         stream.discard();
         throw CheckFailed("nothing is left: none of " + std::to_string(all) +
-                          " can be computed, the first one " + engine.first_left_out());
+                          " combinations can be computed; the first fails " +
+                          engine.first_left_out());
     }
     stream.finish();
     if (left_out > 0)
         note("left out " + std::to_string(left_out) + " of " + std::to_string(all) +
-                 ", the first one " + engine.first_left_out(),
+                 "; the first fails " + engine.first_left_out(),
              command.quiet);
     if (command.stats) print_stats(engine, stacks, progress);
     return 0;
@@ -297,14 +297,14 @@ int run_sweep(const SweepCommand& command) {
     if (!command.output.file.empty()) orderly.emplace();  // before there is a part
     std::error_code ignored;
     if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
-        note(command.output.file +
-                 ".part of an earlier run is begun anew; --resume would have gone on",
+        note("discarding " + command.output.file +
+                 ".part of an earlier run (use --resume to continue it)",
              command.quiet);
     const std::unique_ptr<tables::RecordStream> stream =
         open_stream(command, format, engine, identity);
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
-        note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
+        note("resuming after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
     note_long_work(
         engine.seconds_of(identity.begin + stream->units_done(), identity.end, command.threads),
         false, [&](const std::string& text) { notes(text); });
@@ -312,7 +312,7 @@ int run_sweep(const SweepCommand& command) {
         return write_rows(command, engine, stacks, format, identity, *stream,
                           orderly ? &*orderly : nullptr);
     } catch (...) {
-        // what --resume asked to be kept is kept, whatever goes wrong
+        // with --resume, finished rows survive any error
         if (command.resume) {
             stream->suspend();
         } else {
@@ -322,7 +322,7 @@ int run_sweep(const SweepCommand& command) {
     }
 }
 
-/// The kind that follows --compute on the command line; nullptr if there is none.
+/// The kind named after --compute on the command line; nullptr without --compute.
 const QueryKind* typed_kind(std::span<char* const> arguments) {
     for (std::size_t i = 2; i < arguments.size(); ++i) {
         std::string_view argument = arguments[i];
@@ -348,47 +348,47 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
     command.get_option("STACK")->required(false);
     command
         .add_option("--vary", typed.vary,
-                    "a value of the stack by dotted path, and what it becomes: a LIST\n"
-                    "(layers.0.thickness_nm=0:1000:10), names and other values with\n"
-                    "commas (substrate=Ag,Au,1.9+1.5i,{\"n\":2}); also angle_deg and, for\n"
-                    "spectrum, wavelength_nm. Again for more; the last changes first")
+                    "vary a value of the stack, by dotted path, over a LIST\n"
+                    "(layers.0.thickness_nm=0:1000:10) or over names and other values\n"
+                    "(substrate=Ag,Au,1.9+1.5i,{\"n\":2}); also angle_deg and, for\n"
+                    "spectrum, wavelength_nm. Repeatable; the last --vary changes fastest")
         ->type_name("PATH=LIST")
         ->allow_extra_args(false);
     command
         .add_option("--points", typed.points,
-                    "a CSV file of combinations, its columns named by path; each with\n"
-                    "every combination of --vary, if there is any")
+                    "CSV file of combinations, its columns named by path; each is\n"
+                    "computed with every combination of --vary")
         ->type_name("FILE");
     command
         .add_option("--compute", typed.compute,
-                    "spectrum, color, bands or cm, with the options of that command:\n"
-                    "irido sweep --compute color --help shows them, too")
+                    "spectrum, color, bands or cm, with the options of that command;\n"
+                    "see irido sweep --compute color --help")
         ->type_name("COMMAND");
     command
         .add_option("--shard", typed.shard,
-                    "only part K of N, K in [1, N], each about as much work; for --merge,\n"
-                    "with FILE.sweep beside it, which holds its checksum")
+                    "compute part K of N only, K in [1, N], parts being of about equal\n"
+                    "cost; keep FILE.sweep, which holds its checksum, for --merge")
         ->type_name("K/N");
     command.add_flag("--resume", typed.resume,
-                     "go on where an earlier run of the same command ended; nothing that\n"
-                     "is done is thrown away if this one ends early");
+                     "continue an earlier run of the same command; if this run ends\n"
+                     "early, its finished rows are kept, too");
     command
         .add_option("--merge", typed.merge,
-                    "put the files of all shards together, in any order, instead of\n"
-                    "computing: the same bytes as of one run. Refuses files that were\n"
-                    "changed, or are of another build of irido (--version) or another\n"
+                    "join the files of all shards, in any order, instead of computing:\n"
+                    "byte-identical to a single run. Refuses files that were changed,\n"
+                    "or written by another build of irido (--version) or at another\n"
                     "SIMD level (IRIDO_SIMD=avx2 forces one)")
         ->type_name("FILE");
     command.add_flag("--keep-going", typed.keep_going,
-                     "leave out combinations that cannot be computed, and say how many;\n"
-                     "if none is left that is exit status 1, and FILE stays as it was");
+                     "leave out combinations that cannot be computed, and report how many;\n"
+                     "if none is left, the exit status is 1 and FILE stays as it was");
     if (!command.get_option_no_throw("--stats")) {
-        command.add_flag("--stats", typed.stats, "say on standard error what was used again");
+        command.add_flag("--stats", typed.stats, "print reuse statistics on standard error");
     } else {
         command.get_option("--stats")->description(
-            "adds method,evaluations,error_estimate; the error of methods\n"
-            "that are not exact is measured against quadrature. Says on\n"
-            "standard error what was used again");
+            "add columns method,evaluations,error_estimate; the error of\n"
+            "approximate methods is measured against quadrature. Also print\n"
+            "reuse statistics on standard error");
     }
 }
 
@@ -396,7 +396,8 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
 
 void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments) {
     CLI::App* command = program.add_subcommand(
-        "sweep", "Every combination of varied values, in one file: streamed, resumed, sharded.");
+        "sweep",
+        "Compute all combinations of varied values into one file: streamed, resumable, sharded.");
     const auto options = std::make_shared<SweepCommand>();
     const bool is_typed = arguments.size() > 1 && std::string_view(arguments[1]) == "sweep";
     options->kind = is_typed ? typed_kind(arguments) : nullptr;
@@ -411,8 +412,8 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
          "irido sweep stack.json --vary substrate=Ag,Au,Cu --vary layers.0.thickness_nm=0:500:5 "
          "--compute spectrum -w 400:700:10 -o sweep.npy",
          "irido sweep --merge part-1.csv part-2.csv part-3.csv -o all.csv"},
-        "Columns are the varied values, named by path, and those of the command. With -o, what is\n"
-        "done is in FILE.part until all is; Ctrl-C, or a crash, leaves it there for --resume.");
+        "Columns are the varied values, named by path, then those of the command. With -o, rows\n"
+        "are in FILE.part until all are done; after Ctrl-C or a crash, --resume continues it.");
     command->callback([options, command, &run] {
         const auto is_given = [&](const std::string& name) {
             const CLI::Option* const option = command->get_option_no_throw(name);

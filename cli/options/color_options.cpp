@@ -18,9 +18,9 @@ namespace {
 struct NamedMethod {
     std::string_view name;
     ColorMethod::Kind kind;
-    double fewest, most;    ///< of the number after a slash; 0, 0: it takes none
-    std::size_t by_itself;  ///< the count where none is typed
-    std::size_t more = 0;   ///< the count is so much more than the number
+    double fewest, most;    ///< range of the number after a slash; 0, 0: takes none
+    std::size_t by_itself;  ///< the count without a number
+    std::size_t more = 0;   ///< the count minus the number
 };
 
 constexpr double kMostHarmonics = 1000, kMostSubdivisions = 1000;
@@ -59,7 +59,7 @@ std::vector<Side> parse_sides(const std::string& text) {
     if (text == "T") return {Side::transmitted};
     if (text == "R,T") return {Side::reflected, Side::transmitted};
     if (text == "T,R") return {Side::transmitted, Side::reflected};
-    throw UsageError("--side: must be R, T or both with a comma (got '" + text + "')");
+    throw UsageError("--side: must be R, T or R,T (got '" + text + "')");
 }
 
 Light parse_light(const std::string& text) {
@@ -115,10 +115,10 @@ ColorMethod parse_method(const ColorOptions& options) {
     const auto number = [&](const std::string& flag, const std::string& typed,
                             ColorMethod::Kind kind, double fewest, double most) {
         if (method.kind != kind)
-            throw UsageError(flag + ": needs --method " + name_of(ColorMethod{kind}) + " (got " +
+            throw UsageError(flag + ": requires --method " + name_of(ColorMethod{kind}) + " (got " +
                              options.method + ")");
         if (has_number)
-            throw UsageError(flag + ": the method has its number (got " + options.method + ")");
+            throw UsageError(flag + ": conflicts with the number in --method (got " + options.method + ")");
         return static_cast<std::size_t>(parse_whole_number(flag, typed, fewest, most));
     };
     if (!options.subdivide.empty())
@@ -131,7 +131,7 @@ ColorMethod parse_method(const ColorOptions& options) {
 std::optional<Triple> parse_base_color(const ColorOptions& options) {
     if (options.base_color.empty()) return {};
     if (parse_method(options.method).kind != gltf)
-        throw UsageError("--base-color: needs --method gltf (got " + options.method + ")");
+        throw UsageError("--base-color: requires --method gltf (got " + options.method + ")");
     const std::vector<double> typed = parse_list("--base-color", options.base_color, 0, 1);
     Triple rgb{};
     if (typed.size() != rgb.size() || options.base_color.find(':') != std::string::npos)
@@ -147,7 +147,9 @@ Table parse_illuminant(const std::string& text) {
         return schemas::read_spectrum_csv(schemas::read_text(text), text);
     } catch (const schemas::InputError& error) {
         if (text.find_first_of("./") != std::string::npos || text == "-") throw;
-        throw UsageError("--illuminant: " + not_one_of(illuminant_names(), text) + ", or a file");
+        std::vector<std::string_view> known(illuminant_names().begin(), illuminant_names().end());
+        known.emplace_back("a CSV file");
+        throw UsageError("--illuminant: " + not_one_of(known, text));
     }
 }
 
@@ -169,7 +171,7 @@ std::string in_words(const HeldRange& held, const schemas::StackDocument& docume
            to_text(held.range.first_nm) + " to " + to_text(held.range.last_nm) + " nm";
 }
 
-/// Two digits of a fraction in percent.
+/// A fraction in percent, to two digits.
 std::string percent(double fraction) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g %%", 100 * fraction);
@@ -184,10 +186,10 @@ void report_held_ranges(const schemas::StackDocument& document, const Sensitivit
         const std::string& pointer = document.material_pointers[held.material];
         if (!held.usable)
             throw schemas::InputError(document.file, pointer,
-                                      in_words(held, document) + ", a colour needs 400 to 700 nm");
-        const std::string text = in_words(held, document) + ", its end values are held for " +
+                                      in_words(held, document) + "; a colour needs data from 400 to 700 nm");
+        const std::string text = in_words(held, document) + "; clamped to its end values beyond, where " +
                                  percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
-                                 percent(held.weight[2]) + " of the X, Y, Z weight";
+                                 percent(held.weight[2]) + " of the X, Y, Z weight lies";
         if (strict) throw schemas::InputError(document.file, pointer, text);
         say(schemas::InputError(document.file, pointer, text).what());
     }
@@ -205,7 +207,7 @@ void add_light_options(CLI::App& command, ColorOptions& options) {
     command
         .add_option("--illuminant", options.illuminant,
                     "D65, D50, A, E, FL2, FL11 or a CSV file of rows nm,power\n"
-                    "(relative, linear in between, zero outside) [D65]")
+                    "(relative, interpolated linearly, 0 outside) [D65]")
         ->type_name("NAME");
     command.add_option("--observer", options.observer, "2 (CIE 1931) or 10 (CIE 1964) degrees [2]")
         ->type_name("DEGREES");
@@ -214,11 +216,13 @@ void add_light_options(CLI::App& command, ColorOptions& options) {
 void add_space_options(CLI::App& command, ColorOptions& options) {
     command
         .add_option("--space", options.space,
-                    "of r, g, b, hex: srgb, rec2020, display-p3, acescg, xyz [srgb]")
+                    "colour space of the result: srgb, rec2020, display-p3, acescg,\n"
+                    "xyz [srgb]")
         ->type_name("NAME");
     command
         .add_option("--adaptation", options.adaptation,
-                    "bradford (a perfect mirror is r = g = b = 1) or none [bradford]")
+                    "chromatic adaptation to the white of the space: bradford (a\n"
+                    "perfect mirror is r = g = b = 1) or none [bradford]")
         ->type_name("NAME");
 }
 
@@ -228,45 +232,45 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
     add_space_options(command, options);
     command
         .add_option("--method", options.method,
-                    "auto: the cheapest of the exact ones for as many colours as are asked for\n"
-                    "(--stats says which): a row of a large sweep of one film may differ from\n"
-                    "that of a small one, within the tolerance; with a method by name it is\n"
-                    "the same row in any [auto]\n"
-                    "quadrature: product quadrature of the spectrum, any stack\n"
-                    "fourier: series over the orders of interference, one real film over\n"
-                    "any substrate; exact for constant indices; fourier/M, M in [1, 1000],\n"
-                    "ends it at order M; fourier-constant(/M) takes constant indices where\n"
-                    "media have dispersion\n"
-                    "bloch: Bloch waves, one group of two layers, all media of constant real\n"
-                    "index; exact, and the quicker the more periods there are, from 100 on\n"
-                    "to be compared with, none of them exact:\n"
+                    "auto: the fastest exact method for the number of colours requested\n"
+                    "(--stats shows which): a row of a large sweep of one film may differ\n"
+                    "from that of a small one, within the tolerance; a method given by name\n"
+                    "computes the same row in every sweep [auto]\n"
+                    "quadrature: product quadrature of the spectrum; any stack\n"
+                    "fourier: series over the orders of interference; one film of real index\n"
+                    "over any substrate; exact for constant indices; fourier/M, M in\n"
+                    "[1, 1000], truncates it at order M; fourier-constant(/M) replaces\n"
+                    "dispersive media by constant indices\n"
+                    "bloch: Bloch waves; one group of two layers, all media of constant real\n"
+                    "index; exact, and faster the more periods there are, from 100 on\n"
+                    "approximate baselines, for comparison:\n"
                     "landmarks: boxes between the landmarks of such a group (see bands);\n"
                     "equal/N: N equally spaced wavelengths, [2, 1e6] [32]; naive: 650, 510,\n"
-                    "475 nm as R, G, B; of one film, reflected: gaussian: Gaussians for the\n"
-                    "observer; gltf (-p u): the formulas of KHR_materials_iridescence, as in\n"
-                    "three.js; smits: a single bounce")
+                    "475 nm as R, G, B; for light reflected by one film: gaussian: the\n"
+                    "observer as Gaussians; gltf (-p u): the formulas of\n"
+                    "KHR_materials_iridescence, as in three.js; smits: a single round trip")
         ->type_name("METHOD");
     command
         .add_option("--subdivide", options.subdivide,
-                    "of landmarks: boxes next to gap m are split into S - m, [1, 1000] [1]")
+                    "for landmarks: split boxes next to gap m into S - m, [1, 1000] [1]")
         ->type_name("S");
     command
         .add_option("--harmonics", options.harmonics,
-                    "of bloch: harmonics of the fringes, [0, 1000]; 0: their average only\n"
+                    "for bloch: harmonics of the fringes, [0, 1000]; 0: their mean only\n"
                     "[as many as the tolerance needs]")
         ->type_name("M");
     command
         .add_option("--base-color", options.base_color,
-                    "of gltf: the base colour, linear sRGB, each in [0, 1] [that of the bare\n"
+                    "for gltf: the base colour, linear sRGB, each in [0, 1] [that of the bare\n"
                     "substrate in air at normal incidence]")
         ->type_name("R,G,B");
     command
         .add_option("--tolerance", options.tolerance,
-                    "largest error of X, Y, Z (white Y = 1), [" + to_text(kSmallestTolerance) +
+                    "maximum error of X, Y, Z (white Y = 1), [" + to_text(kSmallestTolerance) +
                         ", 1] [" + to_text(kDefaultTolerance) +
                         "];\n"
-                        "exit status 1 if it cannot be met. Methods that are not exact are\n"
-                        "held to a tolerance only if one is given")
+                        "exit status 1 if it cannot be met. Approximate methods are held to\n"
+                        "a tolerance only if one is given")
         ->type_name("T");
 }
 

@@ -13,7 +13,7 @@
 
 namespace irido::cli {
 
-/// How a colour is asked for, as typed.
+/// Options of a colour, as typed.
 struct ColorOptions {
     std::string sides = "R";
     std::string polarization = "u";
@@ -25,22 +25,22 @@ struct ColorOptions {
     std::string subdivide;   ///< "" if not typed
     std::string harmonics;   ///< "" if not typed
     std::string base_color;  ///< "" if not typed
-    std::string tolerance;   ///< "" for that of ColorRequest
+    std::string tolerance;   ///< "" for the default
 };
 
-/// --side and -p; `sides` as the help shows them.
+/// Adds --side and -p; `sides` is the help text of --side.
 void add_side_options(CLI::App& command, ColorOptions& options, const std::string& sides);
 
-/// --illuminant and --observer
+/// Adds --illuminant and --observer.
 void add_light_options(CLI::App& command, ColorOptions& options);
 
-/// --space and --adaptation
+/// Adds --space and --adaptation.
 void add_space_options(CLI::App& command, ColorOptions& options);
 
-/// All of these, --method and --tolerance.
+/// Adds all options of a colour.
 void add_color_options(CLI::App& command, ColorOptions& options);
 
-// What was typed, in values; each throws UsageError.
+// Values of typed texts; each throws UsageError.
 std::vector<Side> parse_sides(const std::string& text);
 Light parse_light(const std::string& text);
 const RgbSpace& parse_space(const std::string& text);
@@ -48,25 +48,29 @@ Adaptation parse_adaptation(const std::string& text);
 const Observer& parse_observer(const std::string& text);
 double parse_tolerance(const std::string& text);
 
-/// auto, quadrature, fourier, naive, ..., or one with a number, such as equal/32.
+/// A method by name, with or without a number: auto, quadrature, equal/32.
 ColorMethod parse_method(const std::string& text);
 
-/// The method with what --subdivide and --harmonics say.
+/// The method, with --subdivide and --harmonics applied.
 ColorMethod parse_method(const ColorOptions& options);
 
-/// That of --method gltf, linear sRGB, if it was typed.
+/// The base colour for --method gltf, linear sRGB, if it was typed.
 std::optional<Triple> parse_base_color(const ColorOptions& options);
 
-/// A named illuminant, or that of a file. Throws InputError if the file is at fault.
+/// A named illuminant, or one read from a file. Throws InputError for errors of the file.
 Table parse_illuminant(const std::string& text);
 
-/// The method as it is typed.
+/// The method as typed after --method.
 std::string name_of(const ColorMethod& method);
 
 std::string_view letter(Side side);
 
-/// Says where a material holds its end values in colours, or refuses what no colour can be made of.
-/// strict  refuses both. Throws InputError.
+/// Notes every material that colours clamp to its end values, because its data do not cover 360 to
+/// 830 nm. Throws InputError if they do not cover 400 to 700 nm.
+/// document     the stack, and the file that messages name
+/// sensitivity  gives the fraction of X, Y, Z that is concerned
+/// strict       throws InputError instead of a note
+/// say          receives the text of a note
 void report_held_ranges(const schemas::StackDocument& document, const Sensitivity& sensitivity,
                         bool strict, const std::function<void(const std::string&)>& say);
 

@@ -36,7 +36,7 @@ std::string name_of(const CLI::Option& option) {
     return option.get_name();
 }
 
-/// One command's words.
+/// Checks the words of one command.
 class CommandWords {
 public:
     CommandWords(const CLI::App& command, std::string help)
@@ -86,9 +86,9 @@ private:
             count(*option);
             return;
         }
-        fail("there is one word too many: '" + std::string(word) + "'" +
+        fail("unexpected argument '" + std::string(word) + "'" +
              (positionals_ > 1 && command_.get_option_no_throw("STACK")
-                  ? ", an expression is one word in quotes"
+                  ? "; put an expression in quotes"
                   : ""));
     }
 
@@ -105,7 +105,7 @@ private:
                 fail(name_of(*found) + ": takes no value (got '" + std::string(attached) + "')");
             return;
         }
-        if (counts_[found] > 1 && !may_repeat(*found)) fail(name_of(*found) + ": is there twice");
+        if (counts_[found] > 1 && !may_repeat(*found)) fail(name_of(*found) + ": given more than once");
         if (attached.empty()) value_of(*found);
         while (takes_many(*found) && at_ < words_.size() && !is_option_word(words_[at_]))
             if (std::string_view(words_[at_++]).empty()) empty(*found);
@@ -123,7 +123,7 @@ private:
         if (has_value()) {
             if (std::string_view(words_[at_++]).empty()) empty(option);
         } else if (option.get_items_expected_min() > 0) {
-            fail(name_of(option) + ": needs a value, " + option.get_type_name());
+            fail(name_of(option) + ": requires a value, " + option.get_type_name());
         }
     }
 
@@ -134,14 +134,13 @@ private:
             for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
         const std::string guess =
             typed.starts_with("--") ? schemas::did_you_mean(typed, names) : "";
-        // options that follow from another one
+        // options that --compute adds
         const CLI::Option* const compute = command_.get_option_no_throw("--compute");
         const bool is_computing = std::ranges::any_of(words_, [](std::string_view other) {
             return other == "--compute" || other.starts_with("--compute=");
         });
         if (compute && guess.empty() && !is_computing)
-            fail("--compute: is required before " + typed +
-                 " is known: spectrum, color, bands or cm");
+            fail("--compute: is required for " + typed + ": spectrum, color, bands or cm");
         fail(command_.get_name() + " has no option " + typed + guess);
     }
 
@@ -176,7 +175,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
     return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// The words from `place` on: a command of `parent` and what follows.
+/// Checks a command of `parent` and the words that follow it.
 void check(const CLI::App& parent, const std::string& path, std::span<char* const> words) {
     const std::string help = path + " --help";
     const std::vector<const CLI::App*> commands = commands_of(parent);
@@ -184,7 +183,7 @@ void check(const CLI::App& parent, const std::string& path, std::span<char* cons
     std::vector<std::string> names;
     for (const CLI::App* command : commands) names.push_back(command->get_name());
     if (words.empty() || std::string_view(words[0]).empty())
-        throw UsageError("a command must follow " + path + " (see " + help + ")");
+        throw UsageError("a command is required after " + path + " (see " + help + ")");
     const std::string typed = words[0];
     const auto found = std::ranges::find(names, typed);
     if (found != names.end())
@@ -192,9 +191,9 @@ void check(const CLI::App& parent, const std::string& path, std::span<char* cons
                      words.subspan(1));
     if (parent.get_option_no_throw(typed)) return;  // --help, --version
     if (typed.starts_with('-'))
-        throw UsageError("a command must follow " + path + ", before " + typed + " (see " + help +
+        throw UsageError("a command is required after " + path + ", before " + typed + " (see " + help +
                          ")");
-    throw UsageError("there is no command '" + typed + "'" + schemas::did_you_mean(typed, names) +
+    throw UsageError("unknown command '" + typed + "'" + schemas::did_you_mean(typed, names) +
                      " (see " + help + ")");
 }
 
@@ -238,7 +237,7 @@ void note_fallbacks(const CLI::App& program) {
              is_quiet);
     const std::optional<SimdLevel> asked = asked_simd_level();
     if (asked && !is_available(*asked))
-        note("IRIDO_SIMD: this machine has no " + std::string(name_of(*asked)) + ", using " +
+        note("IRIDO_SIMD: this machine does not support " + std::string(name_of(*asked)) + ", using " +
                  std::string(name_of(available_or_less(*asked))),
              is_quiet);
 }

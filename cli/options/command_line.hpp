@@ -8,14 +8,14 @@ namespace irido::cli {
 /// Adds -j and --quiet to the commands that lack them: every command takes both.
 void add_missing_options(CLI::App& program);
 
-/// Reads the words of a command line, the program's name first, as CLI11 will, and refuses what it
-/// would refuse: the first wrong word, then what is missing. Nothing is refused where help is asked
-/// for. Throws UsageError.
+/// Checks a command line, the program's name first, before CLI11 parses it, so that errors come in
+/// irido's words: the first wrong word, else a missing one. Checks nothing if help is requested.
+/// Throws UsageError.
 void check_command_line(const CLI::App& program, std::span<char* const> words);
 
-/// Says what was asked for and cannot be had, for a command that has been parsed: more threads than
-/// irido starts, instructions that this machine lacks. Throws UsageError for a level of IRIDO_SIMD
-/// that there is not.
+/// Notes limits applied to a parsed command: fewer threads than requested, or a lower SIMD level
+/// because this machine lacks the one requested. Throws UsageError for an unknown level in
+/// IRIDO_SIMD.
 void note_fallbacks(const CLI::App& program);
 
 }  // namespace irido::cli

@@ -65,9 +65,9 @@ private:
     void add_count(double start, double stop, std::string_view text) {
         const double count = number(text);
         if (count != std::floor(count) || count < 1 || count > static_cast<double>(kMostValues))
-            fail("must have a whole number of values from 1 to 10000000 after '/' (got '" +
+            fail("the count after '/' must be a whole number in [1, 10000000] (got '" +
                  std::string(text) + "')");
-        if (count == 1 && start != stop) fail("must have at least 2 values from start to stop");
+        if (count == 1 && start != stop) fail("the count after '/' must be at least 2 unless start equals stop (got 1)");
         const auto last = static_cast<std::size_t>(count) - 1;
         for (std::size_t i = 0; i <= last; ++i)
             push(i == last
@@ -86,12 +86,12 @@ private:
                    std::string_view step_text) {
         const double start = number(start_text), stop = number(stop_text), step = number(step_text);
         if (step == 0 || (stop - start) / step < 0)
-            fail("must have a step that leads from start to stop (got '" + std::string(step_text) +
+            fail("the step must lead from start to stop (got '" + std::string(step_text) +
                  "')");
         const double count = std::floor((stop - start) / step + 1e-9);
         if (count >= static_cast<double>(kMostValues))
             fail("must have at most " + std::to_string(kMostValues) + " values");
-        // whole multiples of the last decimal place, so that no rounding piles up
+        // whole multiples of the last decimal place, so that rounding errors do not accumulate
         const int places =
             std::max(decimals(schemas::trimmed(start_text)), decimals(schemas::trimmed(step_text)));
         const bool exact = places >= 0 && places <= 12 &&
@@ -131,7 +131,7 @@ double parse_one_number(std::string_view option, std::string_view text, double l
                         double highest) {
     const std::vector<double> values = parse_list(option, text, lowest, highest);
     if (values.size() != 1)
-        throw UsageError(std::string(option) + ": must be one number (got '" + std::string(text) +
+        throw UsageError(std::string(option) + ": must be a single number (got '" + std::string(text) +
                          "')");
     return values.front();
 }
@@ -141,7 +141,7 @@ std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
     const std::vector<double> values = parse_list(option, text, lowest, highest);
     const auto whole = static_cast<std::uint64_t>(values.front());
     if (values.size() != 1 || values.front() != static_cast<double>(whole))
-        throw UsageError(std::string(option) + ": must be one whole number (got '" +
+        throw UsageError(std::string(option) + ": must be a single whole number (got '" +
                          std::string(text) + "')");
     return whole;
 }

@@ -13,7 +13,7 @@ namespace irido::cli {
 
 namespace {
 
-/// Of `count` samples as many, spread over all.
+/// `count` of the samples, evenly distributed.
 std::vector<double> some_of(const std::vector<double>& samples, std::size_t count) {
     std::vector<double> some;
     for (std::size_t i = 0; i < count; ++i)
@@ -21,7 +21,7 @@ std::vector<double> some_of(const std::vector<double>& samples, std::size_t coun
     return some;
 }
 
-/// A part of the plan's own grid with at least so many samples, or all.
+/// A part of the plan's grid with at least that many samples, or all of it.
 std::vector<tables::LutAxis> part_of_grid(const tables::LutPlan& plan, double samples) {
     std::vector<std::size_t> counts(plan.axes.size(), 1);
     double product = 1;

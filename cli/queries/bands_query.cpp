@@ -19,8 +19,7 @@ std::vector<Polarization> band_polarizations(const std::string& text) {
     std::vector<Polarization> polarizations;
     for (const std::string_view item : comma_separated(text)) {
         if (item != "s" && item != "p")
-            throw UsageError("--polarization: must be s, p or both with a comma (got '" + text +
-                             "')");
+            throw UsageError("--polarization: must be s, p or s,p (got '" + text + "')");
         polarizations.push_back(item == "s" ? Polarization::s : Polarization::p);
     }
     return polarizations;
@@ -62,7 +61,7 @@ std::string name_of(LandmarkKind kind) {
 
 }  // namespace
 
-/// Rows one by one, those of a stack that fails taken back.
+/// Collects rows; a stack that fails adds none.
 template <class Rows>
 class BandsResult : public QueryResult {
 public:
@@ -238,8 +237,8 @@ tables::RecordLayout BandsQuery::layout(const schemas::StackDocument&) const {
 std::unique_ptr<const PreparedStack> BandsQuery::prepare(schemas::StackDocument document) const {
     const double k = mirror(document, document.stack).left_out_k();
     if (k > 0)
-        run_.note("the absorption of the two layers (k up to " + to_text(k) +
-                  ") is left out of landmarks and gaps");
+        run_.note("landmarks and gaps ignore the absorption of the two layers (k up to " +
+                  to_text(k) + ")");
     return std::make_unique<PreparedStack>(std::move(document));
 }
 
@@ -263,18 +262,17 @@ double BandsQuery::cost_us(const PreparedStack& prepared, const Stack& stack, do
 std::unique_ptr<QueryOptions> BandsOptions::add(CLI::App& command) {
     auto options = std::make_unique<BandsOptions>();
     add_angles_option(command, options->angles);
-    command
-        .add_option("-p,--polarization", options->polarization, "s, p or both with a comma [s,p]")
+    command.add_option("-p,--polarization", options->polarization, "s, p or s,p [s,p]")
         ->type_name("LETTERS");
     command
         .add_option("--range", options->range,
-                    "vacuum wavelengths that are looked at, nm, in [1, 1e7] [360:830]")
+                    "range of vacuum wavelengths, nm, in [1, 1e7] [360:830]")
         ->type_name("FIRST:LAST");
     command.add_flag("--gaps", options->gaps,
-                     "the gaps instead: ends, width, R of the whole stack in the middle\n"
-                     "(of 1/wavelength), N_95, N_99 and N_999 periods needed there for\n"
-                     "R of 0.95, 0.99 and 0.999 (0: none up to 1e9), and whether some\n"
-                     "wavelength lies in the gap at all angles in s and p");
+                     "list gaps instead: edges, width, R of the whole stack at mid-gap (in\n"
+                     "1/wavelength), the numbers of periods N_95, N_99, N_999 that reach\n"
+                     "an R of 0.95, 0.99, 0.999 there (0: none up to 1e9), and whether\n"
+                     "some wavelength lies in the gap at all angles in s and p");
     return options;
 }
 

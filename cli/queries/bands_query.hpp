@@ -8,7 +8,7 @@
 
 namespace irido::cli {
 
-/// What irido bands is asked, as typed.
+/// Options of irido bands, as typed.
 struct BandsOptions : QueryOptions {
     std::string angles = "0";
     std::string polarization = "s,p";
@@ -26,7 +26,9 @@ public:
     BandsQuery(const BandsOptions& typed, const QueryRun& run);
 
     std::span<const double> angles_deg() const override { return angles_deg_; }
-    bool splits_angles() const override { return !gaps_; }  // what all angles say of a gap
+    bool splits_angles() const override {
+        return !gaps_;
+    }  // omnidirectional gaps concern all angles
     std::size_t rows_per_angle() const override { return 0; }
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
@@ -36,9 +38,9 @@ public:
 
     double first_nm() const { return first_nm_; }
     double last_nm() const { return last_nm_; }
-    /// A little wider than asked, against the roundings of 2 pi / wavelength.
+    /// The range, widened slightly against rounding errors of 2 pi / wavelength.
     OmegaRange omega() const;
-    /// The mirror that a stack is. Throws InputError.
+    /// The stack as a Bragg mirror. Throws InputError.
     BraggMirror mirror(const schemas::StackDocument& document, const Stack& stack) const;
 
 private:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMostOrders = 1e6, kMostRows = 1e7;
 
-/// The letters of a list, each one of `allowed`; `rule` says so.
+/// The letters of a comma-separated list, each one of `allowed`; `rule` is the error message.
 std::vector<char> parse_letters(const std::string& text, std::string_view allowed,
                                 std::string rule) {
     std::vector<char> letters;
@@ -68,10 +68,8 @@ FilmSeries series_at(const schemas::StackDocument& document, const Film& film, d
     if (series) return *series;
     throw schemas::InputError(
         document.file, "",
-        "there is no series at " + to_text(angle_deg) + " degrees, where " +
-            (film.base.imag() < 0 ? "the film is past its critical angle or the base "
-                                    "amplifies without bound"
-                                  : "the film is past its critical angle"));
+        "no Fourier series at " + to_text(angle_deg) + " degrees: past the film's critical angle" +
+            (film.base.imag() < 0 ? ", or the base amplifies without bound" : ""));
 }
 
 }  // namespace
@@ -135,17 +133,17 @@ private:
 
 CmQuery::CmQuery(const CmOptions& typed)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
-      polarizations_(parse_letters(typed.polarization, "sp",
-                                   "--polarization: must be s, p or both with a comma")),
-      sides_(parse_letters(typed.sides, "RT", "--side: must be R, T or both with a comma")),
+      polarizations_(
+          parse_letters(typed.polarization, "sp", "--polarization: must be s, p or s,p")),
+      sides_(parse_letters(typed.sides, "RT", "--side: must be R, T or R,T")),
       orders_(parse_orders(typed.orders)),
       at_nm_(
           parse_one_number("--at", typed.at, kAllWavelengths.first_nm, kAllWavelengths.last_nm)) {
     const double rows =
         static_cast<double>(angles_deg_.size()) * static_cast<double>(rows_per_angle());
     if (rows > kMostRows)
-        throw UsageError("--orders: asks for " + to_text(rows) + " rows, more than " +
-                         to_text(kMostRows));
+        throw UsageError("--orders: the result must have at most " + to_text(kMostRows) +
+                         " rows (got " + to_text(rows) + ")");
 }
 
 tables::RecordLayout CmQuery::layout(const schemas::StackDocument&) const {
@@ -171,18 +169,13 @@ double CmQuery::cost_us(const PreparedStack&, const Stack&, double, std::optiona
 std::unique_ptr<QueryOptions> CmOptions::add(CLI::App& command) {
     auto options = std::make_unique<CmOptions>();
     add_angles_option(command, options->angles);
-    command
-        .add_option("-p,--polarization", options->polarization, "s, p or both with a comma [s,p]")
+    command.add_option("-p,--polarization", options->polarization, "s, p or s,p [s,p]")
         ->type_name("LETTERS");
     command.add_option("--side", options->sides, "R (reflected), T (transmitted) or R,T [R]")
         ->type_name("SIDES");
-    command
-        .add_option("--orders", options->orders,
-                    "orders m, whole numbers in [0, 1e6], as --angles has its values [0:5:1]")
+    command.add_option("--orders", options->orders, "orders m, whole numbers in [0, 1e6] [0:5:1]")
         ->type_name("LIST");
-    command
-        .add_option("--at", options->at,
-                    "vacuum wavelength at which the indices are taken, nm, [1, 1e7] [550]")
+    command.add_option("--at", options->at, "vacuum wavelength of the indices, nm, [1, 1e7] [550]")
         ->type_name("NM");
     return options;
 }

@@ -7,7 +7,7 @@
 
 namespace irido::cli {
 
-/// What irido cm is asked, as typed.
+/// Options of irido cm, as typed.
 struct CmOptions : QueryOptions {
     std::string angles = "0";
     std::string polarization = "s,p";

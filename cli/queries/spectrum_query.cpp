@@ -10,6 +10,7 @@
 #include "core/spectrum/stack_power.hpp"
 #include "core/stack/index_table.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/index_rows.hpp"
 
 namespace irido::cli {
 
@@ -27,7 +28,8 @@ std::string parse_polarizations(std::string_view text) {
     return letters;
 }
 
-/// The error of the first material that has no index at one of the wavelengths, with its place.
+/// Throws the error of the first material without an index at one of the wavelengths, with its
+/// JSON pointer.
 [[noreturn]] void throw_material_error(const schemas::StackDocument& document,
                                        const std::vector<double>& wavelengths_nm,
                                        const DomainError& fallback) {
@@ -71,32 +73,32 @@ std::string count_of(std::size_t part, std::size_t all, const std::string& what)
     return std::to_string(part) + " of " + std::to_string(all) + " " + what;
 }
 
-/// Why the vector kernel does not take a request.
+/// Why a request is left to the plain kernel.
 std::string why_plain(const StackPower& stack, const Needs& needs, SimdLevel simd) {
     if (simd == SimdLevel::plain) return "IRIDO_SIMD=plain";
     if (needs.layers) return "A_layers";
-    if (!stack.chain()) return "spread thicknesses";
+    if (!stack.chain()) return "thickness distributions";
     return "groups of many absorbing layers, or phases beyond 1e12";
 }
 
 std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::size_t angles,
                                   const std::string& plain_reason) {
     std::vector<std::string> lines;
-    const std::string points = std::to_string(work.points) + " points of wavelength and angle, ";
+    const std::string points = std::to_string(work.points) + " points (wavelength, angle), ";
     if (work.kernel == SimdLevel::plain) {
         lines.push_back(points + "one at a time (" + plain_reason + ")");
     } else {
-        lines.push_back(points + "side by side (" + std::string(name_of(work.kernel)) + "), " +
+        lines.push_back(points + "vectorized (" + std::string(name_of(work.kernel)) + "), " +
                         std::to_string(work.layers) + " layers");
     }
     const auto skipped = [&](const std::string& what) { lines.push_back("skipped: " + what); };
     if (work.normal_angles > 0 && needs.s && needs.p)
         skipped("p at " + count_of(work.normal_angles, angles, "angles (s serves both at 0 deg)"));
-    if (!needs.s || !needs.p) skipped(std::string(needs.s ? "p" : "s") + " (not asked for)");
+    if (!needs.s || !needs.p) skipped(std::string(needs.s ? "p" : "s") + " (not requested)");
     if (work.kernel == SimdLevel::plain) return lines;
-    if (work.one_film) skipped("the recursion over layers (one film: Airy's sum)");
+    if (work.one_film) skipped("recursion over layers (one film: Airy's sum)");
     if (work.mirror)
-        skipped("the matrices of layers (a mirror in a host of one of its indices: Yeh's form)");
+        skipped("layer matrices (closed form for a mirror embedded in one of its own materials)");
     if (work.transparent_layers > 0)
         skipped("complex arithmetic in " +
                 count_of(work.transparent_layers, work.layers, "layers (transparent)"));
@@ -104,11 +106,11 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
         skipped("matrices of " + count_of(work.layers - work.distinct_layers, work.layers,
                                           "layers (equal to others)"));
     if (work.powers > 0)
-        skipped("the repetitions of " + std::to_string(work.powers) +
-                " groups (powers in closed form)");
+        skipped("repetitions of " + schemas::plural(work.powers, "group") +
+                " (matrix powers in closed form)");
     if (work.constant_media > 0)
-        skipped("angle terms of " + count_of(work.constant_media, work.media,
-                                             "media but once an angle (no dispersion)"));
+        lines.push_back("reused across wavelengths: angle terms of " +
+                        count_of(work.constant_media, work.media, "media (no dispersion)"));
     if (!work.absorbs) skipped("absorption (no layer absorbs)");
     if (work.passes > 1)
         lines.push_back(std::to_string(work.passes) +
@@ -116,9 +118,9 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
     return lines;
 }
 
-/// Numbers, more or less, that are computed and written at a time.
+/// Approximate count of numbers that are computed and written at a time.
 constexpr std::size_t kBlockNumbers = 1U << 20U;
-/// Of index tables: 64 MB.
+/// Cache of index tables: 64 MB.
 constexpr std::size_t kKeptIndices = 1U << 23U;
 
 template <class Value>
@@ -127,9 +129,9 @@ std::vector<Value> part_of(const std::vector<Value>& all, std::size_t begin, std
     return {first, first + static_cast<std::ptrdiff_t>(std::min(count, all.size() - begin))};
 }
 
-/// Wavelengths that make an IndexTable of themselves and any others of the request choose the same
-/// arithmetic as one of all: where a material first absorbs, amplifies or changes its index, those
-/// of the largest index, and the shortest.
+/// Wavelengths that, added to any part of a request, make an IndexTable choose the same arithmetic
+/// as for the whole request: those where a material first absorbs, amplifies or changes its index,
+/// those of the largest index, and the shortest.
 class Witnesses {
 public:
     void see(const IndexTable& table) {
@@ -179,7 +181,7 @@ private:
     std::optional<double> shortest_;
 };
 
-/// Leaves the first rows of each column.
+/// Cuts every column after its first `rows` rows.
 void cut(tables::Records& records, std::size_t rows) {
     for (tables::Column& column : records.columns)
         std::visit(
@@ -230,7 +232,8 @@ public:
         const std::size_t layers = needs.layers ? power.layer_count() : 0;
         if (numbers_.empty()) begin(layers);
         if (layers != layers_)
-            throw UsageError("--columns: A_layers needs as many layers in every stack");
+            throw UsageError(
+                "--columns: A_layers requires the same number of layers in every stack");
         return append(incidence, table.wavelength_nm());
     }
 
@@ -386,7 +389,7 @@ void SpectrumQuery::each_part_of_angle(
         witnesses.see(table);
     }
     const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
-    // what all angles and polarizations have in common, as far as there is room for it
+    // shared by all angles and polarizations, and kept if it fits
     std::vector<std::unique_ptr<const SpectrumStack>> kept((all + most - 1) / most);
     const bool has_room = all * (2 * document.stack.materials.size() + 2) <= kKeptIndices;
     std::unique_ptr<const SpectrumStack> passing;
@@ -429,18 +432,19 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
     add_angles_option(command, options->angles);
     command
         .add_option("-p,--polarization", options->polarization,
-                    "s, p, u (unpolarized: the mean of both), several with commas [u]")
+                    "s, p, u (unpolarized: the mean of both) or several: s,p [u]")
         ->type_name("LETTERS");
     command
         .add_option("--columns", options->columns,
-                    "more columns, several with commas, in that order:\n"
+                    "additional columns, in the order given:\n"
                     "r_re r_im t_re t_im  amplitudes of the tangential electric\n"
                     "    field, time factor exp(-i w t), so that r_p = r_s at 0 deg\n"
                     "psi_deg delta_deg  ellipsometric angles, r_p/r_s = tan(psi)\n"
-                    "    exp(i delta); delta = 0 at 0 deg (others have 180 there)\n"
-                    "A_layers  A_1 A_2 ..., absorbed in each layer, at most 1000\n"
+                    "    exp(i delta); delta = 0 at 0 deg (the other common\n"
+                    "    convention gives 180)\n"
+                    "A_layers  A_1 A_2 ..., absorptance of each layer, at most 1000\n"
                     "    (np.load needs max_header_size=100000 for more than 500)\n"
-                    "All but A_layers need -p s, p or s,p and coherent layers")
+                    "All but A_layers require -p s, p or s,p and coherent layers")
         ->type_name("LIST");
     return options;
 }

@@ -8,7 +8,7 @@
 
 namespace irido::cli {
 
-/// What irido spectrum is asked, as typed.
+/// Options of irido spectrum, as typed.
 struct SpectrumOptions : QueryOptions {
     std::string wavelengths = "380:780:1";
     std::string angles = "0";
@@ -20,7 +20,7 @@ struct SpectrumOptions : QueryOptions {
     nlohmann::json typed() const override;
 };
 
-/// R, T, A and more over wavelengths and angles.
+/// R, T, A and optional columns over wavelengths and angles.
 class SpectrumQuery : public Query {
 public:
     SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run);
@@ -40,12 +40,12 @@ public:
 
     /// Rows of all wavelengths, angles and polarizations.
     std::uint64_t rows() const;
-    /// Gives all rows of a stack in their order, block after block, in memory that does not grow
-    /// with their number: the values of prepare() and new_result(). Throws as these.
+    /// Passes all rows of a stack to `take`, in order, block by block and in constant memory; the
+    /// values are those of new_result(). Throws InputError or UsageError.
     void each_block(const schemas::StackDocument& document,
                     const std::function<void(const tables::Records&)>& take) const;
 
-    /// How a stack was computed, and what its physics spared, in lines.
+    /// Lines about how a stack was computed and which work its physics saved.
     std::vector<std::string> stats(const PreparedStack& prepared) const;
 
 private:

@@ -18,16 +18,16 @@ namespace irido::cli {
 
 namespace {
 
-/// A block takes so long, if it has not too many rows.
+/// Target run time of a block, unless it has too many rows.
 constexpr double kShortBlock_s = 0.02, kLongBlock_s = 0.1;
 constexpr std::uint64_t kMostBlockRows = 8192, kFirstUnits = 16;
-/// Blocks that wait to be written, for each thread.
+/// Blocks per thread that may wait to be written.
 constexpr std::size_t kBlocksAhead = 4;
-/// Units whose cost says how to cut shards.
+/// Units sampled for the cost of shards.
 constexpr std::uint64_t kCostSamples = 4096;
 constexpr double kMostUnits = 1e18;
 
-/// Values of the varied columns in front of every row.
+/// Appends the values of varied columns that precede every row.
 class LeadingColumns {
 public:
     LeadingColumns(const SweepSpace& space, const std::vector<std::size_t>& columns)
@@ -77,7 +77,7 @@ private:
     tables::Records records_;
 };
 
-/// The most bytes that a value of a column has.
+/// Bytes of the longest value of a column.
 std::size_t width_of(const SweptColumn& column) {
     std::size_t width = 1;
     for (const std::string& text : column.texts) width = std::max(width, text.size());
@@ -93,7 +93,7 @@ bool has_field(const tables::RecordLayout& layout, const std::string& name) {
     return std::ranges::find(layout, name, &tables::RecordField::name) != layout.end();
 }
 
-/// Runs `work`; what it throws says where: at place().
+/// Runs `work`; its errors begin with "at PLACE: ".
 template <class Place, class Work>
 auto at_place(const Place& place, const Work& work) {
     try {
@@ -143,8 +143,7 @@ public:
         changed_.notify_all();
     }
 
-    /// The first block that is not written yet, when it is done; nullptr if that takes longer than
-    /// a moment.
+    /// The first unwritten block once it is done; nullptr after a short wait.
     std::shared_ptr<Block> first_done() {
         std::unique_lock guard(lock_);
         const auto is_done = [&] { return !waiting_.empty() && waiting_.front()->is_done; };
@@ -181,7 +180,7 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
         if (columns[c].path == kSweptWavelength) wavelength_column_ = c;
     }
     if (wavelength_column_ && !query.takes_wavelength())
-        throw UsageError("wavelength_nm: varies for --compute spectrum only");
+        throw UsageError("wavelength_nm: can vary for --compute spectrum only");
     units_ = space.size();
     is_inner_angle_ = angle_column_ && *angle_column_ + 1 == columns.size() &&
                       !columns.back().of_points && query.splits_angles();
@@ -194,7 +193,7 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
     } else {
         angles_ = query.angles_deg();
         if (static_cast<double>(units_) * static_cast<double>(angles_.size()) > kMostUnits)
-            throw UsageError("--vary: more than 1e18 combinations and angles");
+            throw UsageError("--vary: must give at most 1e18 combinations and angles");
         units_ *= angles_.size();
     }
     rows_per_unit_ = query.rows_per_angle();
@@ -218,13 +217,13 @@ double SweepEngine::cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const {
         if (angle_column_) return cost(number_at(*angle_column_, combination));
         if (query_.splits_angles()) return cost(angles_[unit % angles_.size()]);
         return cost(0) * static_cast<double>(query_.angles_deg().size());
-    } catch (const Error&) {  // for the run to find
+    } catch (const Error&) {  // the run will report it
         return kLeftOut;
     }
 }
 
 std::vector<std::uint64_t> SweepEngine::shard_ends(std::uint64_t shards) {
-    constexpr double kRounded = 64;  // whole numbers add up to the same everywhere
+    constexpr double kRounded = 64;  // sums of whole numbers are the same everywhere
     const std::uint64_t cells = std::min(units_, kCostSamples);
     const auto cell_begin = [&](std::uint64_t cell) {
         return static_cast<std::uint64_t>(static_cast<long double>(units_) *
@@ -294,7 +293,8 @@ tables::Records SweepEngine::assembled(tables::Records leading, tables::Records 
     }
     for (tables::Column& column : computed.columns) all.columns.push_back(std::move(column));
     if (all.columns.size() != layout_.size())
-        throw UsageError("--columns: A_layers needs as many layers in every stack of a sweep");
+        throw UsageError(
+            "--columns: A_layers requires the same number of layers in every stack of a sweep");
     return all;
 }
 
