@@ -5,7 +5,7 @@
 
 namespace irido::tables {
 
-/// Small diagrams in rows of four with the same two logarithmic axes, as a picture.
+/// Small panels in rows of four, with the same two logarithmic axes.
 struct Plot {
     struct Point {
         double x = 0, y = 0;
@@ -28,7 +28,7 @@ struct Plot {
     std::string title;
     Axis x, y;
     std::vector<std::string> legend;  ///< names of the kinds
-    std::string highlight;            ///< what the pale line is, "" for none
+    std::string highlight;            ///< legend of the pale line, "" for none
     std::vector<Panel> panels;
 };
 

@@ -7,10 +7,10 @@ namespace irido::tables {
 /// Shortest text of a number.
 std::string svg_number(double value);
 
-/// Of a coordinate, to a hundredth of a unit.
+/// Text of a coordinate, to a hundredth of a unit.
 std::string svg_coordinate(double value);
 
-/// Text as it stands between tags or in quotes, well_formed().
+/// Text escaped for element content and attributes, and well_formed().
 std::string svg_escaped(const std::string& text);
 
 /// A line of text; anchor start, middle or end.
