@@ -4,7 +4,7 @@
 
 namespace irido::tables {
 
-/// Which sources a program was built from.
+/// The sources that a program was built from.
 struct Build {
     std::string version;  ///< "0.1.0"
     /// "cc98dd7a1b2c", with "-dirty-" and a checksum of the changes where the sources differ from
@@ -14,7 +14,7 @@ struct Build {
     bool operator==(const Build&) const = default;
 };
 
-/// This program.
+/// The build of this program.
 const Build& this_build();
 
 /// "0.1.0 (cc98dd7a1b2c)", or the version alone.

@@ -4,7 +4,7 @@ namespace irido::cli {
 
 void add_bench_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "bench", "What irido's own numbers are worth, measured here and now.");
+        "bench", "Benchmarks: speed, accuracy and stability on this machine.");
     command->require_subcommand(1);
     add_bench_pareto(*command, run);
     add_bench_scene(*command, run);

@@ -16,7 +16,7 @@ void add_bench_stability(CLI::App& bench, Run& run);
 void add_bench_pareto(CLI::App& bench, Run& run);
 void add_bench_scene(CLI::App& bench, Run& run);
 
-/// The names of cases, for completions; all of them is one, too.
+/// The names of cases, "all" first.
 template <class Case>
 std::vector<std::string> case_names(std::span<const Case> all) {
     std::vector<std::string> names{"all"};
@@ -24,8 +24,8 @@ std::vector<std::string> case_names(std::span<const Case> all) {
     return names;
 }
 
-/// The cases of "a,b" or "all" in that order; `bench` is the subcommand whose help lists them.
-/// Throws UsageError.
+/// The cases of "a,b", in that order, or of "all". Throws UsageError, which refers to the help of
+/// the subcommand `bench`.
 template <class Case>
 std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> all,
                                const std::string& bench) {
@@ -37,7 +37,7 @@ std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> al
             chosen.push_back(*found);
             continue;
         }
-        throw UsageError("--cases: there is no case '" + std::string(name) + "'" +
+        throw UsageError("--cases: unknown case '" + std::string(name) + "'" +
                          schemas::did_you_mean(name, case_names(all)) + " (see irido bench " +
                          bench + " --help)");
     }
@@ -47,13 +47,13 @@ std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> al
 /// The help of --cases.
 template <class Case>
 std::string cases_help(std::span<const Case> all) {
-    std::string text = "all, or some of these with commas [all]:";
+    std::string text = "all, or some of these, separated by commas [all]:";
     for (const Case& one : all)
         text += "\n" + std::string(one.name) + ": " + std::string(one.summary);
     return text;
 }
 
-/// A column of value(row) for every row.
+/// Appends a column with value(row) for every row.
 template <class Row, class Value>
 void add_numbers(tables::Records& records, std::string name, const std::vector<Row>& rows,
                  const Value& value) {

@@ -122,14 +122,14 @@ tables::Records to_records(const std::vector<ParetoRow>& rows) {
     return records;
 }
 
-/// Errors below are roundings, and those of the reference.
+/// Smaller errors are rounding errors, or those of the reference.
 constexpr double kSmallestError = 1e-13;
 
 tables::Point point_of(const ParetoRow& row) {
     return {row.report.ns_per_color, std::clamp(row.report.max_error, kSmallestError, 1.0)};
 }
 
-/// The steps along which nothing is both faster and more exact.
+/// The Pareto front, as steps: no point is both faster and more accurate.
 std::vector<tables::Point> front(const std::vector<ParetoRow>& rows) {
     std::vector<tables::Point> points, steps;
     for (const ParetoRow& row : rows) points.push_back(point_of(row));
@@ -142,7 +142,7 @@ std::vector<tables::Point> front(const std::vector<ParetoRow>& rows) {
     return steps;
 }
 
-/// `names` of the methods so far; those that are new are added.
+/// The panel of one case; new methods are appended to `names`.
 tables::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::string>& names) {
     using enum tables::Series::Form;
     tables::Panel panel{.title = std::string(rows.front().of)};
@@ -217,7 +217,7 @@ int run_pareto(const ParetoOptions& options) {
 
 void add_bench_pareto(CLI::App& bench, Run& run) {
     CLI::App* command = bench.add_subcommand(
-        "pareto", "Run time against error of every way to compute a colour, beside the exact one.");
+        "pareto", "Run time against error for every method to compute a colour.");
     const auto options = std::make_shared<ParetoOptions>();
     command->add_option("-c,--cases", options->cases, cases_help<ColorCase>(color_cases()))
         ->type_name("NAMES");
@@ -237,7 +237,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         ->type_name("S");
     command
         ->add_option("--plot", options->plot,
-                     "draw every case's rows into FILE too: .svg, .png or .pdf")
+                     "also plot the rows of every case into FILE (.svg, .png or .pdf)")
         ->type_name("FILE");
     add_output_options(*command, options->output, record_formats_text());
     set_examples(
@@ -246,22 +246,21 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
          "irido bench pareto --cases dielectric,conductor --count 2000 -f json"},
         "Reflected unpolarized light, D65, 2 degrees, one thread; white Y = 1. Methods:\n"
         "quadrature, fourier, fourier-constant, bloch and auto at their tolerances (fourier\n"
-        "also up to the order `parameter`, bloch also the average alone, at tolerance 0);\n"
+        "also truncated at the order `parameter`, bloch also the mean alone, at tolerance 0);\n"
         "landmarks: FPB24's boxes, subdivided by `parameter`;\n"
         "equal: `parameter` equally spaced wavelengths;\n"
         "naive: 650, 510, 475 nm; gaussian: Belcour and Barla's Gaussians; gltf: the\n"
-        "formulas of KHR_materials_iridescence; smits: two beams. A method that does not\n"
-        "take a case's stacks has no rows there.\n"
+        "formulas of KHR_materials_iridescence; smits: two beams. A method that cannot\n"
+        "compute the stacks of a case has no rows there.\n"
         "Columns: parameter and tolerance, 0 where there is none; evaluations: wavelengths\n"
-        "a colour; ns_per_color: the shortest of repeated runs, in the random sets with\n"
-        "each stack's preparation, else of a prepared method; max_dXYZ: largest error of\n"
-        "X, Y, Z against quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours, the\n"
-        "mean of the case's `colors`, what 95 % of them stay below, and the largest.\n"
-        "For methods with a tolerance: equal_wavelengths: equally spaced ones with the same "
-        "max_dXYZ,\n"
-        "equal_ns_per_color and times_faster; 0 for the others, and if more than 65536\n"
-        "are needed. worst_stack, worst_angle_deg: where dE2000 is largest, which is\n"
-        "worst_hex there instead of exact_hex.");
+        "per colour; ns_per_color: the fastest of repeated runs, including each stack's\n"
+        "preparation in the random sets; max_dXYZ: largest error of X, Y, Z against\n"
+        "quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours: mean, 95th percentile\n"
+        "and maximum over the case's `colors`. For methods with a tolerance:\n"
+        "equal_wavelengths: number of equally spaced wavelengths with the same max_dXYZ, and\n"
+        "their equal_ns_per_color and times_faster; 0 for other methods, and if more than\n"
+        "65536 are needed. worst_stack, worst_angle_deg: where dE2000 is largest; there\n"
+        "the method gives worst_hex instead of exact_hex.");
     command->callback([options, &run] { run = [options] { return run_pareto(*options); }; });
 }
 

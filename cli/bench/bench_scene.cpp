@@ -30,7 +30,7 @@ struct SceneBenchOptions {
     OutputOptions output;
 };
 
-/// The example scenes and the stacks that they name, which the program carries in itself.
+/// The example scenes and their stacks, embedded in the program.
 struct Document {
     const char* path;
     const char* text;
@@ -63,7 +63,7 @@ constexpr std::array<Document, 6> kExamples{{
     },
 }};
 
-/// A folder for the bakes, gone at the end.
+/// A temporary folder for the bakes.
 class Workplace {
 public:
     Workplace() {
@@ -95,7 +95,7 @@ bool is_in_delta_e(const tables::LutPlan& plan) {
     return plan.measure.name == "delta_e_2000";
 }
 
-/// Bakes into `folder`; the worst Delta E is left out.
+/// Bakes into `folder`; does not measure the worst Delta E.
 SceneRow baked(const std::string& name, const schemas::Scene& scene, const std::string& folder,
                const SceneBenchOptions& options) {
     SceneRow row{name, "irido", 0, 0, 0, 0, 0, 0};
@@ -119,7 +119,7 @@ SceneRow baked(const std::string& name, const schemas::Scene& scene, const std::
     return row;
 }
 
-/// The values of a table of a bake, from its file or from the manifest.
+/// A table of a bake, from its file or, if it has none, computed.
 tables::Lut lut_of(const tables::SceneTable& table, const nlohmann::json& entry,
                    const std::string& folder) {
     if (entry.contains("file")) return tables::read_lut(folder + "/" + table.file);
@@ -152,8 +152,8 @@ double worst_of_bake(const schemas::Scene& scene, const std::string& folder,
     return worst;
 }
 
-/// Tables of all colours of every material, of both polarizations and both sides, 256 samples
-/// along the angle from 0 to 90 degrees and along the first value that varies.
+/// Colour tables of every material for both polarizations and both sides, with 256 samples along
+/// the angle from 0 to 90 degrees and along the first varied value.
 SceneRow fixed(const std::string& name, const schemas::Scene& scene,
                const SceneBenchOptions& options, const tables::RandomPoints& points) {
     SceneRow row{name, "fixed 256", 0, 0, 0, 0, 0, 0};
@@ -178,7 +178,7 @@ SceneRow fixed(const std::string& name, const schemas::Scene& scene,
                     seconds_of([&] { lut = tables::make_lut(kind, kind.plan(request), making); });
                 ++row.tables;
                 ++row.written;
-                // four halves a texel, and a third more for the mip levels
+                // four halves per texel, and a third more for the mip levels
                 row.bytes += lut.values.size() / 3 * 8 * 4 / 3;
                 for (double& value : lut.values)
                     value = tables::rounded(value, tables::LutType::f16);
@@ -210,7 +210,7 @@ tables::Records to_records(const std::vector<SceneRow>& rows) {
     return records;
 }
 
-/// Names and files of the scenes that were typed, or of the examples.
+/// Names and files of the scenes given, or of the examples.
 std::vector<std::pair<std::string, std::string>> scenes_of(const SceneBenchOptions& options,
                                                            const Workplace& place) {
     std::vector<std::pair<std::string, std::string>> scenes;
@@ -237,7 +237,7 @@ int run_scene(const SceneBenchOptions& options) {
     const Workplace place;
     std::vector<SceneRow> rows;
     for (const auto& [name, file] : scenes_of(options, place)) {
-        if (file == "-") throw UsageError("a scene that is baked twice must be a file");
+        if (file == "-") throw UsageError("SCENE: must be a file, as it is baked twice (got -)");
         const schemas::Scene scene = schemas::read_scene(file);
         const std::string folder = place / ("tables-" + std::to_string(rows.size()));
         SceneRow first = baked(name, scene, folder, options);
@@ -261,9 +261,9 @@ int run_scene(const SceneBenchOptions& options) {
 
 void add_bench_scene(CLI::App& bench, Run& run) {
     CLI::App* command = bench.add_subcommand(
-        "scene", "A scene's bake beside tables of everything at a fixed size.");
+        "scene", "Compare the bake of a scene with fixed-size tables of all its colours.");
     const auto options = std::make_shared<SceneBenchOptions>();
-    command->add_option("SCENE", options->scenes, "scene files [the examples of the source]");
+    command->add_option("SCENE", options->scenes, "scene files [the built-in examples]");
     command
         ->add_option("-n,--count", options->count,
                      "random points of each table for worst_delta_e, [1, 1e6] [1000]")
@@ -275,17 +275,16 @@ void add_bench_scene(CLI::App& bench, Run& run) {
     add_threads_option(*command, options->threads);
     set_examples(
         *command, {"irido bench scene", "irido bench scene vehicle.json --count 10000 -f json"},
-        "Methods: irido, a bake into an empty folder; irido again, the same scene once\n"
-        "more; fixed 256, colours of every material at 256 samples of cos(theta) from 0\n"
-        "to 1 and 256 of the first value that varies (16 of the second), of both\n"
-        "polarizations and both sides, with all mip levels (counted, not computed), f16.\n"
-        "Columns: tables; bytes of their files; seconds with planning and writing, of\n"
-        "fixed 256 without writing; worst_delta_e: CIEDE2000 to the exact colour at random\n"
-        "places of the domain that the scene uses, of tables of colours and albedos and of\n"
-        "what the shader computes with the shading fourier (tables in other measures are\n"
-        "left out), without a spread of the thickness; files_written;\n"
-        "worst_delta_e_levels: with its spreads, too, whose mip levels are coarser and not\n"
-        "held to the tolerance (fixed 256 has none).");
+        "Methods: irido: a bake into an empty folder; irido again: the same bake repeated;\n"
+        "fixed 256: colours of every material at 256 samples of cos(theta) from 0 to 1 and\n"
+        "256 of the first varied value (16 of the second), for both polarizations and both\n"
+        "sides, with all mip levels (counted, not computed), f16.\n"
+        "Columns: tables; bytes of their files; seconds including planning and writing (fixed\n"
+        "256: without writing); worst_delta_e: CIEDE2000 to the exact colour at random points\n"
+        "of the domain that the scene uses, for tables of colours and albedos and for the\n"
+        "shading fourier (tables with other measures are left out), at a single thickness;\n"
+        "files_written; worst_delta_e_levels: the same including thickness distributions,\n"
+        "whose mip levels are coarser and not held to the tolerance (fixed 256 has none).");
     command->callback([options, &run] { run = [options] { return run_scene(*options); }; });
 }
 

@@ -46,7 +46,7 @@ Material constant(double n, double k = 0) {
     return {"", RefractiveIndex{Constant{n}, Constant{k}}};
 }
 
-/// `layers` different films, their index given for each one.
+/// `layers` different films; index(i) is the material of film i.
 template <class Index>
 Stack films(int layers, const Index& index) {
     Stack stack;
@@ -85,7 +85,7 @@ Stack periods(int layers) {
     return stack;
 }
 
-/// The same between half-spaces of the index of one of the two.
+/// Periods between half-spaces of the index of one of the two films.
 Stack hosted_periods(int layers) {
     Stack stack = periods(layers);
     stack.incident = stack.substrate =
@@ -95,38 +95,38 @@ Stack hosted_periods(int layers) {
 
 constexpr std::array kCases{
     SpeedCase{"film", 1, "one transparent film", transparent},
-    SpeedCase{"film_normal", 1, "the same at 0 degrees", transparent, true},
-    SpeedCase{"film_R", 1, "the same where only R is asked for", transparent, false, true},
+    SpeedCase{"film_normal", 1, "one transparent film at 0 degrees", transparent, true},
+    SpeedCase{"film_R", 1, "one transparent film, R only", transparent, false, true},
     SpeedCase{"film_absorbing", 1, "one absorbing film", absorbing},
     SpeedCase{"2", 2, "two transparent films", transparent},
-    SpeedCase{"10", 10, "ten of them", transparent},
+    SpeedCase{"10", 10, "ten transparent films", transparent},
     SpeedCase{"10_absorbing", 10, "ten absorbing films", absorbing},
     SpeedCase{"40", 40, "40 transparent films", transparent},
-    SpeedCase{"40_normal", 40, "the same at 0 degrees", transparent, true},
+    SpeedCase{"40_normal", 40, "40 transparent films at 0 degrees", transparent, true},
     SpeedCase{"40_dispersive", 40, "40 films with dispersion formulas", dispersive},
     SpeedCase{"40_absorbing", 40, "40 absorbing films", absorbing},
     SpeedCase{"20_periods", 40, "20 periods of two films", periods},
     SpeedCase{"500_periods", 1000, "500 periods of two films", periods},
     SpeedCase{"20_hosted", 40, "20 periods between half-spaces of the first one", hosted_periods},
-    SpeedCase{"500_hosted", 1000, "500 of them", hosted_periods},
+    SpeedCase{"500_hosted", 1000, "500 periods in such a host", hosted_periods},
     SpeedCase{"1000", 1000, "1000 transparent films", transparent},
     SpeedCase{"1000_absorbing", 1000, "1000 absorbing films", absorbing},
-    filter_case(0.001, "falpha_0.001", "transmission filter of a layer of roughness 0.001"),
-    filter_case(0.01, "falpha_0.01", "of roughness 0.01"),
-    filter_case(0.05, "falpha_0.05", "of roughness 0.05"),
-    filter_case(0.1, "falpha_0.1", "of roughness 0.1"),
-    filter_case(0.2, "falpha_0.2", "of roughness 0.2"),
-    filter_case(0.5, "falpha_0.5", "of roughness 0.5"),
-    filter_case(1, "falpha_1", "of roughness 1"),
+    filter_case(0.001, "falpha_0.001", "transmission filter of a layer, roughness 0.001"),
+    filter_case(0.01, "falpha_0.01", "transmission filter, roughness 0.01"),
+    filter_case(0.05, "falpha_0.05", "transmission filter, roughness 0.05"),
+    filter_case(0.1, "falpha_0.1", "transmission filter, roughness 0.1"),
+    filter_case(0.2, "falpha_0.2", "transmission filter, roughness 0.2"),
+    filter_case(0.5, "falpha_0.5", "transmission filter, roughness 0.5"),
+    filter_case(1, "falpha_1", "transmission filter, roughness 1"),
     table_case("lut_film", 1, "colour table of a film, 64 x 512, cos theta x thickness",
                "1 | 1.33@400 | 1.9+1.5i", "layers.0.thickness_nm", 0, 1000),
-    table_case("lut_mirror", 40, "the same of a mirror of 40 layers",
+    table_case("lut_mirror", 40, "colour table of a mirror of 40 layers, 64 x 512",
                "1 | (2.3@60 | 1.46@94)^20 | 1.52", "layers.0.layers.0.thickness_nm", 40, 80),
 };
 
 using Clock = std::chrono::steady_clock;
 
-/// Multiply-adds of doubles a second.
+/// Fused multiply-adds of doubles per second.
 double machine_limit(SimdLevel level, unsigned threads) {
     constexpr std::uint64_t kCount = 4'000'000;
     volatile double sink = 0;
@@ -146,7 +146,7 @@ std::vector<double> case_wavelengths() {
     return wavelengths;
 }
 
-/// One case with what its rows share.
+/// One case, with the data shared by its rows.
 class Measurement {
 public:
     Measurement(const SpeedCase& of, double budget)
@@ -259,7 +259,7 @@ private:
     mutable Spectra out_;
 };
 
-/// Sine and cosine together, of 4096 phases up to 1e5, beside the C library's.
+/// Sine and cosine of 4096 phases up to 1e5; the plain level is the C library.
 SpeedRow sine_row(SimdLevel level, double budget) {
     std::vector<double> x(4096), sine(x.size()), cosine(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -419,7 +419,7 @@ int run_speed(const SpeedOptions& options) {
 void add_bench_speed(CLI::App& bench, Run& run) {
     CLI::App* command = bench.add_subcommand(
         "speed",
-        "Points a second of every kernel beside what this machine can do, and their errors.");
+        "Points per second of every kernel, compared with this machine's limit, and their errors.");
     const auto options = std::make_shared<SpeedOptions>();
     command->add_option("-t,--time", options->time, "seconds spent on each row, [0.001, 60] [0.1]")
         ->type_name("S");
@@ -440,11 +440,11 @@ void add_bench_speed(CLI::App& bench, Run& run) {
         "after; operations_per_point is the arithmetic of the vector kernel, and\n"
         "fraction_of_limit = points_per_s operations_per_point / limit_per_s. sin_cos is\n"
         "a sine and a cosine; plain and long_double go point by point. landmarks: band\n"
-        "edges and Airy points of 64 Bragg mirrors a second, by irido's Newton steps and\n"
-        "by halving cos KL between modes, as Fourneau et al. (2024) do. falpha is F_alpha\n"
-        "of theta_i and theta_d, both 0:89.75:0.25, in closed form, and as sum_1000 by\n"
-        "1000 samples of psi; worst_F is its largest relative error at 60 points. lut_:\n"
-        "points are samples of a table.");
+        "edges and Airy points of 64 Bragg mirrors, by irido's Newton steps and by bisection\n"
+        "of cos KL between modes, as in Fourneau et al. (2024). falpha is F_alpha at theta_i\n"
+        "and theta_d of 0:89.75:0.25, in closed form and, as sum_1000, by 1000 samples of\n"
+        "psi; worst_F is its largest relative error at 60 points. lut_: points are samples\n"
+        "of a table.");
     command->callback([options, &run] { run = [options] { return run_speed(*options); }; });
 }
 

@@ -8,9 +8,9 @@
 
 namespace irido::cli {
 
-/// What `irido bench speed` measures: a stack and what is asked of it, at 380:780:1 nm and the
-/// angles 0.5:89.5:1 or 0 degrees; or the transmission filter of a roughness alpha; or a table of
-/// colours over cos(theta), 64, and a varied value, 512.
+/// A case of `irido bench speed`: spectra of a stack at 380:780:1 nm and the angles 0.5:89.5:1 or 0
+/// degrees; or the transmission filter of a roughness alpha; or a colour table over 64 cos(theta)
+/// and 512 values of a varied quantity.
 struct SpeedCase {
     std::string_view name;
     int layers;
@@ -19,7 +19,7 @@ struct SpeedCase {
     bool normal = false;
     bool only_R = false;
     double alpha = 0;
-    std::string_view expression{}, path{};  ///< of a table's stack and of what varies
+    std::string_view expression{}, path{};  ///< of a table: its stack, and the varied path
     double first = 0, last = 0;
 };
 
@@ -30,11 +30,11 @@ struct SpeedRow {
     double worst_F = 0;
 };
 
-/// F_alpha of 360 x 360 angles in closed form, and by FPB24's sum; budget in seconds.
+/// Times F_alpha at 360 x 360 angles in closed form, and by FPB24's sum; `budget` in seconds.
 SpeedRow filter_row(const SpeedCase& of, SimdLevel level, double budget);
 SpeedRow filter_sum_row(const SpeedCase& of, double budget);
 
-/// A whole table of colours.
+/// Times a whole colour table; `budget` in seconds.
 SpeedRow table_row(const SpeedCase& of, const Execution& execution, double budget);
 
 }  // namespace irido::cli

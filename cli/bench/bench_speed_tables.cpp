@@ -16,7 +16,7 @@ namespace irido::cli {
 
 namespace {
 
-/// F_alpha as FPB24 compute it: their eq. 29 by the midpoint rule over psi.
+/// F_alpha as in FPB24: eq. 29 by the midpoint rule over psi.
 double filter_by_sum(double alpha, double theta_i_deg, double theta_d_deg) {
     constexpr int kSamples = 1000;
     const double ti = theta_i_deg * kPi / 180, td = theta_d_deg * kPi / 180;
@@ -26,14 +26,14 @@ double filter_by_sum(double alpha, double theta_i_deg, double theta_d_deg) {
     double sum = 0;
     for (int k = 0; k < kSamples; ++k) {
         const double x = cc + ss * std::cos(psi_max * (k + 0.5) / kSamples);
-        const double spread = 1 - (1 - a2) * x * x;
-        sum += a2 / (kPi * spread * spread);
+        const double width = 1 - (1 - a2) * x * x;
+        sum += a2 / (kPi * width * width);
     }
     const double G1 = 2 / (1 + std::sqrt(1 + a2 * std::tan(ti) * std::tan(ti)));
     return 2 * G1 * G1 * std::cos(td) / std::cos(ti) * std::sin(td) * sum * psi_max / kSamples;
 }
 
-/// The filter of one roughness at the angles 0:89.75:0.25, both.
+/// The filter of one roughness, with both angles in 0:89.75:0.25 degrees.
 class FilterMeasurement {
 public:
     FilterMeasurement(const SpeedCase& of, double budget)

@@ -66,7 +66,7 @@ tables::Records to_records(const std::vector<RegimeReport>& reports) {
     return records;
 }
 
-/// What is wrong, regime by regime, "" for nothing.
+/// The violated bounds, regime by regime; "" if there are none.
 std::string violations(const std::vector<RegimeReport>& reports) {
     std::string text;
     for (const RegimeReport& report : reports)
@@ -94,7 +94,7 @@ int run_stability(const StabilityOptions& options) {
 }
 
 std::string regimes_help() {
-    std::string text = "all, or some of these with commas [all]:";
+    std::string text = "all, or some of these, separated by commas [all]:";
     for (const Regime& regime : regimes())
         text += "\n" + std::string(regime.name) + ": " + std::string(regime.summary);
     return text;
@@ -105,7 +105,7 @@ std::string regimes_help() {
 void add_bench_stability(CLI::App& bench, Run& run) {
     CLI::App* command = bench.add_subcommand(
         "stability",
-        "Errors of R, T, A on stacks where digits get lost; status 1 if one is beyond its bound.");
+        "Errors of R, T, A where precision is lost; exit status 1 if one exceeds its bound.");
     const auto options = std::make_shared<StabilityOptions>();
     command
         ->add_option("-n,--count", options->count,
@@ -124,12 +124,13 @@ void add_bench_stability(CLI::App& bench, Run& run) {
         *command,
         {"irido bench stability --count 1000 -o stability.csv",
          "irido bench stability --regime band_edge,critical --seed 7 -f json"},
-        "Columns: count of answers (two polarizations a stack); worst and p99 (99 of 100)\n"
+        "Columns: count of evaluations (two polarizations per stack); worst and p99 (99 of 100)\n"
         "error against 50 digits of R, T, A and relative T and A; condition at the worst\n"
         "one: its change over the relative change of all inputs; roundings: the largest\n"
         "error / (2^-53 (1 + condition)). not_finite, negative and above_one (R + T) must\n"
         "be 0 without gain, and so must beyond_bound: errors above max(1e-13, 10 condition\n"
-        "2^-53), 100 for relative T, max(1e-9, ...) for relative A, and answers refused.\n"
+        "2^-53), 100 for relative T, max(1e-9, ...) for relative A, and refusals of passive "
+        "stacks.\n"
         "thresholds: stacks refused because they amplify without bound.");
     command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
 }

@@ -10,10 +10,10 @@
 
 namespace irido::cli {
 
-/// How far a method's colours of one case are from the exact ones, and what one of them costs.
+/// Errors of a method's colours in one case, and the time per colour.
 struct MethodReport {
     double colors = 0;
-    double evaluations = 0;                      ///< wavelengths a colour, the mean
+    double evaluations = 0;                      ///< mean number of wavelengths per colour
     double ns_per_color = 0;                     ///< see ColorComparison
     double max_error = 0;                        ///< of X, Y, Z
     double mean_de = 0, p95_de = 0, max_de = 0;  ///< CIEDE2000
@@ -23,32 +23,35 @@ struct MethodReport {
     std::string worst_hex, exact_hex;
 };
 
-/// Equally spaced wavelengths that do as well as another method; all 0 if none do.
+/// Equally spaced wavelengths as accurate as another method; all 0 if none are.
 struct EqualMatch {
     double wavelengths = 0, ns_per_color = 0;
 };
 
-/// The colours of a case by one method after another, reflected unpolarized light, one thread, as
-/// if in a run of very many.
-/// Exact are those of quadrature at 1e-11. Times are the shortest of repeated runs: of a set with
-/// each stack's algorithm made anew, else of the calls alone.
+/// Compares methods on the colours of one case: reflected unpolarized light, one thread, as in a
+/// run of very many colours. The exact colours are those of quadrature at 1e-11. Times are the
+/// fastest of repeated runs; in a set they include making each stack's algorithm.
 class ColorComparison {
 public:
-    /// seconds  spent on each time
+    /// tables    of the observer and the illuminant
+    /// families  the case's stacks
+    /// is_set    whether times include preparation
+    /// seconds   time spent on each timing
+    /// simd      instruction set
     ColorComparison(const ColorTables& tables, std::vector<ColorFamily> families, bool is_set,
                     double seconds, SimdLevel simd);
 
-    /// Nothing if the method does not take the stacks.
+    /// Nothing if the method cannot compute the stacks.
     std::optional<MethodReport> measure(const ColorMethod& method, double tolerance) const;
 
-    /// The fewest equally spaced wavelengths, up to kMostEqual, with a largest error of X, Y, Z
-    /// that is no larger: by doubling, then halving to within 3 % (the error does not fall evenly).
+    /// The fewest equally spaced wavelengths, up to kMostEqual, with at most this error of X, Y, Z:
+    /// by doubling, then bisection to within 3 % (the error is not monotonic).
     EqualMatch equal_match(double max_error);
 
     static constexpr std::size_t kMostEqual = 1U << 16;
 
 private:
-    using Algorithms = std::vector<std::unique_ptr<ColorAlgorithm>>;  ///< one a family
+    using Algorithms = std::vector<std::unique_ptr<ColorAlgorithm>>;  ///< one per family
     struct Run {
         std::vector<StackColor> colors;
         double ns_per_color = 0;

@@ -5,7 +5,7 @@
 
 #include "cli/options/command.hpp"
 #include "cli/options/picture_options.hpp"
-#include "cli/queries/bands_question.hpp"
+#include "cli/queries/bands_query.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 struct BandsCommand {
     schemas::StackRequest stack;
-    std::unique_ptr<QuestionOptions> typed;
+    std::unique_ptr<QueryOptions> typed;
     std::optional<std::string> plot;
     OutputOptions output;
     bool quiet = false;
@@ -28,11 +28,11 @@ tables::BandDiagram::Edges wavelengths_of(const BandGap& gap) {
     return {kTwoPi / gap.high_per_nm, kTwoPi / gap.low_per_nm};
 }
 
-tables::Figure diagram_of(const BandsQuestion& question, const BraggMirror& mirror,
+tables::Figure diagram_of(const BandsQuery& query, const BraggMirror& mirror,
                           const std::string& title) {
-    const std::span<const double> angles = question.angles_deg();
+    const std::span<const double> angles = query.angles_deg();
     tables::BandDiagram diagram{
-        title, question.first_nm(), question.last_nm(), {angles.begin(), angles.end()}, {}};
+        title, query.first_nm(), query.last_nm(), {angles.begin(), angles.end()}, {}};
     std::ranges::sort(diagram.angles_deg);
     const auto repeated = std::ranges::unique(diagram.angles_deg);
     diagram.angles_deg.erase(repeated.begin(), repeated.end());
@@ -40,7 +40,7 @@ tables::Figure diagram_of(const BandsQuestion& question, const BraggMirror& mirr
     std::map<double, tables::BandDiagram::Gap> gaps;
     for (const double angle_deg : diagram.angles_deg)
         for (const Polarization p : kBoth)
-            for (const BandGap& gap : band_gaps(mirror.period_at(angle_deg, p), question.omega()))
+            for (const BandGap& gap : band_gaps(mirror.period_at(angle_deg, p), query.omega()))
                 gaps[gap.order].order = gap.order;
     for (auto& [order, gap] : gaps) {
         for (const double angle_deg : diagram.angles_deg) {
@@ -52,10 +52,10 @@ tables::Figure diagram_of(const BandsQuestion& question, const BraggMirror& mirr
     return tables::band_figure(diagram);
 }
 
-tables::Figure diagram_of(const BandsQuestion& question, const schemas::StackDocument& document,
+tables::Figure diagram_of(const BandsQuery& query, const schemas::StackDocument& document,
                           const std::string& title) {
     try {
-        return diagram_of(question, question.mirror(document, document.stack), title);
+        return diagram_of(query, query.mirror(document, document.stack), title);
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());
     }
@@ -66,15 +66,15 @@ int run_bands(const BandsCommand& command) {
     if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     const auto& typed = static_cast<const BandsOptions&>(*command.typed);
-    const BandsQuestion question(typed, {.note = say});
-    const auto [least, most] = std::ranges::minmax(question.angles_deg());
+    const BandsQuery query(typed, {.note = say});
+    const auto [least, most] = std::ranges::minmax(query.angles_deg());
     if (command.plot && least == most)
-        throw UsageError("--plot: needs several angles, such as --angles 0:89:1");
-    const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+        throw UsageError("--plot: requires several angles, such as --angles 0:89:1");
+    const auto prepared = query.prepare(read_noted_stack(command.stack, command.quiet));
     check_plot(command.plot, command.output);
-    const tables::Records records = records_of(question, *prepared);
+    const tables::Records records = records_of(query, *prepared);
     const std::string title = title_of(prepared->document, command.stack);
-    const auto diagram = [&] { return diagram_of(question, prepared->document, title); };
+    const auto diagram = [&] { return diagram_of(query, prepared->document, title); };
     std::string drawn;
     if (command.plot)
         drawn =
@@ -84,7 +84,7 @@ int run_bands(const BandsCommand& command) {
     } else if (typed.gaps && least < most) {
         write_picture(diagram, {}, *picture, command.output);
     } else {
-        write_picture([&] { return figure_of_rows(question, records, {}, title, {}, say); }, {},
+        write_picture([&] { return figure_of_rows(query, records, {}, title, {}, say); }, {},
                       *picture, command.output);
     }
     if (command.plot) tables::write_file(*command.plot, drawn);
@@ -101,8 +101,8 @@ void add_bands_command(CLI::App& program, Run& run) {
     options->typed = BandsOptions::add(*command);
     command
         ->add_option("--plot", options->plot,
-                     "draw the gaps over angle and wavelength, for several angles, as the\n"
-                     "extension says: .svg, .png or .pdf")
+                     "draw the gaps over angle and wavelength into FILE (.svg, .png or\n"
+                     ".pdf); requires several angles")
         ->type_name("FILE");
     add_output_options(*command, options->output,
                        record_formats_text(RecordTarget::stream_or_picture));
@@ -112,17 +112,16 @@ void add_bands_command(CLI::App& program, Run& run) {
         {"irido bands \"1 | (1@200 | 1.5@180)^10 | 1\" -a 20 -p p",
          "irido bands \"air | (TiO2@58.5 | SiO2@94.2)^10 | BK7\" -a 0:85:1 --gaps "
          "--plot bands.svg"},
-        "The STACK has one group of two transparent layers that is repeated, and any others "
-        "around\n"
-        "it; landmarks are those of the group without end. With a and b the phases across its\n"
-        "layers and KL that across both,\n"
+        "STACK contains one repeated group of two transparent layers, alone or among other\n"
+        "layers; landmarks are those of the infinitely repeated group. With a and b the phases\n"
+        "across its layers and KL the Bloch phase across both,\n"
         "    mode m  a + b = m pi      edge m  both ends of the gap around mode m\n"
         "    zero z  b = z pi          airy m  cos(KL) = 0 between the modes m and m + 1.\n"
-        "Closed gaps have two equal edges. Every landmark has the indices at its own wavelength\n"
-        "(edges of a gap past what is known of a material: those at its end). A k up to 0.1 and\n"
-        "thickness_sigma_nm are left out of landmarks, but not of R. An angle past the\n"
-        "critical angle of a layer is an error, as is dispersion so anomalous that the phase\n"
-        "of a layer grows with the wavelength.");
+        "Closed gaps have two equal edges. Indices are taken at each landmark's own wavelength\n"
+        "(beyond a material's range, edges of a gap use its end values). k up to 0.1 and\n"
+        "thickness_sigma_nm are ignored for landmarks, but not for R. An angle past the\n"
+        "critical angle of a layer is an error, and so is dispersion so anomalous that the\n"
+        "phase of a layer grows with the wavelength.");
     command->callback([options, &run] { run = [options] { return run_bands(*options); }; });
 }
 

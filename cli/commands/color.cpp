@@ -3,7 +3,7 @@
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/options/picture_options.hpp"
-#include "cli/queries/color_question.hpp"
+#include "cli/queries/color_query.hpp"
 #include "tables/pictures/chromaticity_figure.hpp"
 
 namespace irido::cli {
@@ -12,7 +12,7 @@ namespace {
 
 struct ColorCommand {
     schemas::StackRequest stack;
-    std::unique_ptr<QuestionOptions> typed;
+    std::unique_ptr<QueryOptions> typed;
     OutputOptions output;
     PictureOptions picture;
     std::string plot = "strip";
@@ -20,20 +20,20 @@ struct ColorCommand {
     bool quiet = false;
 };
 
-/// The colours' way through the chromaticity diagrams.
-tables::Figure chromaticity(const ColorCommand& command, const ColorQuestion& question,
+/// The path of the colours through the chromaticity diagrams.
+tables::Figure chromaticity(const ColorCommand& command, const ColorQuery& query,
                             const StackColors& stack, const std::string& title) {
-    const auto& typed = static_cast<const ColorQuestionOptions&>(*command.typed);
-    const std::size_t sides = question.sides().size();
+    const auto& typed = static_cast<const ColorQueryOptions&>(*command.typed);
+    const std::size_t sides = query.sides().size();
     std::vector<tables::ChromaticityPath> paths;
     tables::InkMixer mixer(parse_gamut(command.picture));
     for (std::size_t l = 0; l < stack.colors.size(); ++l) {
-        const Illumination& lighting = *question.lightings()[l];
+        const Illumination& illumination = *query.illuminations()[l];
         const RgbTransform transform =
-            rgb_transform(rgb_space("srgb"), lighting.white(), Adaptation::bradford);
+            rgb_transform(rgb_space("srgb"), illumination.white(), Adaptation::bradford);
         for (std::size_t s = 0; s < sides; ++s) {
-            std::string name(letter(question.sides()[s]));
-            if (stack.colors.size() > 1) name = lighting.name + " " + name;
+            std::string name(letter(query.sides()[s]));
+            if (stack.colors.size() > 1) name = illumination.name + " " + name;
             tables::ChromaticityPath path{name == "R" && sides == 1 ? "" : name, {}};
             for (std::size_t i = 0; i < stack.angles_deg.size(); ++i) {
                 const Triple& xyz = stack.colors[l][i * sides + s].xyz;
@@ -44,7 +44,7 @@ tables::Figure chromaticity(const ColorCommand& command, const ColorQuestion& qu
         }
     }
     return tables::chromaticity_figure(title, paths, parse_observer(typed.color.observer),
-                                       question.lightings().front()->white());
+                                       query.illuminations().front()->white());
 }
 
 int run_color(const ColorCommand& command) {
@@ -55,22 +55,22 @@ int run_color(const ColorCommand& command) {
     if (command.plot == "chromaticity" && !picture)
         throw UsageError("--plot: needs a picture, such as --output FILE.svg");
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const ColorQuestion question(
-        static_cast<const ColorQuestionOptions&>(*command.typed),
+    const ColorQuery query(
+        static_cast<const ColorQueryOptions&>(*command.typed),
         {.execution = execution_of(command.threads), .note = say, .is_silent = command.quiet});
-    const auto prepared = question.prepare(read_noted_stack(command.stack, command.quiet));
+    const auto prepared = query.prepare(read_noted_stack(command.stack, command.quiet));
     check_writable(command.output);
     const schemas::StackDocument& document = prepared->document;
-    note_long_work(seconds_of_rows(question, document, command.threads), false, say);
-    const StackColors colors = question.colors(*prepared, document.stack, question.angles_deg());
+    note_long_work(seconds_of_rows(query, document, command.threads), false, say);
+    const StackColors colors = query.colors(*prepared, document.stack, query.angles_deg());
     if (!picture) {
-        write_records(question.records({colors}), command.output);
+        write_records(query.records({colors}), command.output);
         return 0;
     }
     const std::string title = title_of(document, command.stack);
     const auto figure = [&] {
-        if (command.plot == "chromaticity") return chromaticity(command, question, colors, title);
-        return figure_of_rows(question, question.records({colors}), {}, title,
+        if (command.plot == "chromaticity") return chromaticity(command, query, colors, title);
+        return figure_of_rows(query, query.records({colors}), {}, title,
                               parse_gamut(command.picture), say);
     };
     write_picture(figure, command.picture, *picture, command.output);
@@ -81,10 +81,10 @@ int run_color(const ColorCommand& command) {
 
 void add_color_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "color", "X, Y, Z and linear RGB of the light that a stack reflects or transmits.");
+        "color", "Colour of the light that a stack reflects or transmits: X, Y, Z and linear RGB.");
     const auto options = std::make_shared<ColorCommand>();
     add_stack_options(*command, options->stack);
-    options->typed = ColorQuestionOptions::add(*command);
+    options->typed = ColorQueryOptions::add(*command);
     add_output_options(*command, options->output,
                        record_formats_text(RecordTarget::stream_or_picture));
     command

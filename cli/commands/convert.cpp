@@ -28,12 +28,12 @@ StackFormat resolved_stack_format(const OutputOptions& output) {
     if (name == "expression" || (output.format.empty() && name == "txt"))
         return StackFormat::expression;
     if (output.format.empty())
-        throw UsageError("--output: the extension must be json or txt, for an expression (got " +
+        throw UsageError("--output: the extension must be json, or txt for an expression (got " +
                          name + ")");
     throw UsageError("--format: must be one of json, expression (got " + name + ")");
 }
 
-/// Whole numbers without a point: 100, not 100.0.
+/// Turns whole numbers into integers: 100, not 100.0.
 void shorten_numbers(json& value) {
     constexpr double kLargestWhole = 9007199254740992;
     if (value.is_structured()) {
@@ -55,7 +55,7 @@ std::string as_json(schemas::StackSource source, const std::string& file) {
 std::string as_expression(const schemas::StackDocument& document, bool quiet) {
     const schemas::StackExpression expression = schemas::stack_expression(document.stack);
     for (const std::string& loss : expression.losses)
-        note("an expression cannot say: " + loss, quiet);
+        note("an expression cannot hold: " + loss, quiet);
     return expression.text + "\n";
 }
 
@@ -75,7 +75,8 @@ int run_convert(const ConvertCommand& command) {
 }  // namespace
 
 void add_convert_command(CLI::App& program, Run& run) {
-    CLI::App* command = program.add_subcommand("convert", "A stack as JSON, or as an expression.");
+    CLI::App* command =
+        program.add_subcommand("convert", "Convert a stack to JSON or to an expression.");
     const auto options = std::make_shared<ConvertCommand>();
     add_stack_options(*command, options->stack);
     add_output_options(*command, options->output,
@@ -85,8 +86,8 @@ void add_convert_command(CLI::App& program, Run& run) {
                  {"irido convert \"air | (TiO2@58.5 | SiO2@94.2)^10 | BK7@1mm! | air\"",
                   "irido convert stack.json -f expression",
                   "irido convert stack.json --set substrate=Si -o on-silicon.json"},
-                 "Material files are named as seen from FILE. What an expression cannot say (a\n"
-                 "spread of thickness, materials that are neither built in, nor files, nor\n"
+                 "Paths of material files become relative to FILE. What an expression cannot hold\n"
+                 "(thickness_sigma_nm; materials that are neither built in, nor files, nor\n"
                  "constant) is noted on standard error.");
     command->callback([options, &run] { run = [options] { return run_convert(*options); }; });
 }

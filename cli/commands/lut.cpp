@@ -25,7 +25,7 @@ namespace {
 constexpr double kMostSamples = 8192;
 constexpr std::size_t kMostVaried = 2;
 
-/// What was typed for one kind of table.
+/// Options of one kind of table, as typed.
 struct LutCommand {
     schemas::StackRequest stack;
     ColorOptions color;
@@ -54,8 +54,7 @@ const tables::LutFormat& resolved_lut_format(const OutputOptions& output) {
     const std::size_t dot = output.file.find_last_of('.');
     const std::string extension = dot == std::string::npos ? "" : output.file.substr(dot + 1);
     if (!output.format.empty() && extension != name && tables::find_lut_format(extension))
-        throw UsageError("--format: " + name + " into a file named ." + extension +
-                         " could not be read again");
+        throw UsageError("--format: " + name + " contradicts the extension ." + extension);
     if (const tables::LutFormat* format = tables::find_lut_format(name)) return *format;
     throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                      not_one_of(format_names(), name));
@@ -108,7 +107,7 @@ tables::LutOptions parse_options(const tables::LutKind& kind, const LutCommand& 
         }
         const std::string& text = command.options.find(option.name)->second;
         if (option.name == "theta" && !text.empty() && !command.options.find("cos")->second.empty())
-            throw UsageError("--theta: gives the angles instead of --cos, not beside it");
+            throw UsageError("--theta: cannot be combined with --cos");
         const std::string used = text.empty() ? std::string(option.fallback) : text;
         if (!used.empty()) parse_option(option, used, values);
     }
@@ -124,7 +123,7 @@ tables::VariedValue parse_vary(const std::string& text) {
     const std::string path = text.substr(0, equals);
     std::vector<double> values = parse_list("--vary " + path, text.substr(equals + 1), -1e9, 1e9);
     if (!std::ranges::is_sorted(values, std::ranges::less_equal()))
-        throw UsageError("--vary " + path + ": the values must ascend");
+        throw UsageError("--vary " + path + ": values must ascend");
     return {path, std::move(values)};
 }
 
@@ -161,7 +160,7 @@ tables::LutRequest parse(const tables::LutKind& kind, const LutCommand& command)
     request.options = parse_options(kind, command);
     parse_color(kind, command, request);
     for (const std::string& text : command.vary) request.vary.push_back(parse_vary(text));
-    if (request.vary.size() > kMostVaried) throw UsageError("--vary: at most two values may vary");
+    if (request.vary.size() > kMostVaried) throw UsageError("--vary: must be given at most twice");
     if (!kind.stack) return request;
     request.source = schemas::load_stack(command.stack);
     for (const tables::VariedValue& vary : request.vary)
@@ -190,10 +189,10 @@ tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat* 
     making.sizing.counts = parse_size(command.size, axes);
     making.sizing.power_of_two = !command.any_size;
     if (command.any_size && command.tolerance.empty())
-        throw UsageError("--any-size: is for sizes by --tolerance");
+        throw UsageError("--any-size: requires --tolerance");
     if (!command.tolerance.empty()) {
         if (!making.sizing.counts.empty())
-            throw UsageError("--tolerance: finds the size, so leave out --size");
+            throw UsageError("--tolerance: cannot be combined with --size");
         making.sizing.tolerance = parse_one_number("--tolerance", command.tolerance, 1e-12, 1e3);
     }
     making.type = parse_type(command.type);
@@ -253,13 +252,11 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
         tables::write_lut(lut, command.output.file, *format, command.layout);
     }
     if (command.layout.layers)
-        note("three.js reads the first of a file's array layers only", command.quiet);
+        note("three.js reads only the first array layer of a file", command.quiet);
     if (format->name == "ktx2" || format->name == "exr")
         for (const tables::LutAxis& axis : lut.axes)
             if (!axis.is_linear() && !(lut.mips && &axis == &lut.axes.front()))
-                note(axis.name +
-                         ": not equally spaced, so look its samples up one by one: nothing "
-                         "in between means anything to a texture's filter",
+                note(axis.name + ": samples are not equally spaced: fetch texels, do not filter",
                      command.quiet);
     return 0;
 }
@@ -295,40 +292,41 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
     if (kind.vary)
         command
             ->add_option("--vary", typed->vary,
-                         "a number of the stack that varies, by dotted path, up to two of them:\n"
+                         "vary a number of the stack, by dotted path; at most twice:\n"
                          "layers.0.thickness_nm=0:1000/256")
             ->type_name("PATH=LIST")
             ->allow_extra_args(false);
     add_kind_options(*command, kind, *typed);
     if (kind.color)
         add_side_options(*command, typed->color,
-                         kind.name == "albedo" ? "R (reflected), the only side of this table [R]"
-                                               : "R (reflected) or T (transmitted) [R]");
+                         kind.name == "albedo"
+                             ? "R (reflected), the only side that this table has [R]"
+                             : "R (reflected) or T (transmitted) [R]");
     if (kind.color) offer(*command, "side", kind.name == "albedo" ? "R" : "R T");
     if (kind.light) add_light_options(*command, typed->color);
     if (kind.color) add_space_options(*command, typed->color);
-    command->add_option("--dtype", typed->type, "numbers: f16, f32 or f64 [f32]")
+    command->add_option("--dtype", typed->type, "number format: f16, f32 or f64 [f32]")
         ->type_name("NAME");
     offer(*command, "dtype", "f16 f32 f64");
     command
         ->add_option("--size", typed->size,
-                     "samples along the axes, [1, 8192]: 64x512, in the order of the axes, or\n"
-                     "one number for all [as the axes' lists say]")
+                     "samples per axis, [1, 8192]: 64x512, in the order of the axes, or one\n"
+                     "number for all [as many as the axes' lists have]")
         ->type_name("SIZE");
     command
         ->add_option("--tolerance", typed->tolerance,
-                     "the smallest size with this interpolation error instead (of colours\n"
-                     "in CIEDE2000, else as said below); axes that do not matter get one\n"
-                     "sample. Exit status 1 if it cannot be met")
+                     "choose the smallest size with this interpolation error (in CIEDE2000\n"
+                     "for colours, else as defined below); an axis along which the table\n"
+                     "is constant gets one sample. Exit status 1 if it cannot be met")
         ->type_name("E");
     command->add_flag("--any-size", typed->any_size,
-                      "with --tolerance: sizes that are no powers of two, too");
+                      "with --tolerance: allow sizes other than powers of two");
     static const std::string formats = formats_text();
     add_output_options(*command, typed->output, formats);
     if (kind.color) add_picture_options(*command, typed->picture);
-    command->add_flag("--zstd", typed->layout.zstd, "ktx2: compressed with Zstandard");
+    command->add_flag("--zstd", typed->layout.zstd, "ktx2: compress with Zstandard");
     command->add_flag("--layers", typed->layout.layers,
-                      "ktx2: a third axis as array layers, not as depth or mip levels");
+                      "ktx2: store a third axis as array layers, not as depth or mip levels");
     add_threads_option(*command, typed->threads);
     command->add_flag("--quiet", typed->quiet, "no notes on standard error");
     std::vector<std::string> examples;
@@ -352,7 +350,7 @@ int list_kinds(const OutputOptions& output) {
 }
 
 void add_list(CLI::App& lut, Run& run) {
-    CLI::App* command = lut.add_subcommand("list", "The kinds of tables.");
+    CLI::App* command = lut.add_subcommand("list", "List the kinds of tables.");
     const auto output = std::make_shared<OutputOptions>();
     add_output_options(*command, *output, "csv or json [csv]");
     set_examples(*command, {"irido lut list", "irido lut list -f json"});
@@ -365,14 +363,14 @@ int show_info(const std::string& file) {
     return 0;
 }
 
-/// What is wrong with a file, one line each.
+/// The problems of a file, one line each.
 std::vector<std::string> problems_of_table(const std::string& file) {
     try {
         const tables::Lut lut = tables::read_lut(file);
         std::vector<std::string> problems = tables::lut_problems(lut);
         const tables::LutKind* const kind = tables::find_lut_kind(lut.kind);
         if (!kind)
-            problems.push_back("there is no kind '" + lut.kind + "'");
+            problems.push_back("unknown kind '" + lut.kind + "'");
         else if (problems.empty() && kind->problems)
             problems = kind->problems(lut);
         return problems;
@@ -380,7 +378,7 @@ std::vector<std::string> problems_of_table(const std::string& file) {
         const std::string text = error.what(), name = file + ": ";
         return {text.starts_with(name) ? text.substr(name.size()) : text};
     } catch (const nlohmann::json::exception&) {
-        return {"the metadata misses what its kind has"};
+        return {"the metadata lacks keys that its kind requires"};
     }
 }
 
@@ -404,7 +402,7 @@ int check_files(const std::vector<std::string>& files) {
 }
 
 void add_info(CLI::App& lut, Run& run) {
-    CLI::App* info = lut.add_subcommand("info", "The metadata of a table's file, as JSON.");
+    CLI::App* info = lut.add_subcommand("info", "Print the metadata of a table file as JSON.");
     const auto file = std::make_shared<std::string>();
     info->add_option("FILE", *file, "a file that irido lut wrote")->required();
     set_examples(*info, {"irido lut info film.ktx2", "irido lut info film.exr | jq .error"});
@@ -413,11 +411,11 @@ void add_info(CLI::App& lut, Run& run) {
 
 void add_check(CLI::App& lut, Run& run) {
     CLI::App* check = lut.add_subcommand(
-        "check", "Verifies a table's checksum, numbers and the invariants of its kind.");
+        "check", "Verify a table's checksum, its numbers and the invariants of its kind.");
     const auto files = std::make_shared<std::vector<std::string>>();
     check->add_option("FILE", *files, "files that irido lut wrote")->required();
     set_examples(*check, {"irido lut check film.ktx2", "irido lut check baked/*.exr"},
-                 "Prints FILE: ok or what is wrong; then the exit status is 1.");
+                 "Prints FILE: ok, or every problem, with exit status 1.");
     check->callback([files, &run] { run = [files] { return check_files(*files); }; });
 }
 
@@ -425,7 +423,7 @@ void add_shader(CLI::App& lut, Run& run) {
     struct Typed {
         std::string name, language = "glsl";
     };
-    CLI::App* shader = lut.add_subcommand("shader", "Prints shader code that reads a table.");
+    CLI::App* shader = lut.add_subcommand("shader", "Print shader code that reads a table.");
     const auto typed = std::make_shared<Typed>();
     std::string names;
     for (const std::string_view name : tables::shader_names())
@@ -434,12 +432,11 @@ void add_shader(CLI::App& lut, Run& run) {
     shader->add_option("--language", typed->language, "glsl or hlsl [glsl]")->type_name("NAME");
     offer(*shader, "NAME", tables::shader_names);
     offer(*shader, "language", tables::shader_languages);
-    set_examples(
-        *shader,
-        {"irido lut shader color > color.glsl",
-         "irido lut shader --language hlsl falpha-closed > falpha.hlsl"},
-        "The code is under MIT-0: paste it anywhere. bragg, falpha-closed and fourier are\n"
-        "functions to compute with; the others look up the table of their name.");
+    set_examples(*shader,
+                 {"irido lut shader color > color.glsl",
+                  "irido lut shader --language hlsl falpha-closed > falpha.hlsl"},
+                 "The code is licensed under MIT-0: paste it anywhere. bragg, falpha-closed and\n"
+                 "fourier evaluate closed forms; the others look up the table of their name.");
     shader->callback([typed, &run] {
         run = [typed] {
             const auto known = tables::shader_names(), languages = tables::shader_languages();
@@ -456,7 +453,7 @@ void add_shader(CLI::App& lut, Run& run) {
 }  // namespace
 
 void add_lut_command(CLI::App& program, Run& run) {
-    CLI::App* lut = program.add_subcommand("lut", "Tables for shaders and renderers.");
+    CLI::App* lut = program.add_subcommand("lut", "Look-up tables for shaders and renderers.");
     lut->require_subcommand(1);
     for (const tables::LutKind* kind : tables::lut_kinds()) add_lut_kind(*lut, *kind, run);
     add_list(*lut, run);

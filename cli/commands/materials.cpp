@@ -24,9 +24,9 @@ struct MaterialsOptions {
 
 LibraryMaterial material_named(std::string_view name) {
     if (auto found = find_material(name)) return *std::move(found);
-    throw UsageError("there is no material '" + std::string(name) + "'" +
+    throw UsageError("unknown material '" + std::string(name) + "'" +
                      schemas::did_you_mean(name, library_names_and_aliases()) +
-                     ", see irido materials list");
+                     "; see irido materials list");
 }
 
 int run_list(const MaterialsOptions& options) {
@@ -53,8 +53,8 @@ int run_list(const MaterialsOptions& options) {
     return 0;
 }
 
-/// What was asked for, or every nm of the visible range in which the material is known, or a
-/// hundred steps of its own range if it is not known there.
+/// The wavelengths typed; by default every nm from 380 to 780 within the material's range or, if
+/// there are none, a hundred steps over that range.
 std::vector<double> wavelengths_of(const MaterialsOptions& options, WavelengthRange range) {
     if (!options.wavelengths.empty())
         return parse_list("--wavelengths", options.wavelengths, kAllWavelengths.first_nm,
@@ -68,16 +68,17 @@ std::vector<double> wavelengths_of(const MaterialsOptions& options, WavelengthRa
     return values;
 }
 
-/// A built-in material, or that of a file.
+/// A built-in material, or one read from a file.
 schemas::MaterialFile shown_material(const std::string& name) {
     if (auto found = find_material(name))
         return {std::move(found->material), {}, std::move(found->source)};
     if (name == "-" || schemas::is_material_file(name))
         return schemas::read_material_file(schemas::read_text(name), schemas::shown_path(name));
-    throw UsageError("there is no material '" + name + "'" +
-                     schemas::did_you_mean(name, library_names_and_aliases()) +
-                     ", see irido materials list; files end in .csv, .txt, .tsv, .dat, .nk, .mat, "
-                     ".yml or .yaml");
+    throw UsageError(
+        "unknown material '" + name + "'" +
+        schemas::did_you_mean(name, library_names_and_aliases()) +
+        "; see irido materials list; material files end in .csv, .txt, .tsv, .dat, .nk, .mat, "
+        ".yml or .yaml");
 }
 
 int run_show(const MaterialsOptions& options) {
@@ -103,18 +104,18 @@ int run_show(const MaterialsOptions& options) {
 }
 
 void add_show(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& options, Run& run) {
-    CLI::App* show =
-        materials.add_subcommand("show", "n and k of a built-in material or of a file.");
+    CLI::App* show = materials.add_subcommand(
+        "show", "Print n and k of a built-in material or a material file.");
     show->add_option("NAME", options->name,
-                     "as irido materials list names it, or a file that stacks take\n"
-                     "(.csv, .txt, .tsv, .dat, .nk, .mat, .yml), - for standard input")
+                     "a built-in material (see irido materials list), a material file\n"
+                     "(.csv, .txt, .tsv, .dat, .nk, .mat, .yml), or - for standard input")
         ->required();
     show->add_option("-w,--wavelengths", options->wavelengths,
-                     "vacuum wavelengths, nm [380:780:1, where it is known]")
+                     "vacuum wavelengths, nm [380:780:1, within the material's range]")
         ->type_name("LIST");
     offer(*show, "NAME", library_names_and_aliases, OfferedWords::Use::one_or_file);
     add_output_options(*show, options->output, record_formats_text());
-    show->add_flag("--quiet", options->quiet, "no source, range and notes on standard error");
+    show->add_flag("--quiet", options->quiet, "no source, range or notes on standard error");
     set_examples(*show, {"irido materials show Au -w 400:800:100",
                          "irido materials show water -w 589.3 -f json",
                          "irido materials show schemas/examples/materials/N-BK7.yml"});
@@ -129,7 +130,7 @@ void add_materials_command(CLI::App& program, Run& run) {
     command->require_subcommand(1);
     const auto options = std::make_shared<MaterialsOptions>();
     CLI::App* list = command->add_subcommand(
-        "list", "Names, ranges in nm, whether 380 to 780 nm is covered, and sources.");
+        "list", "List names, ranges in nm, whether 380 to 780 nm is covered, and sources.");
     add_output_options(*list, options->output, record_formats_text());
     set_examples(*list, {"irido materials list", "irido materials list -f json"});
     list->callback([options, &run] { run = [options] { return run_list(*options); }; });

@@ -41,7 +41,7 @@ std::string size_text(const json& axes) {
     return text;
 }
 
-/// Samples of a table with those of its mip levels.
+/// Samples of a table, mip levels included.
 std::size_t samples_of_entry(const json& entry) {
     const json& axes = entry["axes"];
     const bool mips = entry.value("mips", false);
@@ -55,7 +55,7 @@ std::size_t samples_of_entry(const json& entry) {
     return samples;
 }
 
-/// Bytes of a table's numbers, without what its file has beside them.
+/// Bytes of a table's numbers, without headers and metadata.
 std::size_t bytes_of_entry(const json& entry, const std::string& format) {
     if (entry.contains("values")) return 0;
     std::size_t channels = entry["channels"].size();
@@ -70,16 +70,16 @@ struct PlanRow {
     std::string materials, role, table, size;
     double bytes = 0, samples = 0;
     std::string state{};  ///< new, kept or numbers
-    std::string why{};    ///< it is new, if that is asked
+    std::string why{};    ///< reason for being new, with -o
 };
 
 struct PlannedScene {
     tables::ScenePlan plan;
-    tables::TableEntries entries;  ///< of tables that can be made
+    tables::TableEntries entries;  ///< of the tables that can be made
     std::vector<PlanRow> rows;
     tables::MaterialFaults faults;
     std::vector<std::string> stale, notes;
-    double seconds = 0;  ///< that making what is new will take, an estimate
+    double seconds = 0;  ///< estimated time to make the new tables
 };
 
 std::string role_of(const tables::ScenePlan& plan, std::size_t table) {
@@ -89,7 +89,7 @@ std::string role_of(const tables::ScenePlan& plan, std::size_t table) {
     return "";
 }
 
-/// The largest difference of what the shader shows from the exact colour, for a loss.
+/// For a loss: the largest Delta E 2000 between the shaded and the exact colour.
 std::optional<double> delta_e_of(const schemas::Scene& scene, const tables::ScenePlan& plan,
                                  std::size_t m, const tables::Omission& loss,
                                  const SceneCommand& command) {
@@ -145,7 +145,7 @@ PlannedScene planned(const schemas::Scene& scene, const SceneCommand& command) {
         progress.set(static_cast<double>(t) / static_cast<double>(count), table.materials.front());
         try {
             plan_table(scene, result, t, before, command);
-        } catch (const std::exception& error) {  // whatever it is, it is these materials'
+        } catch (const std::exception& error) {  // of any type: it concerns these materials only
             tables::add_faults(result.faults, scene, table, error);
         }
     }
@@ -170,7 +170,7 @@ std::vector<tables::Omission> all_omissions(const PlannedScene& scene) {
     return all;
 }
 
-/// Two digits are enough for a largest difference that was looked for.
+/// Two significant digits, enough for a sampled maximum.
 std::string two_digits(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g", value);
@@ -265,14 +265,14 @@ std::string axis_text(const json& axis) {
            (unit.empty() ? "" : " " + unit) + "\n";
 }
 
-/// The long form for one material.
+/// The details of one material, for --explain.
 std::string explained(const schemas::Scene& scene, const PlannedScene& planned,
                       const std::string& name) {
     const auto material = std::ranges::find(scene.materials, name, &schemas::SceneMaterial::name);
     if (material == scene.materials.end()) {
         std::vector<std::string> names;
         for (const schemas::SceneMaterial& m : scene.materials) names.push_back(m.name);
-        throw UsageError("--explain: there is no material '" + name + "'" +
+        throw UsageError("--explain: unknown material '" + name + "'" +
                          schemas::did_you_mean(name, names));
     }
     const tables::MaterialPlan& plan =
@@ -344,11 +344,11 @@ int run_plan(const SceneCommand& command) {
                    : text_of(result);
     tables::write_stdout(text);
     if (result.seconds > 0)
-        note("making what is new will take about " + coarse_time(result.seconds), command.quiet);
+        note("making the new tables will take about " + coarse_time(result.seconds), command.quiet);
     return report_faults(scene, result.faults);
 }
 
-/// Says so if what is new will take long.
+/// Announces a bake that will take long.
 void note_long_bake(const schemas::Scene& scene, const tables::ScenePlan& plan,
                     const SceneCommand& command) {
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
@@ -394,7 +394,7 @@ int run_bake(const SceneCommand& command) {
     return report_faults(scene, result.faults);
 }
 
-/// The manifest's file name as typed, .json added if it is not there.
+/// The manifest's file name, with .json added where it is missing.
 std::string manifest_name(std::string typed) {
     if (!typed.ends_with(".json")) typed += ".json";
     const bool is_name = typed.front() != '.' && std::ranges::all_of(typed, [](unsigned char c) {
@@ -403,8 +403,8 @@ std::string manifest_name(std::string typed) {
     const std::size_t longest = 200;
     if (!is_name || typed.size() > longest)
         throw UsageError(
-            "--manifest: must be the name of a file in the folder, of letters, digits, "
-            "., - and _, not beginning with . (got '" +
+            "--manifest: must be a file name of letters, digits, ., - and _ that does not begin "
+            "with . (got '" +
             typed + "')");
     return typed;
 }
@@ -414,15 +414,14 @@ void add_manifest_option(CLI::App& command, SceneCommand& typed) {
         .add_option_function<std::string>(
             "--manifest",
             [&typed](const std::string& name) { typed.place.manifest = manifest_name(name); },
-            "the manifest's name in the folder, one for each scene that is baked\n"
-            "there [manifest.json]")
+            "file name of the manifest; each scene baked into the same folder needs\n"
+            "its own [manifest.json]")
         ->type_name("FILE");
 }
 
 void add_common(CLI::App& command, SceneCommand& typed) {
     command
-        .add_option("SCENE", typed.scene,
-                    "scene file (.json; irido validate --schema scene explains it)")
+        .add_option("SCENE", typed.scene, "scene file (.json; see irido validate --schema scene)")
         ->required();
     add_threads_option(command, typed.threads);
     command.add_flag("--quiet", typed.quiet, "no notes on standard error");
@@ -432,32 +431,33 @@ void add_common(CLI::App& command, SceneCommand& typed) {
 
 void add_plan_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "plan", "What a scene's tables will be, and what is left out and why.");
+        "plan", "Show the tables that a scene needs, and what is left out and why.");
     const auto typed = std::make_shared<SceneCommand>();
     add_common(*command, *typed);
     command
         ->add_option("-o,--output", typed->place.folder,
-                     "folder of a bake: says what would be kept")
+                     "folder of an earlier bake: show which tables would be kept")
         ->type_name("DIR");
     add_manifest_option(*command, *typed);
     command->add_option("-f,--format", typed->format, "text or json [text]")->type_name("FORMAT");
     offer(*command, "format", "text json");
-    command->add_option("--explain", typed->explained, "the long form for one material")
+    command->add_option("--explain", typed->explained, "show the details of one material")
         ->type_name("MATERIAL");
     set_examples(
         *command, {"irido plan vehicle.json", "irido plan vehicle.json --explain rim"},
-        "size: samples along the axes; bytes: of the table's numbers; cost: how often the\n"
-        "table's function will be computed; state: new, kept (with -o, then new ones say\n"
-        "why), or numbers in the manifest. losses: where what is seen differs from what\n"
-        "the scene describes, with the largest Delta E 2000 that was found; mip levels are\n"
-        "estimated where they are worst without a spread. What the scene itself says is\n"
-        "left to --explain. How long a bake will take, an estimate, is on standard error.");
+        "size: samples along the axes; bytes: size of the table's numbers; cost: number of\n"
+        "evaluations of the table's function; state: new, kept (with -o; new ones show the\n"
+        "reason), or numbers (stored in the manifest). losses: where shading differs from\n"
+        "the scene's description, with the largest Delta E 2000 found; mip levels are\n"
+        "estimated where a single thickness would be worst. Omissions that the scene itself\n"
+        "requests appear with --explain only. The estimated time is printed on standard\n"
+        "error.");
     command->callback([typed, &run] { run = [typed] { return run_plan(*typed); }; });
 }
 
 void add_bake_command(CLI::App& program, Run& run) {
     CLI::App* command =
-        program.add_subcommand("bake", "Writes all tables that a scene needs, and nothing else.");
+        program.add_subcommand("bake", "Write all tables that a scene needs, and nothing else.");
     const auto typed = std::make_shared<SceneCommand>();
     add_common(*command, *typed);
     command
@@ -465,21 +465,20 @@ void add_bake_command(CLI::App& program, Run& run) {
         ->type_name("DIR")
         ->required();
     add_manifest_option(*command, *typed);
-    command->add_flag("--force", typed->force, "make every table again");
-    command->add_flag("--verify", typed->verify,
-                      "read the tables that are kept and compare their checksums");
+    command->add_flag("--force", typed->force, "remake every table");
+    command->add_flag("--verify", typed->verify, "read the kept tables and verify their checksums");
     command->add_flag("--prune", typed->prune,
-                      "remove tables that this scene made and no\nmaterial needs any more");
+                      "remove tables of this scene that no material\nneeds any more");
     set_examples(
         *command,
         {"irido bake vehicle.json -o tables", "irido bake vehicle.json -o tables --prune --quiet"},
-        "Tables whose inputs are unchanged stay as they are: files of the size that the\n"
-        "manifest says, not touched since it was written, are believed, others are read,\n"
-        "and all with --verify. The folder is irido's own: what is not the table that\n"
-        "belongs in a place is replaced, symbolic links, too. A bake that was interrupted\n"
-        "goes on where it was. If a material fails, the others are made, the manifest says\n"
-        "why and the exit status is 1. Several scenes share a folder if each has its own\n"
-        "--manifest; --prune removes nothing that another manifest there has.");
+        "Tables whose inputs are unchanged are kept: files of the size recorded in the manifest\n"
+        "and not touched since are trusted, others are read, and with --verify all are. The\n"
+        "folder belongs to irido: anything else in a table's place is replaced, symbolic links\n"
+        "included. An interrupted bake resumes where it stopped. If a material fails, the\n"
+        "others are made, the manifest gives the reason and the exit status is 1. Several\n"
+        "scenes can share a folder if each has its own --manifest; --prune removes nothing\n"
+        "that another manifest lists.");
     command->callback([typed, &run] { run = [typed] { return run_bake(*typed); }; });
 }
 

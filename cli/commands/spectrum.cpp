@@ -4,7 +4,7 @@
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/options/picture_options.hpp"
-#include "cli/queries/spectrum_question.hpp"
+#include "cli/queries/spectrum_query.hpp"
 #include "tables/resume/record_stream.hpp"
 
 namespace irido::cli {
@@ -13,33 +13,32 @@ namespace {
 
 struct SpectrumCommand {
     schemas::StackRequest stack;
-    std::unique_ptr<QuestionOptions> typed;
+    std::unique_ptr<QueryOptions> typed;
     OutputOptions output;
     unsigned threads = 0;
     bool stats = false;
     bool quiet = false;
 };
 
-/// Rows block by block into a stream, or all of them into a picture.
-void write_rows(const SpectrumCommand& command, const SpectrumQuestion& question,
+/// Writes rows block by block, or draws all of them.
+void write_rows(const SpectrumCommand& command, const SpectrumQuery& query,
                 const schemas::StackDocument& document,
                 const std::function<void(const std::string&)>& say) {
-    const tables::RecordLayout layout = question.layout(document);
+    const tables::RecordLayout layout = query.layout(document);
     if (const auto* picture = asked_picture(command.output)) {
         check_writable(command.output);
-        note_long_work(seconds_of_rows(question, document, command.threads), false, say);
+        note_long_work(seconds_of_rows(query, document, command.threads), false, say);
         tables::Records all;
-        question.each_block(document, [&](const tables::Records& rows) { all.append(rows); });
+        query.each_block(document, [&](const tables::Records& rows) { all.append(rows); });
         const std::string title = title_of(document, command.stack);
-        write_picture([&] { return figure_of_rows(question, all, {}, title, {}, say); }, {},
-                      *picture, command.output);
+        write_picture([&] { return figure_of_rows(query, all, {}, title, {}, say); }, {}, *picture,
+                      command.output);
         return;
     }
     const tables::RecordFormat& format = resolved_record_format(command.output);
-    const auto stream =
-        tables::counted_output(command.output.file, format, layout, question.rows());
-    note_long_work(seconds_of_rows(question, document, command.threads), false, say);
-    question.each_block(document, [&](const tables::Records& rows) {
+    const auto stream = tables::counted_output(command.output.file, format, layout, query.rows());
+    note_long_work(seconds_of_rows(query, document, command.threads), false, say);
+    query.each_block(document, [&](const tables::Records& rows) {
         stream->append(format.rows(layout, rows), 0, rows.rows());
     });
     stream->finish();
@@ -49,12 +48,12 @@ int run_spectrum(const SpectrumCommand& command) {
     if (!asked_picture(command.output))
         resolved_record_format(command.output, RecordTarget::stream_or_picture);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const SpectrumQuestion question(static_cast<const SpectrumOptions&>(*command.typed),
-                                    {.execution = execution_of(command.threads), .note = say});
+    const SpectrumQuery query(static_cast<const SpectrumOptions&>(*command.typed),
+                              {.execution = execution_of(command.threads), .note = say});
     const schemas::StackDocument document = read_noted_stack(command.stack, command.quiet);
-    write_rows(command, question, document, say);
+    write_rows(command, query, document, say);
     if (command.stats)
-        for (const std::string& line : question.stats(*question.prepare(document)))
+        for (const std::string& line : query.stats(*query.prepare(document)))
             std::cerr << "irido: stats: " << line << '\n';
     return 0;
 }
@@ -71,7 +70,7 @@ void add_spectrum_command(CLI::App& program, Run& run) {
                        record_formats_text(RecordTarget::stream_or_picture));
     add_threads_option(*command, options->threads);
     command->add_flag("--stats", options->stats,
-                      "say on standard error how it was computed and what was skipped");
+                      "report on standard error how it was computed and what was skipped");
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(*command,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",

@@ -27,8 +27,8 @@ struct SweepCommand {
     schemas::StackRequest stack;
     std::vector<std::string> vary;
     std::string points;
-    const QuestionKind* kind = nullptr;
-    std::unique_ptr<QuestionOptions> typed;  ///< of the kind
+    const QueryKind* kind = nullptr;
+    std::unique_ptr<QueryOptions> typed;  ///< options of the kind
     std::string compute;
     OutputOptions output;
     PictureOptions picture;
@@ -55,7 +55,7 @@ Shard parse_shard(const std::string& text) {
     return {parse_whole_number("--shard", text.substr(0, slash), 1, static_cast<double>(of)), of};
 }
 
-/// Says each note once.
+/// Prints each note once.
 class Notes {
 public:
     explicit Notes(bool quiet) : quiet_(quiet) {}
@@ -63,7 +63,7 @@ public:
     void operator()(const std::string& text) {
         const std::scoped_lock guard(lock_);
         if (said_.size() >= kMost || !said_.insert(text).second) return;
-        note(said_.size() < kMost ? text : "there are more notes like the ones above", quiet_);
+        note(said_.size() < kMost ? text : "further notes suppressed", quiet_);
     }
 
 private:
@@ -74,12 +74,12 @@ private:
     std::set<std::string> said_;
 };
 
-/// Whether stacks that differ in it only are of one structure.
+/// Whether stacks that differ only in this column have the same structure.
 bool is_shared(const SweptColumn& column) {
     return column.is_light() || schemas::VariedStack::is_thickness(column.path);
 }
 
-/// Stacks of one structure, as far as that is known before.
+/// Number of stacks per structure, as far as known in advance.
 double stacks_of_structure(const SweepSpace& space) {
     double stacks = 1, points = 1;
     bool points_share = true;
@@ -110,13 +110,13 @@ std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
     return places;
 }
 
-/// Angles and wavelengths come from one place.
+/// Refuses angles or wavelengths that are given twice.
 void require_once(const SweepCommand& command, const SweepSpace& space) {
     for (const SweptColumn& column : space.columns()) {
         if (column.path == kSweptAngle && command.has_angles)
-            throw UsageError("--angles: angle_deg varies, so leave out --angles");
+            throw UsageError("--angles: cannot be combined with a varied angle_deg");
         if (column.path == kSweptWavelength && command.has_wavelengths)
-            throw UsageError("--wavelengths: wavelength_nm varies, so leave out --wavelengths");
+            throw UsageError("--wavelengths: cannot be combined with a varied wavelength_nm");
     }
 }
 
@@ -125,8 +125,8 @@ bool varies_wavelength(const SweepSpace& space) {
            space.columns().end();
 }
 
-/// All that the rows depend on, but for the machine.
-std::string request_hash(const SweepCommand& command, const Question& question,
+/// Hash of all that the rows depend on, except the machine.
+std::string request_hash(const SweepCommand& command, const Query& query,
                          const schemas::StackSource& source, const schemas::StackDocument& first,
                          const SweepSpace& space) {
     nlohmann::json vary = nlohmann::json::array();
@@ -134,7 +134,7 @@ std::string request_hash(const SweepCommand& command, const Question& question,
         vary.push_back({column.path, column.numbers, column.texts, column.codes, column.of_points});
     const nlohmann::json request{{"compute", command.kind->name},
                                  {"options", command.typed->typed()},
-                                 {"data", question.data()},
+                                 {"data", query.data()},
                                  {"stack", source.document},
                                  {"first", schemas::canonical_stack(first.stack)},
                                  {"vary", std::move(vary)}};
@@ -163,7 +163,7 @@ std::string short_number(double number) {
     return text.data();
 }
 
-/// Done, rate and time left.
+/// Shows rows done, rate and remaining time.
 class SweepProgress {
 public:
     SweepProgress(bool quiet, std::uint64_t units, const SweepCounts& counts)
@@ -198,9 +198,7 @@ void print_stats(const SweepEngine& engine, const SweptStacks& stacks,
     std::fprintf(stderr, "irido: stats: %llu rows in %.3g s, %.3g rows/s\n",
                  static_cast<unsigned long long>(counts.rows), progress.seconds(),
                  progress.rows_per_second());
-    std::fprintf(stderr,
-                 "irido: stats: stacks %llu, of structures %llu: so often were materials, index "
-                 "tables and weights made\n",
+    std::fprintf(stderr, "irido: stats: %llu stacks; %llu structures prepared\n",
                  static_cast<unsigned long long>(counts.stacks),
                  static_cast<unsigned long long>(stacks.prepared()));
 }
@@ -215,13 +213,14 @@ std::unique_ptr<tables::RecordStream> open_stream(const SweepCommand& command,
     if (!command.output.file.empty())
         return tables::record_file(command.output.file, format, engine.layout(), identity,
                                    command.resume, rows);
-    if (command.resume) throw UsageError("--resume: needs --output FILE");
+    if (command.resume) throw UsageError("--resume: requires --output FILE");
     const tables::RecordLayout layout = engine.layout();
     const bool counts = format.head(layout, 0, tables::HeadKind::final) !=
                         format.head(layout, 1, tables::HeadKind::final);
     if (counts && !is_known)
-        throw UsageError("--format: " + std::string(format.name) +
-                         " needs --output FILE where the number of rows is not known before");
+        throw UsageError(
+            "--format: " + std::string(format.name) +
+            " requires --output FILE where the number of rows is not known in advance");
     return tables::record_output(format, engine.layout(), rows);
 }
 
@@ -233,9 +232,11 @@ void require_no_parts(const SweepCommand& command) {
 }
 
 /// Rows that are drawn once all are there.
-std::unique_ptr<tables::RecordStream> open_picture(
-    const SweepCommand& command, const tables::PictureFormat& picture, const SweepEngine& engine,
-    const SweepSpace& space, const Question& question, std::string title, Notes& notes) {
+std::unique_ptr<tables::RecordStream> open_picture(const SweepCommand& command,
+                                                   const tables::PictureFormat& picture,
+                                                   const SweepEngine& engine,
+                                                   const SweepSpace& space, const Query& query,
+                                                   std::string title, Notes& notes) {
     constexpr std::uint64_t most_rows = 20'000'000;
     if (engine.rows_per_unit() * engine.units() > most_rows)
         throw UsageError("--output: a picture of " +
@@ -244,10 +245,10 @@ std::unique_ptr<tables::RecordStream> open_picture(
     std::vector<std::string> varied;
     for (const SweptColumn& column : space.columns())
         if (!column.is_light()) varied.push_back(column.path);
-    const auto draw = [&command, &picture, &question, &notes, varied,
+    const auto draw = [&command, &picture, &query, &notes, varied,
                        title](const tables::Records& rows) {
         const auto figure = [&] {
-            return figure_of_rows(question, rows, varied, title, parse_gamut(command.picture),
+            return figure_of_rows(query, rows, varied, title, parse_gamut(command.picture),
                                   [&](const std::string& text) { notes(text); });
         };
         write_picture(figure, command.picture, picture, command.output);
@@ -256,13 +257,13 @@ std::unique_ptr<tables::RecordStream> open_picture(
 }
 
 int run_merge(const SweepCommand& command) {
-    if (command.output.file.empty()) throw UsageError("--merge: needs --output FILE");
+    if (command.output.file.empty()) throw UsageError("--merge: requires --output FILE");
     tables::merge_streams(command.merge, command.output.file,
                           resolved_record_format(command.output, RecordTarget::any));
     return 0;
 }
 
-/// Writes what is left of a stream's units. Returns the exit status.
+/// Computes and writes the remaining units of a stream. Returns the exit status.
 int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& stacks,
                const tables::RecordFormat& format, const tables::StreamIdentity& identity,
                tables::RecordStream& stream, const OrderlyEnd* orderly) {
@@ -276,19 +277,20 @@ int write_rows(const SweepCommand& command, SweepEngine& engine, SweptStacks& st
     progress.clear();
     if (!is_whole) {
         stream.suspend();
-        note("ended early; the same command with --resume goes on", command.quiet);
+        note("interrupted; rerun with --resume to continue", command.quiet);
         return 128 + orderly->signal();
     }
     const std::uint64_t left_out = engine.counts().left_out, all = identity.end - begin;
     if (left_out > 0 && left_out == all && stream.rows_done() == 0 && identity.shards == 1) {
         stream.discard();
         throw CheckFailed("nothing is left: none of " + std::to_string(all) +
-                          " can be computed, the first one " + engine.first_left_out());
+                          " combinations can be computed; the first fails " +
+                          engine.first_left_out());
     }
     stream.finish();
     if (left_out > 0)
         note("left out " + std::to_string(left_out) + " of " + std::to_string(all) +
-                 ", the first one " + engine.first_left_out(),
+                 "; the first fails " + engine.first_left_out(),
              command.quiet);
     if (command.stats) print_stats(engine, stacks, progress);
     return 0;
@@ -309,21 +311,20 @@ int run_sweep(const SweepCommand& command) {
     const SweepSpace space(command.vary, command.points);
     require_once(command, space);
     const Execution machine{1, execution_of(command.threads).simd};
-    const auto question =
-        command.typed->parse({.execution = machine,
-                              .note = [&](const std::string& text) { notes(text); },
-                              .stacks = stacks_of_structure(space),
-                              .varied = varied_layers(space),
-                              .structures = structures_together(space),
-                              .varies_wavelength = varies_wavelength(space),
-                              .is_silent = true});
+    const auto query = command.typed->parse({.execution = machine,
+                                             .note = [&](const std::string& text) { notes(text); },
+                                             .stacks = stacks_of_structure(space),
+                                             .varied = varied_layers(space),
+                                             .structures = structures_together(space),
+                                             .varies_wavelength = varies_wavelength(space),
+                                             .is_silent = true});
     const schemas::StackSource source = schemas::load_stack(command.stack);
-    SweptStacks stacks(source, space, *question);
-    SweepEngine engine(stacks, space, *question, command.keep_going);
+    SweptStacks stacks(source, space, *query);
+    SweepEngine engine(stacks, space, *query, command.keep_going);
     const std::vector<std::uint64_t> ends =
         shard.of > 1 ? engine.shard_ends(shard.of) : std::vector<std::uint64_t>{0, engine.units()};
     const tables::StreamIdentity identity{
-        request_hash(command, *question, source, stacks.first(), space),
+        request_hash(command, *query, source, stacks.first(), space),
         std::string(name_of(machine.simd)),
         shard.number,
         shard.of,
@@ -335,16 +336,16 @@ int run_sweep(const SweepCommand& command) {
     if (!command.output.file.empty() && !picture) orderly.emplace();  // before there is a part
     std::error_code ignored;
     if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
-        note(command.output.file +
-                 ".part of an earlier run is begun anew; --resume would have gone on",
+        note("discarding " + command.output.file +
+                 ".part of an earlier run (use --resume to continue it)",
              command.quiet);
     const std::unique_ptr<tables::RecordStream> stream =
-        picture ? open_picture(command, *picture, engine, space, *question,
+        picture ? open_picture(command, *picture, engine, space, *query,
                                title_of(stacks.first(), command.stack), notes)
                 : open_stream(command, format, engine, identity);
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
-        note("goes on after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
+        note("resuming after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
     note_long_work(
         engine.seconds_of(identity.begin + stream->units_done(), identity.end, command.threads),
         false, [&](const std::string& text) { notes(text); });
@@ -352,7 +353,7 @@ int run_sweep(const SweepCommand& command) {
         return write_rows(command, engine, stacks, format, identity, *stream,
                           orderly ? &*orderly : nullptr);
     } catch (...) {
-        // what --resume asked to be kept is kept, whatever goes wrong
+        // with --resume, finished rows survive any error
         if (command.resume) {
             stream->suspend();
         } else {
@@ -362,8 +363,8 @@ int run_sweep(const SweepCommand& command) {
     }
 }
 
-/// The kind that follows --compute on the command line; nullptr if there is none.
-const QuestionKind* typed_kind(std::span<char* const> arguments) {
+/// The kind named after --compute on the command line; nullptr without --compute.
+const QueryKind* typed_kind(std::span<char* const> arguments) {
     for (std::size_t i = 2; i < arguments.size(); ++i) {
         std::string_view argument = arguments[i];
         constexpr std::string_view option = "--compute";
@@ -374,9 +375,9 @@ const QuestionKind* typed_kind(std::span<char* const> arguments) {
         } else {
             continue;
         }
-        for (const QuestionKind& kind : question_kinds())
+        for (const QueryKind& kind : query_kinds())
             if (kind.name == argument) return &kind;
-        throw UsageError("--compute: " + not_one_of(question_names(), std::string(argument)));
+        throw UsageError("--compute: " + not_one_of(query_names(), std::string(argument)));
     }
     return nullptr;
 }
@@ -386,48 +387,48 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
     command.get_option("STACK")->required(false);
     command
         .add_option("--vary", typed.vary,
-                    "a value of the stack by dotted path, and what it becomes: a LIST\n"
-                    "(layers.0.thickness_nm=0:1000:10), names and other values with\n"
-                    "commas (substrate=Ag,Au,1.9+1.5i,{\"n\":2}); also angle_deg and, for\n"
-                    "spectrum, wavelength_nm. Again for more; the last changes first")
+                    "vary a value of the stack, by dotted path, over a LIST\n"
+                    "(layers.0.thickness_nm=0:1000:10) or over names and other values\n"
+                    "(substrate=Ag,Au,1.9+1.5i,{\"n\":2}); also angle_deg and, for\n"
+                    "spectrum, wavelength_nm. Repeatable; the last --vary changes fastest")
         ->type_name("PATH=LIST")
         ->allow_extra_args(false);
     command
         .add_option("--points", typed.points,
-                    "a CSV file of combinations, its columns named by path; each with\n"
-                    "every combination of --vary, if there is any")
+                    "CSV file of combinations, its columns named by path; each is\n"
+                    "computed with every combination of --vary")
         ->type_name("FILE");
     command
         .add_option("--compute", typed.compute,
-                    "spectrum, color, bands or cm, with the options of that command:\n"
-                    "irido sweep --compute color --help shows them, too")
+                    "spectrum, color, bands or cm, with the options of that command;\n"
+                    "see irido sweep --compute color --help")
         ->type_name("COMMAND");
-    offer(command, "compute", question_names);
+    offer(command, "compute", query_names);
     command
         .add_option("--shard", typed.shard,
-                    "only part K of N, K in [1, N], each about as much work; for --merge,\n"
-                    "with FILE.sweep beside it, which holds its checksum")
+                    "compute part K of N only, K in [1, N], parts being of about equal\n"
+                    "cost; keep FILE.sweep, which holds its checksum, for --merge")
         ->type_name("K/N");
     command.add_flag("--resume", typed.resume,
-                     "go on where an earlier run of the same command ended; nothing that\n"
-                     "is done is thrown away if this one ends early");
+                     "continue an earlier run of the same command; if this run ends\n"
+                     "early, its finished rows are kept, too");
     command
         .add_option("--merge", typed.merge,
-                    "put the files of all shards together, in any order, instead of\n"
-                    "computing: the same bytes as of one run. Refuses files that were\n"
-                    "changed, or are of another build of irido (--version) or another\n"
+                    "join the files of all shards, in any order, instead of computing:\n"
+                    "byte-identical to a single run. Refuses files that were changed,\n"
+                    "or written by another build of irido (--version) or at another\n"
                     "SIMD level (IRIDO_SIMD=avx2 forces one)")
         ->type_name("FILE");
     command.add_flag("--keep-going", typed.keep_going,
-                     "leave out combinations that cannot be computed, and say how many;\n"
-                     "if none is left that is exit status 1, and FILE stays as it was");
+                     "leave out combinations that cannot be computed, and report how many;\n"
+                     "if none is left, the exit status is 1 and FILE stays as it was");
     if (!command.get_option_no_throw("--stats")) {
-        command.add_flag("--stats", typed.stats, "say on standard error what was used again");
+        command.add_flag("--stats", typed.stats, "print reuse statistics on standard error");
     } else {
         command.get_option("--stats")->description(
-            "adds method,evaluations,error_estimate; the error of methods\n"
-            "that are not exact is measured against quadrature. Says on\n"
-            "standard error what was used again");
+            "add columns method,evaluations,error_estimate; the error of\n"
+            "approximate methods is measured against quadrature. Also print\n"
+            "reuse statistics on standard error");
     }
 }
 
@@ -435,7 +436,8 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
 
 void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments) {
     CLI::App* command = program.add_subcommand(
-        "sweep", "Every combination of varied values, in one file: streamed, resumed, sharded.");
+        "sweep",
+        "Compute all combinations of varied values into one file: streamed, resumable, sharded.");
     const auto options = std::make_shared<SweepCommand>();
     const bool is_typed = arguments.size() > 1 && std::string_view(arguments[1]) == "sweep";
     options->kind = is_typed ? typed_kind(arguments) : nullptr;
@@ -454,8 +456,8 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
          "irido sweep \"air | TiO2@0 | Ti\" --vary layers.0.thickness_nm=0:200:1 --vary "
          "angle_deg=0:85:1 --compute color -o map.png",
          "irido sweep --merge part-1.csv part-2.csv part-3.csv -o all.csv"},
-        "Columns are the varied values, named by path, and those of the command. With -o, what is\n"
-        "done is in FILE.part until all is; Ctrl-C, or a crash, leaves it there for --resume.");
+        "Columns are the varied values, named by path, then those of the command. With -o, rows\n"
+        "are in FILE.part until all are done; after Ctrl-C or a crash, --resume continues it.");
     command->callback([options, command, &run] {
         const auto is_given = [&](const std::string& name) {
             const CLI::Option* const option = command->get_option_no_throw(name);

@@ -32,7 +32,7 @@ constexpr std::array<SchemaText, 4> kSchemas{{{"stack", schemas::stack_schema_te
                                               {"manifest", tables::manifest_schema_text},
                                               {"lut", tables::lut_schema_text}}};
 
-/// What has keys of a stack is one, whatever else is in it by mistake.
+/// A document with keys of a stack is one, whatever else it contains by mistake.
 bool is_stack(const json& document) {
     return !document.is_object() || !document.contains("materials") ||
            document.contains("layers") || document.contains("incident") ||
@@ -115,31 +115,30 @@ int print_schema(const std::string& name) {
 void add_validate_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
         "validate",
-        "Check stacks, scenes, manifests and material files: every error of every file, or\n"
-        "FILE: ok.");
+        "Check stacks, scenes, manifests and material files: print every error, or FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto schema = std::make_shared<std::string>();
     CLI::Option* option =
         command
             ->add_option("--schema", *schema,
-                         "print the JSON Schema of stack, scene or manifest files or of a\n"
-                         "lut's metadata, which explains every key [stack]")
+                         "print a JSON Schema, which explains every key: stack, scene,\n"
+                         "manifest or lut (the metadata of a table) [stack]")
             ->type_name("[NAME]")
             ->expected(0, 1);
     offer(*command, "schema", schema_names);
     command
         ->add_option("FILE", *files,
-                     "stack or scene files or manifests (.json), material files (.csv,\n"
-                     ".txt, .tsv, .dat, .nk, .mat, .yml), - for JSON on standard input,\n"
-                     "or expressions")
+                     "stacks, scenes or manifests (.json), material files (.csv, .txt,\n"
+                     ".tsv, .dat, .nk, .mat, .yml), expressions, or - for JSON on\n"
+                     "standard input")
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});
     command->footer(
         command->get_footer() +
-        "\n\nOf a scene, everything that is known before its tables are computed; of a manifest\n"
-        "with its tables beside it, every file is read.\n\n"
-        "Exit status: 0 if all are right, 1 if not, 2 if a file cannot be read.");
+        "\n\nScenes are checked as far as is possible without computing their tables; for a\n"
+        "manifest, the table files in its folder are read, too.\n\n"
+        "Exit status: 0 if all files are valid, 1 if not, 2 if one cannot be read.");
     command->callback([files, schema, option, &run] {
         if (option->count() > 0 || !option->empty()) {
             run = [schema] { return print_schema(schema->empty() ? "stack" : *schema); };

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "cli/options/command.hpp"
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 
 namespace irido::cli {
 
@@ -54,7 +54,7 @@ std::vector<OptionGroup> groups_of(const CLI::App& command) {
     std::vector<OptionGroup> groups;
     if (!command.get_option_no_throw("--compute")) return groups;
     std::vector<std::unique_ptr<CLI::App>> commands;  // none of them at another's address
-    for (const QuestionKind& kind : question_kinds()) {
+    for (const QueryKind& kind : query_kinds()) {
         commands.push_back(std::make_unique<CLI::App>());
         commands.back()->set_help_flag();
         const auto typed = kind.add_options(*commands.back());

@@ -31,7 +31,7 @@ bool is_ellipsometric(SpectrumColumn column) {
     return column == SpectrumColumn::psi_deg || column == SpectrumColumn::delta_deg;
 }
 
-/// Appends values of the rows of a table to a column, in their order.
+/// Appends the values of rows to a column, in order.
 class RowValues {
 public:
     RowValues(const SpectrumShape& shape, const Spectra& spectra, tables::Column::Numbers& to)
@@ -47,7 +47,7 @@ public:
                     to_.push_back(value(polarization, a * shape_.wavelengths + w));
     }
 
-    /// A quantity of both polarizations, `offset` values further than the first point.
+    /// Appends a power; `offset` is the place of its first point.
     void power(std::vector<double> Spectrum::*quantity, std::size_t offset = 0) const {
         const double* s = (spectra_.s.*quantity).data() + offset;
         const double* p = (spectra_.p.*quantity).data() + offset;
@@ -115,7 +115,7 @@ std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text) {
     for (const std::string_view name : comma_separated(text)) {
         const SpectrumColumn column = column_of(name);
         if (std::ranges::find(columns, column) != columns.end())
-            throw UsageError("--columns: each must be named once (got " + std::string(name) +
+            throw UsageError("--columns: each column must be named once (got " + std::string(name) +
                              " twice)");
         columns.push_back(column);
     }
@@ -131,7 +131,7 @@ Needs spectrum_needs(const std::string& polarizations, const std::vector<Spectru
     for (const SpectrumColumn column : columns) {
         if (column == SpectrumColumn::A_layers) {
             if (stack.layer_count() > StackPower::kLargestLayerList)
-                throw UsageError("--columns: A_layers needs a stack of at most " +
+                throw UsageError("--columns: A_layers requires a stack of at most " +
                                  std::to_string(StackPower::kLargestLayerList) + " layers (got " +
                                  std::to_string(stack.layer_count()) + ", repetitions included)");
             needs.layers = stack.layer_count() > 0;
@@ -139,11 +139,11 @@ Needs spectrum_needs(const std::string& polarizations, const std::vector<Spectru
         }
         if (asked_for('u'))
             throw UsageError("--columns: " + name_of(column) +
-                             " belongs to s or p, not to their mean: use -p s,p");
+                             " is undefined for unpolarized light; use -p s,p");
         if (!stack.has_amplitudes())
             throw UsageError("--columns: " + name_of(column) +
-                             " needs a stack of coherent layers without thickness_sigma_nm: what "
-                             "is added or averaged as power has no amplitude");
+                             " requires coherent layers without thickness_sigma_nm: incoherent "
+                             "or averaged stacks have no amplitudes");
         needs.amplitudes = true;
         if (is_ellipsometric(column)) needs.s = needs.p = true;
     }

@@ -10,22 +10,22 @@
 
 namespace irido::cli {
 
-/// The columns that can be asked for beside R, T and A.
+/// Optional columns, in addition to R, T and A.
 enum class SpectrumColumn { r_re, r_im, t_re, t_im, psi_deg, delta_deg, A_layers };
 
-/// Their names.
+/// The names of all columns.
 std::span<const std::string_view> spectrum_column_names();
 
-/// "r_re,psi_deg", in the order typed; "" for none. Throws UsageError for names that are unknown
-/// or doubled.
+/// The columns of "r_re,psi_deg", in the order typed; none for "". Throws UsageError for unknown or
+/// repeated names.
 std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text);
 
-/// What has to be computed for rows of these polarizations (letters of "spu") and these columns.
-/// Throws UsageError if a column does not exist in one of the polarizations or for the stack.
+/// The quantities required for rows of these polarizations (letters of "spu") and columns. Throws
+/// UsageError if a column is undefined for one of the polarizations or for the stack.
 Needs spectrum_needs(const std::string& polarizations, const std::vector<SpectrumColumn>& columns,
                      const StackPower& stack);
 
-/// Names of the columns of numbers, R, T, A and those asked for, of a stack of so many layers.
+/// Names of the numeric columns, R, T, A and the optional ones, for a stack of `layers` layers.
 std::vector<std::string> spectrum_number_names(const std::vector<SpectrumColumn>& columns,
                                                std::size_t layers);
 
@@ -38,7 +38,12 @@ struct SpectrumShape {
     std::size_t rows() const { return angles * polarizations.size() * wavelengths; }
 };
 
-/// Appends the numbers of rows to columns, one of each name above.
+/// Appends rows to numeric columns.
+/// shape    numbers of angles, polarizations and wavelengths
+/// columns  the optional columns
+/// layers   number of layers listed by A_layers
+/// spectra  values in the order [angle][wavelength]
+/// to       one column per name of spectrum_number_names()
 void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<SpectrumColumn>& columns,
                              std::size_t layers, const Spectra& spectra,
                              std::vector<tables::Column::Numbers>& to);

@@ -18,16 +18,16 @@ namespace irido::cli {
 
 namespace {
 
-/// A block takes so long, if it has not too many rows.
+/// Target run time of a block, unless it has too many rows.
 constexpr double kShortBlock_s = 0.02, kLongBlock_s = 0.1;
 constexpr std::uint64_t kMostBlockRows = 8192, kFirstUnits = 16;
-/// Blocks that wait to be written, for each thread.
+/// Blocks per thread that may wait to be written.
 constexpr std::size_t kBlocksAhead = 4;
-/// Units whose cost says how to cut shards.
+/// Units sampled for the cost of shards.
 constexpr std::uint64_t kCostSamples = 4096;
 constexpr double kMostUnits = 1e18;
 
-/// Values of the varied columns in front of every row.
+/// Appends the values of varied columns that precede every row.
 class LeadingColumns {
 public:
     LeadingColumns(const SweepSpace& space, const std::vector<std::size_t>& columns)
@@ -77,7 +77,7 @@ private:
     tables::Records records_;
 };
 
-/// The most bytes that a value of a column has.
+/// Bytes of the longest value of a column.
 std::size_t width_of(const SweptColumn& column) {
     std::size_t width = 1;
     for (const std::string& text : column.texts) width = std::max(width, text.size());
@@ -93,7 +93,7 @@ bool has_field(const tables::RecordLayout& layout, const std::string& name) {
     return std::ranges::find(layout, name, &tables::RecordField::name) != layout.end();
 }
 
-/// Runs `work`; what it throws says where: at place().
+/// Runs `work`; its errors begin with "at PLACE: ".
 template <class Place, class Work>
 auto at_place(const Place& place, const Work& work) {
     try {
@@ -143,8 +143,7 @@ public:
         changed_.notify_all();
     }
 
-    /// The first block that is not written yet, when it is done; nullptr if that takes longer than
-    /// a moment.
+    /// The first unwritten block once it is done; nullptr after a short wait.
     std::shared_ptr<Block> first_done() {
         std::unique_lock guard(lock_);
         const auto is_done = [&] { return !waiting_.empty() && waiting_.front()->is_done; };
@@ -171,37 +170,37 @@ private:
     std::deque<std::shared_ptr<Block>> waiting_;
 };
 
-SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Question& question,
+SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Query& query,
                          bool keep_going)
-    : stacks_(stacks), space_(space), question_(question), keep_going_(keep_going) {
+    : stacks_(stacks), space_(space), query_(query), keep_going_(keep_going) {
     const auto& columns = space.columns();
     for (std::size_t c = 0; c < columns.size(); ++c) {
         if (!columns[c].is_light()) led_by_.push_back(c);
         if (columns[c].path == kSweptAngle) angle_column_ = c;
         if (columns[c].path == kSweptWavelength) wavelength_column_ = c;
     }
-    if (wavelength_column_ && !question.takes_wavelength())
-        throw UsageError("wavelength_nm: varies for --compute spectrum only");
+    if (wavelength_column_ && !query.takes_wavelength())
+        throw UsageError("wavelength_nm: can vary for --compute spectrum only");
     units_ = space.size();
     is_inner_angle_ = angle_column_ && *angle_column_ + 1 == columns.size() &&
-                      !columns.back().of_points && question.splits_angles();
+                      !columns.back().of_points && query.splits_angles();
     static constexpr double kNoAngle = 0;  // set by the combination
     if (is_inner_angle_) {
         angles_ = columns.back().numbers;
         angle_column_.reset();
-    } else if (angle_column_ || !question.splits_angles()) {
+    } else if (angle_column_ || !query.splits_angles()) {
         angles_ = {&kNoAngle, 1};
     } else {
-        angles_ = question.angles_deg();
+        angles_ = query.angles_deg();
         if (static_cast<double>(units_) * static_cast<double>(angles_.size()) > kMostUnits)
-            throw UsageError("--vary: more than 1e18 combinations and angles");
+            throw UsageError("--vary: must give at most 1e18 combinations and angles");
         units_ *= angles_.size();
     }
-    rows_per_unit_ = question.rows_per_angle();
-    if (!angle_column_ && !question.splits_angles()) rows_per_unit_ *= question.angles_deg().size();
-    const tables::RecordLayout answered = question.layout(stacks_.first());
+    rows_per_unit_ = query.rows_per_angle();
+    if (!angle_column_ && !query.splits_angles()) rows_per_unit_ *= query.angles_deg().size();
+    const tables::RecordLayout computed = query.layout(stacks_.first());
     for (const SweptColumn& column : columns) layout_.push_back(field_of(column));
-    for (const tables::RecordField& field : answered)
+    for (const tables::RecordField& field : computed)
         if (!has_field(layout_, field.name)) layout_.push_back(field);
 }
 
@@ -213,18 +212,18 @@ double SweepEngine::cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const {
     try {
         const auto& place = walk.at(combination);
         const auto cost = [&](double angle_deg) {
-            return question_.cost_us(*place.prepared, place.stack, angle_deg, wavelength_nm);
+            return query_.cost_us(*place.prepared, place.stack, angle_deg, wavelength_nm);
         };
         if (angle_column_) return cost(number_at(*angle_column_, combination));
-        if (question_.splits_angles()) return cost(angles_[unit % angles_.size()]);
-        return cost(0) * static_cast<double>(question_.angles_deg().size());
-    } catch (const Error&) {  // for the run to find
+        if (query_.splits_angles()) return cost(angles_[unit % angles_.size()]);
+        return cost(0) * static_cast<double>(query_.angles_deg().size());
+    } catch (const Error&) {  // the run will report it
         return kLeftOut;
     }
 }
 
 std::vector<std::uint64_t> SweepEngine::shard_ends(std::uint64_t shards) {
-    constexpr double kRounded = 64;  // whole numbers add up to the same everywhere
+    constexpr double kRounded = 64;  // sums of whole numbers are the same everywhere
     const std::uint64_t cells = std::min(units_, kCostSamples);
     const auto cell_begin = [&](std::uint64_t cell) {
         return static_cast<std::uint64_t>(static_cast<long double>(units_) *
@@ -253,22 +252,22 @@ std::vector<std::uint64_t> SweepEngine::shard_ends(std::uint64_t shards) {
 }
 
 std::size_t SweepEngine::add(std::uint64_t unit, std::size_t count, SweptStacks::Walk& walk,
-                             Answers& answers) {
+                             QueryResult& result) {
     const std::uint64_t combination = combination_of(unit);
     double angle_deg = 0;
     Incidence incidence;
     if (angle_column_) {
         angle_deg = number_at(*angle_column_, combination);
         incidence.angles_deg = {&angle_deg, 1};
-    } else if (question_.splits_angles()) {
+    } else if (query_.splits_angles()) {
         incidence.angles_deg = angles_.subspan(unit % angles_.size(), count);
     } else {
-        incidence.angles_deg = question_.angles_deg();
+        incidence.angles_deg = query_.angles_deg();
     }
     if (wavelength_column_) incidence.wavelength_nm = number_at(*wavelength_column_, combination);
     const auto work = [&] {
         const auto& place = walk.at(combination);
-        return answers.add(*place.prepared, place.stack, incidence);
+        return result.add(*place.prepared, place.stack, incidence);
     };
     const auto place = [&] {
         const bool names_angle = !is_inner_angle_ && angles_.size() > 1;
@@ -278,13 +277,13 @@ std::size_t SweepEngine::add(std::uint64_t unit, std::size_t count, SweptStacks:
     return at_place(place, work);
 }
 
-tables::Records SweepEngine::assembled(tables::Records leading, tables::Records answered) const {
+tables::Records SweepEngine::assembled(tables::Records leading, tables::Records computed) const {
     tables::Records all;
     for (tables::Column& column : leading.columns) all.columns.push_back(std::move(column));
     const auto move_here = [&](const std::string& name) {
-        const auto found = std::ranges::find(answered.columns, name, &tables::Column::name);
+        const auto found = std::ranges::find(computed.columns, name, &tables::Column::name);
         all.columns.push_back(std::move(*found));
-        answered.columns.erase(found);
+        computed.columns.erase(found);
     };
     for (std::size_t c = 0; c < space_.columns().size(); ++c) {
         if (!space_.columns()[c].is_light()) continue;
@@ -292,9 +291,10 @@ tables::Records SweepEngine::assembled(tables::Records leading, tables::Records 
         std::rotate(all.columns.begin() + static_cast<std::ptrdiff_t>(c), all.columns.end() - 1,
                     all.columns.end());
     }
-    for (tables::Column& column : answered.columns) all.columns.push_back(std::move(column));
+    for (tables::Column& column : computed.columns) all.columns.push_back(std::move(column));
     if (all.columns.size() != layout_.size())
-        throw UsageError("--columns: A_layers needs as many layers in every stack of a sweep");
+        throw UsageError(
+            "--columns: A_layers requires the same number of layers in every stack of a sweep");
     return all;
 }
 
@@ -314,9 +314,9 @@ void SweepEngine::take_alone(std::uint64_t unit, const std::function<void()>& ta
 void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const tables::RecordFormat& format,
                           const std::atomic<bool>& stopped) {
     LeadingColumns leading(space_, led_by_);
-    const std::unique_ptr<Answers> answers = question_.answers();
+    const std::unique_ptr<QueryResult> result = query_.new_result();
     const auto take = [&](std::uint64_t unit, std::uint64_t count) {
-        const std::size_t rows = add(unit, count, walk, *answers);
+        const std::size_t rows = add(unit, count, walk, *result);
         leading.add(combination_of(unit), rows);
         block.rows += rows;
         ++counts_.stacks;
@@ -333,15 +333,15 @@ void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const tables::R
         unit += count;
     }
     if (block.rows > 0)
-        block.bytes = format.rows(layout_, assembled(leading.take(), answers->records()));
+        block.bytes = format.rows(layout_, assembled(leading.take(), result->records()));
 }
 
 double SweepEngine::try_units(std::uint64_t first, double units) {
     SweptStacks::Walk walk(stacks_);
     if (units >= 1) {
         const auto count = static_cast<std::uint64_t>(units);
-        const std::unique_ptr<Answers> answers = question_.answers();
-        for (std::uint64_t i = 0; i < count; ++i) add(first + i, 1, walk, *answers);
+        const std::unique_ptr<QueryResult> result = query_.new_result();
+        for (std::uint64_t i = 0; i < count; ++i) add(first + i, 1, walk, *result);
         return static_cast<double>(count);
     }
     const std::uint64_t combination = combination_of(first);
@@ -351,9 +351,9 @@ double SweepEngine::try_units(std::uint64_t first, double units) {
     double angle_deg = angles_[first % angles_.size()];
     if (angle_column_) angle_deg = number_at(*angle_column_, combination);
     Incidence incidence{{&angle_deg, 1}};
-    if (!angle_column_ && !question_.splits_angles()) incidence.angles_deg = question_.angles_deg();
+    if (!angle_column_ && !query_.splits_angles()) incidence.angles_deg = query_.angles_deg();
     if (wavelength_column_) incidence.wavelength_nm = number_at(*wavelength_column_, combination);
-    return question_.try_share(document, incidence, units);
+    return query_.try_share(document, incidence, units);
 }
 
 double SweepEngine::seconds_of(std::uint64_t begin, std::uint64_t end, unsigned threads) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kMostCombinations = 1e15, kLargestNumber = 1e300;
 
-/// The range of a varied number; what the stack's schema says comes later.
+/// The range of a varied number; the stack's schema is checked later.
 std::pair<double, double> range_of(std::string_view path) {
     if (path == kSweptAngle) return {0, kLargestAngle_deg};
     if (path == kSweptWavelength) return {kAllWavelengths.first_nm, kAllWavelengths.last_nm};
@@ -55,7 +55,7 @@ SweepSpace::SweepSpace(const std::vector<std::string>& vary, const std::string& 
     if (!points.empty()) add_points(points);
     for (const std::string& text : vary) add_list(text);
     if (columns_.empty())
-        throw UsageError("--vary: a sweep needs --vary PATH=LIST or --points FILE");
+        throw UsageError("--vary: a sweep requires --vary PATH=LIST or --points FILE");
     check();
     double size = 1;
     for (auto column = columns_.rbegin(); column != columns_.rend(); ++column) {
@@ -63,7 +63,7 @@ SweepSpace::SweepSpace(const std::vector<std::string>& vary, const std::string& 
         column->stride = size_;
         size *= static_cast<double>(column->size());
         if (size * static_cast<double>(points_) > kMostCombinations)
-            throw UsageError("--vary: more than 1e15 combinations");
+            throw UsageError("--vary: must give at most 1e15 combinations");
         size_ *= column->size();
     }
     for (SweptColumn& column : columns_)
@@ -112,7 +112,7 @@ void SweepSpace::check_light(std::size_t column) const {
     if (!of.is_light()) return;
     const auto [lowest, highest] = range_of(of.path);
     for (std::size_t i = 0; i < of.size(); ++i) {
-        // where one cell of a column is a text, all are
+        // one non-number makes a column of strings
         const double value =
             of.is_text() ? schemas::parse_number(of.texts[i]).value_or(lowest - 1) : of.numbers[i];
         if (!(value >= lowest && value <= highest))
@@ -138,7 +138,7 @@ void SweepSpace::add_list(const std::string& text) {
         for (const std::string_view item : items) {
             const std::string_view value = schemas::trimmed(item);
             if (value.empty())
-                throw UsageError("--vary " + column.path + ": a value is empty (got '" +
+                throw UsageError("--vary " + column.path + ": values must not be empty (got '" +
                                  std::string(list) + "')");
             if (!is_numeric(value)) {
                 column.texts.emplace_back(value);
@@ -158,7 +158,7 @@ void SweepSpace::check() const {
             if (b == c || !schemas::is_part_of(path, other)) continue;
             const std::string by = columns_[c].of_points ? "--points: " : "--vary: ";
             if (schemas::is_part_of(other, path)) throw UsageError(by + path + " is varied twice");
-            throw UsageError(by + path + " is inside of " + other + ", which varies, too");
+            throw UsageError(by + path + " is inside " + other + ", which also varies");
         }
         if (!schemas::is_well_formed(columns_[c].path))
             throw UsageError("--vary: " + schemas::well_formed(columns_[c].path) + ": " +

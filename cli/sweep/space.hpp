@@ -9,14 +9,14 @@ namespace irido::cli {
 
 inline constexpr std::string_view kSweptAngle = "angle_deg", kSweptWavelength = "wavelength_nm";
 
-/// One thing that a sweep varies, and what it becomes.
+/// One varied quantity and its values.
 struct SweptColumn {
     std::string path;                  ///< in the stack document; or angle_deg, wavelength_nm
     std::vector<double> numbers;       ///< the values, if all are numbers
-    std::vector<std::string> texts;    ///< else: as they are printed
-    std::vector<std::uint32_t> codes;  ///< of points: which text each has; numbers are in order
-    bool of_points = false;            ///< varies along the points, not by itself
-    std::uint64_t stride = 1;          ///< combinations for which a value stays
+    std::vector<std::string> texts;    ///< else the different values, as printed
+    std::vector<std::uint32_t> codes;  ///< of points: indices into texts
+    bool of_points = false;            ///< varies with the points
+    std::uint64_t stride = 1;          ///< consecutive combinations with one value
 
     bool is_text() const { return !texts.empty(); }
     /// Whether it is an angle or a wavelength, not a value of the stack.
@@ -28,21 +28,20 @@ struct SweptColumn {
     std::string text(std::size_t index) const;
 };
 
-/// All combinations of varied values: of every point with every value of every list, the last
-/// list's value changing first.
+/// All combinations of varied values: every point with every value of every list; the last list
+/// changes fastest.
 class SweepSpace {
 public:
-    /// vary    PATH=LIST, where LIST is as everywhere, or values with commas, texts among them
+    /// vary    PATH=LIST of numbers, or PATH= comma-separated values, strings among them
     /// points  a CSV file of points; "" for none
-    /// Throws UsageError or InputError, also for a path that is varied twice, or inside of another.
+    /// Throws UsageError or InputError, also for a path that is varied twice or inside another one.
     SweepSpace(const std::vector<std::string>& vary, const std::string& points);
 
     const std::vector<SweptColumn>& columns() const { return columns_; }
     std::uint64_t size() const { return size_; }
-    /// Index of a column's value in one combination.
+    /// Index of the value that a column has in a combination.
     std::size_t at(std::size_t column, std::uint64_t combination) const;
-    /// "points.csv: combination 3: " of a point, "--vary PATH: " of a list, for a value of a
-    /// column.
+    /// Where a value of a column comes from: "points.csv: combination 3: " or "--vary PATH: ".
     std::string origin_of(std::size_t column, std::size_t index) const;
     /// "layers.0.thickness_nm=100, substrate=Ag"
     std::string describe(std::uint64_t combination) const;
@@ -50,7 +49,7 @@ public:
 private:
     void add_points(const std::string& file);
     void add_list(const std::string& text);
-    /// Angles and wavelengths are numbers in their range. Throws InputError.
+    /// Throws InputError unless angles and wavelengths are numbers in their range.
     void check_light(std::size_t column) const;
     void check() const;
 

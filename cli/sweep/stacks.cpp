@@ -9,9 +9,9 @@ namespace irido::cli {
 
 namespace {
 
-/// Structures that a thread keeps at hand.
+/// Structures cached per thread.
 constexpr std::size_t kMostPlaces = 16;
-/// Values of one column that are read before the sweep begins.
+/// Values per column that are checked before the sweep begins.
 constexpr std::size_t kMostChecked = 1000;
 
 std::vector<std::size_t> columns_where(const SweepSpace& space, bool thickness) {
@@ -31,7 +31,7 @@ std::vector<std::string> paths_of(const SweepSpace& space,
     return paths;
 }
 
-/// Runs `work`; its error says where the value comes from that it is about.
+/// Runs `work`; its errors begin with the origin of the value.
 template <class Work>
 void from_origin(const SweepSpace& space, std::size_t column, std::size_t index, const Work& work) {
     try {
@@ -41,7 +41,7 @@ void from_origin(const SweepSpace& space, std::size_t column, std::size_t index,
     }
 }
 
-/// The source with the middle one of every varied thickness, for which structures are prepared.
+/// The source with each varied thickness at the middle of its values, as structures are prepared.
 schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSpace& space,
                                       const std::vector<std::size_t>& thicknesses) {
     for (const std::size_t c : thicknesses) {
@@ -60,10 +60,9 @@ schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSp
 
 }  // namespace
 
-SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space,
-                         const Question& question)
+SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space, const Query& query)
     : space_(space),
-      question_(question),
+      query_(query),
       structural_(columns_where(space, false)),
       thicknesses_(columns_where(space, true)),
       varied_(with_thicknesses(source, space, thicknesses_), paths_of(space, structural_)),
@@ -114,7 +113,7 @@ std::shared_ptr<const PreparedStack> SweptStacks::prepared(const std::vector<std
     const std::shared_ptr<Structure> structure = entry(key);
     const std::scoped_lock guard(structure->making);
     if (!structure->prepared) {
-        structure->prepared = question_.prepare(document(key));
+        structure->prepared = query_.prepare(document(key));
         ++prepared_count_;
     }
     return structure->prepared;
@@ -135,7 +134,7 @@ SweptStacks::Walk::Place& SweptStacks::Walk::structure_at(std::uint64_t combinat
         place.varied.push_back(schemas::VariedStack::layer_at(place.stack, path));
         if (place.varied.back()) continue;
         places_.erase(key_);
-        throw schemas::InputError(stacks_.file_, path, "there is no layer there");
+        throw schemas::InputError(stacks_.file_, path, "names no layer");
     }
     return place;
 }

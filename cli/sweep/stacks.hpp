@@ -6,27 +6,26 @@
 #include <mutex>
 #include <vector>
 
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 #include "cli/sweep/space.hpp"
 #include "schemas/documents/varied_stack.hpp"
 
 namespace irido::cli {
 
-/// The stacks of a sweep. Those that differ in thicknesses only are one structure, which is read
-/// and prepared once, unless more than kMostStructures others came in between. Safe from many
-/// threads.
+/// The stacks of a sweep. Stacks that differ in thicknesses only share one structure, which is read
+/// and prepared once unless more than kMostStructures others are used in between. Thread-safe.
 class SweptStacks {
 public:
-    /// Refers to space and question. Throws InputError for the first value that is wrong by itself,
-    /// whatever the others are.
-    SweptStacks(schemas::StackSource source, const SweepSpace& space, const Question& question);
+    /// `space` and `query` must outlive it. Throws InputError for the first value that is invalid
+    /// whatever the other values are.
+    SweptStacks(schemas::StackSource source, const SweepSpace& space, const Query& query);
 
     static constexpr std::size_t kMostStructures = 32;
 
-    /// The document of the first combination, but for its thicknesses.
+    /// The document of the first combination, except for its thicknesses.
     const schemas::StackDocument& first() const { return first_; }
 
-    /// Stacks that one thread goes through, combination by combination.
+    /// Visits stacks, combination by combination, on one thread.
     class Walk {
     public:
         explicit Walk(SweptStacks& stacks) : stacks_(stacks) {}
@@ -36,8 +35,8 @@ public:
             Stack stack;
             std::vector<Layer*> varied;  ///< layers of `stack`, one for each varied thickness
         };
-        /// The prepared structure of a combination, and its stack, until the next call. Throws
-        /// InputError.
+        /// The prepared structure of a combination and its stack, valid until the next call.
+        /// Throws InputError.
         const Place& at(std::uint64_t combination);
 
     private:
@@ -48,7 +47,7 @@ public:
         std::map<std::vector<std::size_t>, Place> places_;
     };
 
-    /// Structures that were prepared, one as often as it was.
+    /// Number of preparations, repeated ones included.
     std::uint64_t prepared() const { return prepared_count_; }
 
 private:
@@ -65,7 +64,7 @@ private:
     std::shared_ptr<Structure> entry(const std::vector<std::size_t>& key);
 
     const SweepSpace& space_;
-    const Question& question_;
+    const Query& query_;
     std::vector<std::size_t> structural_, thicknesses_;  ///< columns of the space
     schemas::VariedStack varied_;
     std::string file_;

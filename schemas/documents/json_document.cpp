@@ -49,7 +49,7 @@ struct Reading {
     bool operator==(const Reading& other) const { return at == other.at; }
 };
 
-/// Builds the document from the parser's events and stops at the first thing it refuses.
+/// Builds the document from the parser's events and stops at the first error.
 class DocumentBuilder : public json::json_sax_t {
 public:
     explicit DocumentBuilder(std::string_view text) : text_(text), furthest_(text.data()) {}
@@ -84,7 +84,7 @@ public:
             open_.back()->get_ref<json::object_t&>().try_emplace(name, nullptr);
         member_ = &member->second;
         if (is_new) return true;
-        return refuse("the key \"" + name + "\" is there twice", bytes_read() - name.size() - 2);
+        return refuse("duplicate key \"" + name + "\"", bytes_read() - name.size() - 2);
     }
 
     bool parse_error(std::size_t, const std::string& token,
@@ -137,7 +137,7 @@ std::string word_at(std::string_view text, std::size_t byte) {
     return std::string(text.substr(first, end - first));
 }
 
-/// What the parser says, without its name, its place and what it has read.
+/// The parser's message without its name, place and excerpt.
 std::string plain_words(std::string words) {
     const std::size_t dash = words.find(" - ");
     if (dash != std::string::npos) words.erase(0, dash + 3);
@@ -186,10 +186,12 @@ json& element(json& array, const std::string& step, const std::string& path) {
     const char* const end = step.data() + step.size();
     const auto [stop, error] = std::from_chars(step.data(), end, index);
     if (error == std::errc() && stop == end && index < array.size()) return array[index];
-    if (array.empty()) throw InputError(path, "", "the array before \"" + step + "\" is empty");
-    throw InputError(path, "",
-                     "the index must be in [0, " + std::to_string(array.size() - 1) + "] (got \"" +
-                         step + "\")");
+    const std::size_t count = array.size();
+    const std::string rule = count == 0 ? "names an element of an empty array"
+                             : count == 1
+                                 ? "the index must be 0, the array has one element"
+                                 : "the index must be in [0, " + std::to_string(count - 1) + "]";
+    throw InputError(path, "", rule + " (got \"" + step + "\")");
 }
 
 }  // namespace
@@ -209,7 +211,7 @@ void set_value(json& document, std::string_view path, json value) {
     const std::string whole(path);
     if (path.empty()) throw InputError("", "", "must name a value, as in layers.0.thickness_nm");
     if (std::count(path.begin(), path.end(), '.') >= std::ptrdiff_t{kDeepest}) {
-        throw InputError(whole, "", "is more than 64 levels deep");
+        throw InputError(whole, "", "must be at most 64 levels deep");
     }
     json* place = &document;
     while (!path.empty()) {
@@ -217,13 +219,12 @@ void set_value(json& document, std::string_view path, json value) {
         if (place->is_array()) {
             place = &element(*place, step, whole);
         } else if (!place->is_object()) {
-            throw InputError(whole, "",
-                             "there is nothing inside of what comes before \"" + step + "\"");
+            throw InputError(whole, "", "the value before \"" + step + "\" has no members");
         } else if (path.empty() || place->contains(step)) {
             place = &(*place)[step];
         } else {
             throw InputError(whole, "",
-                             "there is no \"" + step + "\"" + did_you_mean(step, keys_of(*place)));
+                             "unknown key \"" + step + "\"" + did_you_mean(step, keys_of(*place)));
         }
     }
     *place = std::move(value);
@@ -261,8 +262,9 @@ json value_from_text(std::string_view path, std::string_view text) {
 void set_value(json& document, std::string_view path_equals_value) {
     const std::size_t equals = path_equals_value.find('=');
     if (equals == std::string_view::npos || equals == 0) {
-        throw InputError(std::string(path_equals_value), "",
-                         "must be PATH=VALUE, as in layers.0.thickness_nm=400");
+        throw InputError("", "",
+                         "must be PATH=VALUE, as in layers.0.thickness_nm=400 (got " +
+                             in_quotes(path_equals_value) + ")");
     }
     const std::string_view path = path_equals_value.substr(0, equals);
     if (!is_well_formed(path_equals_value)) throw InputError(well_formed(path), "", kNoText);

@@ -16,15 +16,15 @@ nlohmann::json parse_json(std::string_view text, const std::string& file);
 /// so must an index; a last key that is missing is added. Throws InputError("PATH", "", words).
 void set_value(nlohmann::json& document, std::string_view path, nlohmann::json value);
 
-/// The same for what follows --set, "PATH=VALUE", with the value of that text.
+/// Sets the value given as "PATH=VALUE", as after --set. Throws InputError.
 void set_value(nlohmann::json& document, std::string_view path_equals_value);
 
-/// Whether a dotted path leads to the same value as another one, or to a part of it.
+/// Whether a dotted path names the same value as `whole`, or a part of it.
 bool is_part_of(std::string_view path, std::string_view whole);
 
 /// The value that a text stands for at a dotted path: JSON, or else the text itself; where a
 /// material is expected, 1.9+1.5i is {"n": 1.9, "k": 1.5}. Throws InputError("PATH=TEXT", place,
-/// words) for a text that begins as JSON does ({, [ or ") and is none.
+/// words) for a text that begins as JSON ({, [ or ") but is not valid.
 nlohmann::json value_from_text(std::string_view path, std::string_view text);
 
 /// The parts of `Ag,1.9+1.5i,{"n":1.5,"k":0.1}`: split at the commas outside of brackets, braces

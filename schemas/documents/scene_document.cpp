@@ -33,7 +33,7 @@ ValueRange range_of(const json& value) {
     return {value[0].get<double>(), value[1].get<double>()};
 }
 
-/// Those of the schema; of a document that breaks none, names that are there twice.
+/// Violations of the schema or, if there are none, repeated names.
 std::vector<Problem> broken_rules(const json& document) {
     static const Schema schema(json::parse(scene_schema_text()));
     std::vector<Problem> problems = check(schema, document);
@@ -132,7 +132,7 @@ private:
             } catch (const InputError& error) {
                 material.faults.push_back(
                     {material.pointer + "/vary" + pointer_step(vary.path),
-                     "names no number of the stack (" + std::string(error.what()) + ")"});
+                     "must name a number of the stack (" + std::string(error.what()) + ")"});
             }
         }
         if (material.faults.size() > faults) return false;

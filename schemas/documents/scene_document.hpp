@@ -11,7 +11,7 @@ namespace irido::schemas {
 /// How an engine shades a material.
 enum class Shading {
     color,         ///< RGB from a table
-    fourier,       ///< C_m in the shader, with a table of the sensitivity
+    fourier,       ///< Fourier series in the shader, with a table of the kind sensitivity
     bragg,         ///< Yeh's reflectance in the shader
     rough_layers,  ///< tables falpha and transmissivity
     albedo,        ///< table of the directional albedo
@@ -19,7 +19,7 @@ enum class Shading {
 
 std::string_view name_of(Shading shading);
 
-/// From one value to another, first <= last.
+/// A closed range, first <= last.
 struct ValueRange {
     double first = 0, last = 0;
     bool is_one() const { return first == last; }
@@ -30,7 +30,7 @@ struct VariedRange {
     ValueRange range;
 };
 
-/// Why something of a scene cannot be.
+/// A fault of a scene.
 struct SceneFault {
     std::string pointer;  ///< where in the scene: /materials/3/roughness
     std::string reason;   ///< in words
@@ -41,12 +41,12 @@ struct SceneFault {
 struct SceneMaterial {
     std::string name;
     std::string pointer;             ///< in the scene: /materials/3
-    std::vector<SceneFault> faults;  ///< why it cannot be; then its stack may be missing
+    std::vector<SceneFault> faults;  ///< why it cannot be made; then its stack may be missing
     StackSource source;
     StackDocument document;
     std::vector<VariedRange> vary;  ///< at most two
     ValueRange angles_deg{0, 90};
-    bool has_angles = false;  ///< the scene gives them
+    bool has_angles = false;  ///< whether the scene specifies them
     bool is_rough = false;
     ValueRange alpha;
     bool transmission = false;
@@ -64,22 +64,25 @@ struct Scene {
     double delta_e = 0.5, relative = 1e-3;  ///< tolerances of colours and of filters
     std::string format = "ktx2", type = "f16";
     std::vector<SceneMaterial> materials;
-    std::vector<std::string> notes;  ///< what the readers of stacks say
+    std::vector<std::string> notes;  ///< notes of the readers of stacks
 };
 
 /// Reads a scene file ("-" for standard input). Throws InputError if it breaks the schema or two
 /// materials have one name. What else is wrong with a material is among its faults.
 Scene read_scene(const std::string& path);
 
-/// The same of a document.
+/// Reads a scene from a JSON document. Throws InputError.
+/// document  the scene
+/// file      its name in messages
+/// folder    where its relative paths start
 Scene read_scene(const nlohmann::json& document, const std::string& file,
                  const std::string& folder);
 
-/// For what read_scene() throws, one line each.
+/// The problems for which read_scene() throws, one line each.
 std::vector<std::string> scene_problems(const nlohmann::json& document, const std::string& file);
 
-/// What an error means that came up while a material was read or computed: an error inside of an
-/// inline stack gets its pointer into the scene.
+/// The fault that corresponds to an error of reading or computing a material; errors inside an
+/// inline stack get a pointer into the scene.
 SceneFault fault_of(const SceneMaterial& material, const std::exception& error);
 
 /// "FILE: POINTER: material NAME: reason".

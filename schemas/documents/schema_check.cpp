@@ -144,7 +144,7 @@ void add_finding(const Place& place, std::string_view error, std::vector<Finding
     if (error.starts_with(kMissingKey)) {
         const std::string_view key = after(kMissingKey, error);
         findings.push_back(
-            {place, "misses \"" + std::string(key.substr(0, key.rfind('\''))) + "\""});
+            {place, "must have the key \"" + std::string(key.substr(0, key.rfind('\''))) + "\""});
     } else if (error.starts_with(kUnknownKey)) {
         const std::string known(after(kUnknownKey, error));
         findings.push_back({place, known.empty()

@@ -18,8 +18,8 @@ struct Problem {
     bool operator==(const Problem&) const = default;
 };
 
-/// A JSON schema (draft-07) made ready to check documents, which takes longer than to check a small
-/// one. Safe from many threads.
+/// A compiled JSON schema (draft-07); compiling takes longer than checking a small document.
+/// Thread-safe.
 class Schema {
 public:
     explicit Schema(const nlohmann::json& document);
@@ -34,7 +34,7 @@ private:
 };
 
 /// All broken rules, each once, at the deepest place; arrays in their order, keys by the alphabet.
-/// The words are those of the keyword `errorMessage` beside the rule in the schema (draft-07).
+/// The texts are those of the keyword `errorMessage` next to the rule in the schema (draft-07).
 std::vector<Problem> check(const Schema& schema, const nlohmann::json& document);
 
 /// A value for use in a message: JSON in at most about 40 characters, on one line.

@@ -145,8 +145,8 @@ bool same_physics(const Material& a, const Material& b) {
 
 // --- the reader -----------------------------------------------------------------------------
 
-/// Builds a stack from a document. Reports everything that is wrong instead of stopping there, and
-/// steps over the parts that break the schema.
+/// Builds a stack from a document. Collects all problems, and skips the parts that violate the
+/// schema.
 class StackReader {
 public:
     StackReader(const json& document, const std::string& file, const std::string& folder,
@@ -328,7 +328,7 @@ private:
         if (auto found = find_material(name)) return std::move(found->material);
         std::vector<std::string> known = library_names_and_aliases();
         for (const auto& [own, material] : named_) known.push_back(own);
-        report(pointer, "there is no material " + short_text(name) + did_you_mean(name, known));
+        report(pointer, "unknown material " + short_text(name) + did_you_mean(name, known));
         return {name, RefractiveIndex{}};
     }
 
@@ -364,9 +364,9 @@ private:
             const double before = rows[i - 1][0].get<double>();
             const double here = rows[i][0].get<double>();
             if (here > before) continue;
-            report(pointer + "/" + std::to_string(i) + "/0", "must be above the row before it, " +
-                                                                 to_text(before) + " (got " +
-                                                                 to_text(here) + ")");
+            report(pointer + "/" + std::to_string(i) + "/0",
+                   "must be above that of the row before, " + to_text(before) + " (got " +
+                       to_text(here) + ")");
         }
     }
 
@@ -378,8 +378,7 @@ private:
         if (!is_constant(medium)) return;
         const double k = std::get<Constant>(std::get<RefractiveIndex>(medium.model).k).value;
         if (std::abs(k) >= kTransparentBelow_k)
-            report("/incident", "must neither absorb nor amplify: its k must be below 1e-3 (got " +
-                                    to_text(k) + ")");
+            report("/incident", "must be transparent, |k| below 1e-3 (got " + to_text(k) + ")");
         else if (k != 0)
             result_.notes.push_back(file_ + ": /incident: " + incident_note(k));
     }
@@ -420,8 +419,8 @@ void add_medium(StackSource& source, const std::string& text) {
 }  // namespace
 
 std::string incident_note(double k) {
-    return "the incident medium is taken as transparent, its k of up to " + to_text(k) +
-           " left out";
+    return "the incident medium is taken as transparent: its k of up to " + to_text(k) +
+           " is ignored";
 }
 
 const char* stack_schema_text() {
@@ -442,7 +441,7 @@ StackSource load_stack(const StackRequest& request) {
             !std::filesystem::exists(request.stack, ignored))
             throw InputError("", "",
                              "there is no file '" + request.stack +
-                                 "', and an expression has a '|' (see --help)");
+                                 "', and an expression must contain '|' (see --help)");
         source.file = shown_path(request.stack);
         source.folder = folder_of(request.stack);
         source.document = parse_json(read_text(request.stack), source.file);
@@ -452,7 +451,8 @@ StackSource load_stack(const StackRequest& request) {
         try {
             set_value(source.document, text);
         } catch (const InputError& error) {
-            throw InputError("--set " + error.file, error.where, error.message);
+            throw InputError(error.file.empty() ? "--set" : "--set " + error.file, error.where,
+                             error.message);
         }
     }
     return source;

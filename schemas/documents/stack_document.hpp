@@ -9,7 +9,7 @@
 
 namespace irido::schemas {
 
-/// What the user typed to name a stack.
+/// The options that select a stack, as typed.
 struct StackRequest {
     std::string stack;             ///< a file, "-" for standard input, or an expression (has a '|')
     std::vector<std::string> set;  ///< PATH=VALUE, applied in this order
@@ -28,37 +28,44 @@ struct StackDocument {
     Stack stack;
     std::string file;                            ///< its name in messages
     std::string name;                            ///< "" if the document has none
-    std::vector<std::string> notes;              ///< what the readers of material files say
+    std::vector<std::string> notes;              ///< notes of the readers of material files
     std::vector<std::string> material_pointers;  ///< of the first use of stack.materials[i]
 };
 
 /// Reads the text that a request names and sets its values. Throws InputError.
 StackSource load_stack(const StackRequest& request);
 
-/// Checks a document against stack.schema.json and what a schema cannot say, and builds its stack.
-/// Throws InputError for the first thing that is wrong.
+/// Checks a document against stack.schema.json and rules beyond it, and builds its stack. Throws
+/// InputError for the first problem.
+/// document  the stack
+/// file      its name in messages
+/// folder    where its relative paths start
 StackDocument read_stack(const nlohmann::json& document, const std::string& file,
                          const std::string& folder);
 
-/// The same; material files that `files` has read are not read again.
+/// Reads a stack with a cache of material files. Throws InputError for the first problem.
+/// document  the stack
+/// file      its name in messages
+/// folder    where its relative paths start
+/// files     cache: files in it are not read again
 StackDocument read_stack(const nlohmann::json& document, const std::string& file,
                          const std::string& folder, MaterialFiles& files);
 
-/// The reading of a request and of its document.
+/// Loads and reads the stack of a request. Throws InputError.
 StackDocument read_stack(const StackRequest& request);
 
-/// Material files of a document that lies in one folder, as seen from another one.
+/// Rewrites relative paths of material files from one folder to another.
 void move_files(nlohmann::json& document, const std::string& from, const std::string& to);
 
-/// Everything that is wrong with a stack document, one line each, "FILE: POINTER: message"; nothing
-/// if it can be used.
+/// All problems of a stack document, one line each: "FILE: POINTER: message".
 std::vector<std::string> stack_problems(const nlohmann::json& document, const std::string& file,
                                         const std::string& folder);
 
-/// The same of a file ("-" for standard input). Throws InputError if it cannot be read.
+/// All problems of a stack file ("-" for standard input), one line each. Throws InputError if it
+/// cannot be read.
 std::vector<std::string> validate_stack_file(const std::string& path);
 
-/// What to say of an incident medium whose k is not 0, but small.
+/// The note about an incident medium with a small k.
 std::string incident_note(double k);
 
 /// The text of stack.schema.json.

@@ -28,13 +28,13 @@ std::optional<std::size_t> take_layer(std::string_view& path) {
     return index;
 }
 
-/// A value of which another one is a part would take it away, or put it back.
+/// Setting a value would overwrite another one inside it.
 void require_apart(const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
         for (const std::string& other : paths) {
             if (&path == &other || !is_part_of(path, other)) continue;
-            if (is_part_of(other, path)) throw InputError(path, "", "varies twice");
-            throw InputError(path, "", "is inside of \"" + other + "\", which varies, too");
+            if (is_part_of(other, path)) throw InputError(path, "", "is varied twice");
+            throw InputError(path, "", "is inside \"" + other + "\", which also varies");
         }
 }
 

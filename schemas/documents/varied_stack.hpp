@@ -11,12 +11,12 @@
 
 namespace irido::schemas {
 
-/// A stack some of whose values vary, each named by its dotted path in the document
+/// A stack with varied values, each named by its dotted path in the document
 /// ("layers.0.thickness_nm").
 class VariedStack {
 public:
     /// Throws InputError if a path leads nowhere: a last key that is missing is added, as by
-    /// set_value. No path may be there twice or lie inside of another.
+    /// set_value. No path may be repeated or lie inside another.
     VariedStack(StackSource source, std::vector<std::string> paths);
 
     /// The document with those values, one for each path, read and checked. Throws InputError.

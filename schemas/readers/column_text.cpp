@@ -218,9 +218,8 @@ private:
         if (!found.empty()) return with_units(std::move(found), above.subspan(place + 1));
         if (unknown == nullptr) return {};
         fail(unknown->whole, trimmed(unknown->text),
-             "names other columns than are known, " + std::to_string(count) +
-                 " of: " + names_.known + " (got " + in_quotes(trimmed(unknown->text)) +
-                 "; a line that is no header begins with #)");
+             "must name known columns, " + std::to_string(count) + " of: " + names_.known +
+                 " (got " + in_quotes(trimmed(unknown->text)) + "; other lines must begin with #)");
     }
 
     /// A line of units right below the names belongs to them.
@@ -384,9 +383,9 @@ void require_nm(const ColumnText& table, std::size_t column, const std::string& 
     }
     if (last >= kShortest_nm || first <= 0) return;
     throw InputError(name, "",
-                     "wavelengths must be in nm where no header says otherwise; " + to_text(first) +
+                     "wavelengths must be in nm unless a header says otherwise; " + to_text(first) +
                          " to " + to_text(last) +
-                         " looks like um or eV (a header such as um,n,k or eV,n,k says so)");
+                         " looks like um or eV (then add a header such as um,n,k or eV,n,k)");
 }
 
 }  // namespace irido::schemas

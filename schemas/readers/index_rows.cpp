@@ -17,15 +17,15 @@ WavelengthRange range_of(const Table& table) {
     return {table.wavelength_nm.front(), table.wavelength_nm.back()};
 }
 
-/// Holds the first or last value of k as far as n reaches, if it is small enough.
+/// Extends the first and last value of k over the range of n, if small enough.
 void hold_ends(Table& k, WavelengthRange of_n, std::vector<std::string>& notes) {
     const WavelengthRange known = range_of(k);
     const auto say = [&](double value, const std::string& side, double end) {
         const bool held = value < kHeldBelow;
         notes.push_back("k is known from " + in_words(known) + " only, n from " + in_words(of_n) +
                         ": k = " + to_text(value) +
-                        (held ? " is held " : " is not small, and the material not known ") + side +
-                        " " + to_text(end) + " nm");
+                        (held ? " is extended " : " is not small, so the material is not known ") +
+                        side + " " + to_text(end) + " nm");
         return held;
     };
     if (known.first_nm > of_n.first_nm && say(k.value.front(), "below", known.first_nm)) {
@@ -92,7 +92,7 @@ void make_k_positive(std::vector<IndexRow>& rows, const std::string& file,
                              to_text((*positive)[0]) + " nm and " + to_text((*negative)[2]) +
                              " at " + to_text((*negative)[0]) + " nm)");
     for (IndexRow& row : rows) row[2] = 0 - row[2];
-    notes.emplace_back("k is nowhere positive: taken as that of n - ik, which absorbs");
+    notes.emplace_back("k is nowhere positive: read as n - ik, which absorbs");
 }
 
 MaterialFile material_of(const std::string& file, Dispersion n, std::optional<Table> k,
@@ -106,7 +106,7 @@ MaterialFile material_of(const std::string& file, Dispersion n, std::optional<Ta
         if (range_of(*k).first_nm > of_n.last_nm || range_of(*k).last_nm < of_n.first_nm)
             throw InputError(file, "",
                              "n is known from " + in_words(of_n) + " and k from " +
-                                 in_words(range_of(*k)) + ": nowhere both");
+                                 in_words(range_of(*k)) + ": they do not overlap");
         std::get<RefractiveIndex>(material.model).k = *std::move(k);
     }
     return {std::move(material), std::move(notes), std::move(source)};

@@ -25,9 +25,14 @@ Table column(const std::vector<IndexRow>& rows, std::size_t value);
 void make_k_positive(std::vector<IndexRow>& rows, const std::string& file,
                      std::vector<std::string>& notes);
 
-/// The material of n and k, which may be known in another range than n. Where it is not known
-/// and its nearest value is below 1e-4, that value is held, else the material is not known there: a
-/// note says so. Throws InputError if the material is known nowhere.
+/// The material of n and k, whose ranges may differ. Where k is not known it is extended if its
+/// nearest value is below 1e-4, else the material is not known there; notes say which. Throws
+/// InputError if the material is known nowhere.
+/// file    the material's name, also in messages
+/// n       the index over nm
+/// k       the extinction coefficient over nm; none: 0
+/// notes   of the reader
+/// source  the publication, or ""
 MaterialFile material_of(const std::string& file, Dispersion n, std::optional<Table> k,
                          std::vector<std::string> notes, std::string source = "");
 

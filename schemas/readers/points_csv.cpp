@@ -78,13 +78,13 @@ private:
             result.text = quoted_text(result.at);
             const std::size_t after = at_;
             if (!take_plain().empty())
-                fail(after, "after the closing quote must come a comma or the end of the line");
+                fail(after, "a closing quote must be followed by a comma or the end of the line");
             return result;
         }
         result.text = take_plain();
         if (const std::size_t quote = result.text.find('"'); quote != std::string_view::npos)
             fail(result.at + quote,
-                 "a cell with quotes must be in quotes, with each of its own doubled (got " +
+                 "a cell that contains quotes must be quoted, with its quotes doubled (got " +
                      in_quotes(result.text) + ")");
         return result;
     }
@@ -123,8 +123,7 @@ std::vector<PointsColumn> read_header(Rows& rows) {
         if (text.empty()) rows.fail(at, "the name of a column must not be empty");
         if (parse_number(text))
             rows.fail(at, "the first row must name the paths (got " + in_quotes(text) + ")");
-        if (!paths.insert(text).second)
-            rows.fail(at, "the column " + in_quotes(text) + " is there twice");
+        if (!paths.insert(text).second) rows.fail(at, "duplicate column " + in_quotes(text));
         columns.emplace_back().path = text;
     }
     return columns;
@@ -147,7 +146,7 @@ std::vector<bool> read_numbers(Rows rows, std::vector<PointsColumn>& columns) {
             if (number) continue;
             if (text.empty()) rows.fail(at, "a cell must not be empty");
             if (is_unusable_number(text))
-                rows.fail(at, "must be a finite number that a double holds (got " +
+                rows.fail(at, "must be a finite number in double precision (got " +
                                   in_quotes(text) + ")");
             has_texts[c] = true;
         }

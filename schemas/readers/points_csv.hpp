@@ -7,7 +7,7 @@
 
 namespace irido::schemas {
 
-/// The values of one path, one a row: numbers, or texts by their codes.
+/// The values of one path, one per row: numbers, or strings by their codes.
 struct PointsColumn {
     std::string path;
     std::vector<double> numbers;

@@ -60,7 +60,7 @@ Table read_spectrum_csv(std::string_view text, const std::string& name) {
         if (rows[i][0] == rows[i - 1][0])
             throw InputError(
                 name, "",
-                "must have one row a wavelength (got two at " + to_text(rows[i][0]) + " nm)");
+                "must have one row per wavelength (got two at " + to_text(rows[i][0]) + " nm)");
     return column(rows, 1);
 }
 

@@ -150,8 +150,8 @@ private:
     /// A name in double quotes, whatever marks are in it.
     json quoted_name() {
         const std::size_t end = text_.find('"', at_ + 1);
-        if (end == text_.npos) fail("a second \" at the end of the name");
-        if (end == at_ + 1) refuse("a name is empty");
+        if (end == text_.npos) fail("a closing \" after the name");
+        if (end == at_ + 1) refuse("a name must not be empty");
         std::string name(text_.substr(at_ + 1, end - at_ - 1));
         at_ = end + 1;
         return name;
@@ -161,7 +161,7 @@ private:
         const std::string word = next_word();
         std::string_view rest = word;
         const std::optional<double> value = take_number(rest);
-        if (!value || !rest.empty()) fail("how many times the group repeats");
+        if (!value || !rest.empty()) fail("the number of repetitions");
         at_ += word.size();
         return *value;
     }
@@ -186,7 +186,7 @@ private:
     }
 
     json group(int depth) {
-        if (depth > kDeepest) refuse("groups nest at most 30 deep");
+        if (depth > kDeepest) refuse("groups must nest at most 30 deep");
         json layers = json::array();
         do {
             ++at_;  // the "(" or the "|" before
@@ -227,7 +227,7 @@ json parse_stack_expression(std::string_view text) {
 
 namespace {
 
-/// Writes a stack and collects what the words cannot say.
+/// Writes a stack as an expression and collects what it cannot hold.
 class Writer {
 public:
     Writer(const Stack& stack, std::vector<std::string>& losses) : stack_(stack), losses_(losses) {}

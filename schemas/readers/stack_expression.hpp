@@ -24,14 +24,14 @@ nlohmann::json parse_stack_expression(std::string_view text);
 /// The material that "1.5", "1.9+1.5i", "1.9+1.5j" or "2i" stands for; null for any other text.
 nlohmann::json parse_index(std::string_view text);
 
-/// A stack in words, and what they cannot say, one entry each.
+/// A stack as an expression, and what it cannot hold, one entry each.
 struct StackExpression {
     std::string text;
     std::vector<std::string> losses;
 };
 
 /// The expression of a stack: names of built-in materials and of material files, of all others the
-/// index at 550 nm. A spread of thickness is left out.
+/// index at 550 nm. thickness_sigma_nm is left out.
 StackExpression stack_expression(const Stack& stack);
 
 }  // namespace irido::schemas

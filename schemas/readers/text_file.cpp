@@ -98,7 +98,7 @@ std::string read_text(const std::string& path, TextSource source) {
     std::string text;
     if (file.size() <= most) text = file.read_up_to(most);
     if (std::max(text.size(), file.size()) > most)
-        fail(path, "is longer than " + std::to_string(most / kMebibyte) + " MiB");
+        fail(path, "must be at most " + std::to_string(most / kMebibyte) + " MiB");
     if (file.is_regular()) {
         Inputs& all = inputs();
         const std::scoped_lock guard(all.lock);

@@ -40,7 +40,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : ".";
 }
 
-/// Whether both paths lead to one regular file, which need not be there yet.
+/// Whether both paths lead to the same regular file, which need not exist yet.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
     if (std::filesystem::exists(a, ignored) || std::filesystem::exists(b, ignored))
@@ -84,7 +84,7 @@ void check_outputs(const std::vector<std::string>& paths) {
         for (auto other = paths.begin(); other != path; ++other)
             if (is_same_file(*path, *other))
                 throw OutputError(*path + ": is the same file as " + *other +
-                                  ", which is written, too: name another file");
+                                  ", which is also written: name another file");
     }
 }
 
@@ -95,7 +95,7 @@ OutputTarget output_target(const std::string& path) {
     const bool is_link = std::filesystem::is_symlink(path, ignored);
     struct stat existing {};
     if (stat(target.path.c_str(), &existing) != 0) {
-        if (is_link) throw OutputError(path + ": cannot be written: is a symbolic link to nothing");
+        if (is_link) throw OutputError(path + ": cannot be written: dangling symbolic link");
         target.mode = default_mode();
         return target;
     }
@@ -144,7 +144,7 @@ void write_stdout(std::string_view bytes) {
 
 void check_binary_stdout() {
     if (isatty(STDOUT_FILENO))
-        throw OutputError("--format: binary data does not go to a terminal, use --output FILE");
+        throw OutputError("--format: binary data must not go to a terminal; use --output FILE");
 }
 
 void remove_unfinished_file() noexcept {

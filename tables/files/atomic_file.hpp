@@ -15,39 +15,39 @@ struct OutputError : Error {
     using Error::Error;
 };
 
-/// Nobody reads standard output any more.
+/// Thrown when the reader of standard output is gone.
 struct BrokenPipe {};
 
-/// What stands at a path that is to be written.
+/// A path that is to be written.
 struct OutputTarget {
-    std::string path;     ///< of the file itself, where the path is a symbolic link to one
-    bool is_file = true;  ///< a regular file with a name, perhaps one to come; else a device, a
-                          ///< pipe, or a file without a name such as /dev/stdout may be
-    mode_t mode = 0;      ///< permissions of the file, kept or by default
+    std::string path;     ///< with symbolic links resolved
+    bool is_file = true;  ///< a named regular file, existing or not; else a device, a pipe or an
+                          ///< unnamed file, as /dev/stdout may be
+    mode_t mode = 0;      ///< permissions: those of the existing file, else the default
 };
 
-/// Throws OutputError if it is a folder, an input (see schemas/readers/text_file.hpp) or a symbolic
-/// link to nothing, or must not be written.
+/// Resolves a path to be written. Throws OutputError for a folder, an input file (see
+/// schemas/readers/text_file.hpp), a dangling symbolic link, or a file without write permission.
 OutputTarget output_target(const std::string& path);
 
-/// The path itself, or where a symbolic link leads.
+/// The path with symbolic links resolved.
 std::string resolved_path(const std::string& path);
 
-/// Throws OutputError if a path is an input, whatever it is called.
+/// Throws OutputError if a path leads to an input file, by whatever name.
 void require_no_input(const std::string& path);
 
-/// To be called before the first of several files is written: throws OutputError if any of them
-/// must not be, or if two of them are the same file.
+/// Checks several paths before the first is written. Throws OutputError if one cannot be written or
+/// if two of them are the same file.
 void check_outputs(const std::vector<std::string>& paths);
 
 /// Throws "PATH: cannot be written: REASON", or BrokenPipe.
 [[noreturn]] void fail_to_write(const std::string& path, int error);
 
-/// 0, or the system's error number.
+/// Writes all bytes to a descriptor; returns 0 or the system's error number.
 int write_all(int descriptor, std::string_view bytes);
 
-/// A file under a temporary name in the folder of `path`, one at a time in a process; commit()
-/// gives it its name, else it is removed.
+/// A file under a temporary name in the folder of `path`, at most one per process at a time;
+/// commit() renames it to `path`, otherwise it is removed.
 class NewFile {
 public:
     /// Throws OutputError.
@@ -79,7 +79,7 @@ void write_stdout(std::string_view bytes);
 /// Throws OutputError if standard output is a terminal.
 void check_binary_stdout();
 
-/// Removes the temporary file of a NewFile or write_file() that is under way. For signal handlers.
+/// Removes the temporary file of an unfinished NewFile or write_file(). For signal handlers.
 void remove_unfinished_file() noexcept;
 
 }  // namespace irido::tables

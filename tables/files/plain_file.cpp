@@ -14,7 +14,7 @@ namespace irido::tables {
 namespace {
 
 int flags_of(PlainFile::Use use) {
-    // a pipe in a file's place is empty rather than waited for
+    // a pipe in a file's place reads as empty instead of blocking
     if (use == PlainFile::Use::read) return O_RDONLY | O_CLOEXEC | O_NONBLOCK;
     // no link that somebody else has laid
     return O_RDWR | O_CLOEXEC | O_NOFOLLOW | (use == PlainFile::Use::create ? O_CREAT : 0);
@@ -47,7 +47,7 @@ void PlainFile::read_at(std::uint64_t offset, std::string& buffer) const {
     for (std::size_t done = 0; done < buffer.size();) {
         const ssize_t count = pread(descriptor_, &buffer[done], buffer.size() - done,
                                     static_cast<off_t>(offset + done));
-        if (count == 0) fail_to_read(shown_, "it ends too early");
+        if (count == 0) fail_to_read(shown_, "unexpected end of file");
         if (count < 0 && errno != EINTR) fail_to_read(shown_, std::strerror(errno));
         if (count > 0) done += static_cast<std::size_t>(count);
     }

@@ -9,7 +9,7 @@ namespace irido::tables {
 /// An open file whose errors are OutputErrors; closed with the object.
 class PlainFile {
 public:
-    enum class Use { read, write, create };  ///< `create`: to write, if need be a new one
+    enum class Use { read, write, create };  ///< `create`: write, creating the file if needed
 
     /// Errors name `shown` if it is given.
     PlainFile(const std::string& path, Use use, const std::string& shown = "");
@@ -19,11 +19,11 @@ public:
 
     int descriptor() const { return descriptor_; }
     std::uint64_t size() const;
-    /// Fills the buffer. A file that ends before is an error.
+    /// Fills the buffer. Premature end of file is an error.
     void read_at(std::uint64_t offset, std::string& buffer) const;
     void write_at(std::uint64_t offset, std::string_view bytes) const;
     void cut(std::uint64_t size) const;
-    /// To the disk.
+    /// Flushes the file to the disk.
     void sync() const;
 
 private:

@@ -94,7 +94,7 @@ std::vector<std::string> color_problems(const Lut& lut) {
         if (value < least - rounding || value > most + rounding)
             problems.push_back(lut.channels[i % 3] +
                                (lut.mips ? "" : " at " + place_in(lut, i / 3)) +
-                               " is no colour of light that was reflected or transmitted (" +
+                               " must be the colour of reflected or transmitted light (got " +
                                to_text(value) + ")");
     }
     return problems;

@@ -7,13 +7,13 @@
 
 namespace irido::tables {
 
-// What kinds of tables have in common.
+// Shared by the kinds of tables.
 
-/// The axis of a list option: as typed, fixed unless equally spaced, or `otherwise`. Throws
-/// DomainError that names the option unless the samples ascend or descend.
+/// The axis of a list option: as typed (fixed unless equally spaced), or `otherwise` if not given.
+/// Throws DomainError, which names the option, unless the samples are strictly monotonic.
 AxisPlan listed_axis(const LutRequest& request, std::string_view option, LutAxis otherwise);
 
-/// `count` samples with one step from 0: 0, step, 2 step ..
+/// `count` samples 0, step, 2 step, ...
 std::vector<double> stepped(double step, std::size_t count);
 
 /// --alpha and --theta-i, --theta-d as kinds of rough layers have them, and their axes: by default
@@ -23,24 +23,24 @@ LutOption angles_option(std::string_view name, std::string_view help);
 AxisPlan alpha_axis(const LutRequest& request);
 AxisPlan angles_axis(const LutRequest& request, std::string_view option, std::string name);
 
-/// Whether any medium of the stack amplifies at one of the wavelengths: then there is no upper
-/// bound, which plans note as the fact "amplifies".
+/// Whether any medium of the stack amplifies at one of the wavelengths. Then values have no upper
+/// bound, and plans set the fact "amplifies".
 bool amplifies(const Stack& stack, std::vector<double> wavelength_nm);
 
-/// Differences divided by what scale() gives for the row; axes alpha, theta_i and any third one.
+/// Differences divided by scale(alpha, theta_i); for tables with the axes alpha, theta_i, any.
 LutMeasure relative_to(std::string name,
                        std::function<double(double alpha, double theta_i_deg)> scale);
 
 /// s, p or u, as the command line has it.
 std::string letter_of(Light light);
 
-/// The values' relative rounding by the table's number format, and of sums over a row of them.
+/// Relative rounding error of values in the table's number format, and of sums over a row.
 double rounding_of(LutType type);
 
-/// Where a value of a table stands, for problems(): "theta_i_deg 20, theta_d_deg 15".
+/// The place of a sample in words: "theta_i_deg 20, theta_d_deg 15".
 std::string place_in(const Lut& lut, std::size_t sample);
 
-/// Lines for values that are not finite or outside [0, most(sample)]; the first ones only.
+/// The first problems with values that are not finite or outside [0, most(sample)].
 std::vector<std::string> out_of_range(const Lut& lut,
                                       const std::function<double(std::size_t sample)>& most);
 

@@ -6,11 +6,11 @@
 
 namespace irido::tables {
 
-/// Facts of a table of X, Y, Z: the space, and in the request illuminant, observer and the white,
-/// XYZ of a perfect mirror.
+/// Colorimetric metadata of a table of X, Y, Z: color_space, and in the request illuminant,
+/// observer and white_xyz, the XYZ of a perfect mirror.
 nlohmann::json light_facts(const LutRequest& request);
 
-/// The largest difference of a sample's channels, as it is.
+/// The largest absolute difference over the channels of a sample.
 LutMeasure absolute_measure(std::size_t channels);
 
 }  // namespace irido::tables

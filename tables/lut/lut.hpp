@@ -13,11 +13,10 @@ enum class LutType { f16, f32, f64 };
 
 std::string_view name_of(LutType type);  ///< f16, f32, f64
 std::size_t bytes_of(LutType type);
-/// The double that is read back after the value was stored: rounded to nearest even. Infinite
-/// beyond the type's range.
+/// The value as read back from storage: rounded to nearest even, infinite beyond the type's range.
 double rounded(double value, LutType type);
 
-/// Where a table's function was sampled along one axis.
+/// The samples of a table's function along one axis.
 struct LutAxis {
     std::string name;            ///< column of the CSV: theta_i_deg, cos_theta, opd_nm, ...
     std::string unit;            ///< deg, nm, or "" for a pure number
@@ -25,16 +24,17 @@ struct LutAxis {
     bool operator==(const LutAxis&) const = default;
 
     std::size_t count() const { return values.size(); }
-    /// Equally spaced (to 1e-9 of the spacing): then only the ends and the count are written.
+    /// Whether equally spaced (to 1e-9 of the spacing); then only ends and count are stored.
     bool is_linear() const;
-    /// The cell [values[i], values[i + 1]] around x, or the one next to it; 0 if there is none.
+    /// The index of the cell [values[i], values[i + 1]] that contains x or is nearest to it; 0 if
+    /// there is none.
     std::size_t cell_of(double x) const;
 };
 
 /// `count` values from one end to the other, both included; count 1 is `first` alone.
 std::vector<double> equally_spaced(double first, double last, std::size_t count);
 
-/// A sampled function of 1 to 3 axes: what a kind makes and a format writes.
+/// A function sampled along 1 to 3 axes: made by a kind, written by a format.
 /// Texture coordinates put the first sample of an axis at the centre of the first texel and the
 /// last at that of the last: u = (0.5 + (count - 1) (x - first) / (last - first)) / count.
 struct Lut {

@@ -54,7 +54,7 @@ void write_lut(const Lut& lut, const std::string& file, const LutFormat& format,
                const LutLayout& layout) {
     std::vector<LutFile> files = format.write(lut, layout);
     std::ranges::stable_partition(files, [](const LutFile& f) { return !f.suffix.empty(); });
-    if (file.starts_with("/dev/"))  // nothing lies beside a device
+    if (file.starts_with("/dev/"))  // a device has no companion
         std::erase_if(files, [](const LutFile& f) { return !f.suffix.empty(); });
     std::vector<std::string> paths, added;
     for (const LutFile& part : files) paths.push_back(file + part.suffix);
@@ -87,13 +87,13 @@ std::vector<std::string> lut_problems(const Lut& lut) {
     }
     const auto claimed = lut.facts.find("checksum");
     if (claimed == lut.facts.end()) {
-        problems.emplace_back("there is no checksum");
+        problems.emplace_back("the checksum is missing");
     } else if (const std::string actual = checksum_of(lut); *claimed != actual) {
-        problems.push_back("the checksum is not that of the values: " + claimed->dump() + ", not " +
+        problems.push_back("the checksum does not match the values: " + claimed->dump() + ", not " +
                            actual);
     } else if (const nlohmann::json metadata = metadata_of(lut);
                lut.facts.value("metadata_checksum", "") != metadata["metadata_checksum"]) {
-        problems.emplace_back("the metadata is not what was written: metadata_checksum");
+        problems.emplace_back("the metadata was modified: metadata_checksum does not match");
     }
     return problems;
 }

@@ -11,34 +11,33 @@
 
 namespace irido::tables {
 
-/// A table that a format cannot hold, or a file that is not what it should be: one line of text.
+/// Thrown for tables that a format cannot hold, and for damaged or foreign files.
 struct LutError : Error {
     using Error::Error;
 };
 
-/// How a table is laid out in files, beyond what follows from the table.
+/// Options of the file layout.
 struct LutLayout {
     bool zstd = false;    ///< ktx2: Zstandard supercompression
     bool layers = false;  ///< ktx2: a third axis as array layers, not as depth
 };
 
-/// A file of a table: what is added to the name that was asked for, and the bytes.
+/// One of the files of a table.
 struct LutFile {
-    std::string suffix;  ///< "" or ".json"
+    std::string suffix;  ///< added to the requested name: "" or ".json"
     std::string bytes;
 };
 
-/// A way to write tables as files and to read them back. Every file, with its companion, has the
-/// whole metadata.
+/// A file format of tables. Every file, or its companion, holds the complete metadata.
 struct LutFormat {
     std::string_view name;     ///< as --format and as a file's extension
     std::string_view summary;  ///< for --help, one line
     bool is_binary = true;
-    /// Throws LutError naming what the format cannot hold.
+    /// Throws LutError, which names what the format cannot hold.
     std::vector<LutFile> (*write)(const Lut&, const LutLayout&) = nullptr;
-    /// The table in the bytes of a file and of its companion ("" if the format has none or it is
-    /// not there), values as stored. Throws LutError for what is truncated, foreign or
-    /// inconsistent; the checksum is left to the caller (checksum_of).
+    /// Reads a table, values as stored, from the bytes of a file and of its companion ("" if the
+    /// format has none or it is missing). Throws LutError for truncated, foreign or inconsistent
+    /// files; does not verify the checksum (see checksum_of).
     Lut (*read)(std::string_view bytes, std::string_view companion) = nullptr;
 };
 
@@ -48,8 +47,8 @@ std::span<const LutFormat* const> lut_formats();
 /// nullptr if there is none of that name.
 const LutFormat* find_lut_format(std::string_view name);
 
-/// The metadata of a table: the facts and what follows from axes, channels, type and values, with
-/// the checksum. Source of every key: schemas/lut.schema.json.
+/// The complete metadata of a table: its facts, axes, channels, type and checksums. Defined by
+/// schemas/lut.schema.json.
 nlohmann::json metadata_of(const Lut& lut);
 
 /// metadata_of() as text: one line, keys sorted.

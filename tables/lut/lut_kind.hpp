@@ -20,7 +20,7 @@
 
 namespace irido::tables {
 
-/// An option of a kind beside the common ones, as the command line shows it.
+/// An option specific to a kind of table, as the command line shows it.
 struct LutOption {
     enum class Type { list, number, whole, word, flag };
     std::string_view name;  ///< without dashes
@@ -28,22 +28,22 @@ struct LutOption {
     std::string_view help;        ///< with unit, range and default
     std::string_view fallback{};  ///< as typed; "" for none
     double lowest = 0, highest = 0;
-    std::vector<std::string_view> words{};  ///< of a word
+    std::vector<std::string_view> words{};  ///< allowed values of a word
     char letter = 0;                        ///< short form, 0 for none
 };
 
-/// What was typed for the options of a kind, in values; those with neither value nor fallback are
-/// missing. A flag is there or not.
+/// Parsed values of the options of a kind; those with neither value nor fallback are missing, and
+/// so are flags that are not set.
 using LutOptions =
     std::map<std::string, std::variant<std::vector<double>, double, std::string>, std::less<>>;
 
-/// A number of the stack that varies.
+/// A varied number of the stack.
 struct VariedValue {
     std::string path;            ///< dotted, in the stack's document: layers.0.thickness_nm
     std::vector<double> values;  ///< strictly monotonic
 };
 
-/// What is asked of a kind, in values.
+/// The parsed request for a table.
 struct LutRequest {
     LutOptions options;
 
@@ -54,9 +54,9 @@ struct LutRequest {
 
     // for kinds with `stack`
     schemas::StackSource source;      ///< with --set applied
-    schemas::StackDocument document;  ///< the same, read
+    schemas::StackDocument document;  ///< read from the source
 
-    // for kinds with `light`: what falls on the stack and who looks
+    // for kinds with `light`: illuminant and observer
     std::shared_ptr<const Sensitivity> sensitivity;
     nlohmann::json illuminant;  ///< a name, or the rows of a file
     std::string observer;       ///< 2 or 10 degrees
@@ -70,37 +70,37 @@ struct LutRequest {
     Execution execution;
 };
 
-/// An axis before its size is settled.
+/// An axis whose size is not final.
 struct AxisPlan {
-    LutAxis axis;        ///< with the default or typed samples
-    bool fixed = false;  ///< samples were typed, or are not a range: never resized
-    /// Beyond its last sample the function may become constant: the range may be cut there.
+    LutAxis axis;        ///< with default or requested samples
+    bool fixed = false;  ///< not resizable: requested samples that are not equally spaced
+    /// The range may be cut where the function becomes constant.
     bool may_end_early = false;
-    std::string_view end_reason{};  ///< why, in words; "" if it is not known
+    std::string_view end_reason{};  ///< why it becomes constant; "" if unknown
 };
 
-/// How far two rows of samples are apart, at most.
+/// A measure of the difference between values of a table.
 struct LutMeasure {
     std::string name;  ///< as the metadata has it: delta_e_2000, relative to ..., absolute
-    /// Of two blocks of values [..][channel] of the same place, `exact` and `approximate`: one
-    /// number for each sample. `axes` are those of the block.
+    /// Differences between two blocks of values [..][channel], one number per sample; `axes` are
+    /// those of the block.
     std::function<std::vector<double>(const std::vector<LutAxis>& axes,
                                       std::span<const double> exact,
                                       std::span<const double> approximate)>
         differences;
 };
 
-/// A table's function, made ready for a request.
+/// The function that a table samples, prepared for a request.
 struct LutPlan {
     std::vector<AxisPlan> axes;  ///< slowest first
     std::vector<std::string> channels;
     bool mips = false;           ///< the first axis can be mip levels
     std::size_t split_axis = 0;  ///< the work is divided along this axis
-    /// Values [axes][channel] at all combinations of the axes' samples. Depends on each sample
-    /// alone, not on its neighbours; safe from many threads.
+    /// Values [axes][channel] at all combinations of the axes' samples. Each value depends on its
+    /// own sample only; thread-safe.
     std::function<std::vector<double>(const std::vector<LutAxis>& axes)> evaluate;
     LutMeasure measure;
-    nlohmann::json facts = nlohmann::json::object();  ///< color_space, notes, request of its own
+    nlohmann::json facts = nlohmann::json::object();  ///< color_space, notes, the kind's request
 };
 
 /// A kind of table.
@@ -109,15 +109,15 @@ struct LutKind {
     std::string_view summary;                  ///< one line
     std::string_view axes;                     ///< for the list: "theta_i, theta_d"
     std::string_view notes{};                  ///< for --help: formulas, units
-    std::vector<std::string_view> examples{};  ///< of command lines, without "irido lut "
+    std::vector<std::string_view> examples{};  ///< command lines without "irido lut "
     bool stack = false;                        ///< needs a stack
     bool light = false;                        ///< needs an illuminant and an observer
     bool color = false;                        ///< needs side, polarization and space
     bool vary = false;                         ///< up to two numbers of the stack may vary
     std::vector<LutOption> options{};
-    /// Throws DomainError or InputError for what cannot be made.
+    /// Throws DomainError or InputError for impossible requests.
     LutPlan (*plan)(const LutRequest&) = nullptr;
-    /// Invariants that a table of this kind breaks, one line each.
+    /// Violated invariants of a table of this kind, one line each.
     std::vector<std::string> (*problems)(const Lut&) = nullptr;
 };
 
@@ -127,7 +127,7 @@ std::span<const LutKind* const> lut_kinds();
 /// nullptr if there is none of that name.
 const LutKind* find_lut_kind(std::string_view name);
 
-/// The paths of what varies, in its order.
+/// The paths of the varied values, in order.
 std::vector<std::string> paths_of(std::span<const VariedValue> vary);
 
 }  // namespace irido::tables

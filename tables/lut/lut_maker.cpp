@@ -89,14 +89,14 @@ std::vector<double> middles(const std::vector<double>& x) {
     return result;
 }
 
-/// One grid with its values as stored, to be compared with the plan's function.
+/// One grid with its stored values, for comparison with the plan's function.
 class Comparison {
 public:
     Comparison(const LutPlan& plan, std::vector<LutAxis> axes, std::vector<double> stored,
                unsigned threads)
         : plan_(plan), axes_(std::move(axes)), stored_(std::move(stored)), threads_(threads) {}
 
-    /// Samples at which an axis is looked at between those of the grid; none if it is a list.
+    /// Samples between those of the grid at which an axis is checked; none if it is a list.
     std::vector<double> between(std::size_t a) const {
         const LutAxis& planned = plan_.axes[a].axis;
         if (plan_.mips && a == 0) return {};
@@ -159,7 +159,7 @@ public:
             ++ranges;
             result.of_axis[a] = look_at(targets);
         }
-        if (ranges != 1) look_at(all);  // of no ranges: what the type rounds off
+        if (ranges != 1) look_at(all);  // without ranges: the rounding error of the type
         if (ranges == 0) return result;
         std::ranges::stable_sort(worst, std::ranges::greater(), &Difference::value);
         worst.resize(std::min(worst.size(), kWorstCells));
@@ -300,14 +300,13 @@ private:
         const std::size_t last = last_different(a, axes, kEndSamples - 1);
         if (last == 0 || last + kEndSamples / 16 >= kEndSamples) return;
         LutAxis& axis = plan_.axes[a].axis;
-        const double end = axis.values.back();
         axis.values = {axis.values.front(), axes[a].values[last]};
         const std::string reason(plan_.axes[a].end_reason);
-        note(axis.name + ": " + (reason.empty() ? "" : reason + ", ") + "constant from " +
-             to_text(axis.values.back()) + " to " + to_text(end) + ", the range ends there");
+        note(axis.name + ": " + (reason.empty() ? "" : reason + ", ") + "constant beyond " +
+             to_text(axis.values.back()) + ": range cut there");
     }
 
-    /// One sample for an axis that does not matter, few for others.
+    /// One sample for an axis along which the function is constant, few for others.
     void start(std::size_t a) {
         std::vector<LutAxis> axes = coarse();
         axes[a] = range(a, kDroppedSamples);
@@ -316,14 +315,14 @@ private:
         const bool is_needed = lut_.mips && lut_.channels.size() > 4 && a + 1 == lut_.axes.size();
         if (!is_needed && last_different(a, axes, kDroppedSamples / 2) == 0) {
             lut_.axes[a].values = {whole.values[1]};
-            note(whole.name + ": does not matter from " + to_text(whole.values.front()) + " to " +
-                 to_text(whole.values.back()) + ", one sample");
+            note(whole.name + ": constant over [" + to_text(whole.values.front()) + ", " +
+                 to_text(whole.values.back()) + "]: stored as one sample");
         } else {
             lut_.axes[a] = range(a, std::max(kFirstSize, least()));
         }
     }
 
-    /// Samples along an axis that matters: two at least, in the last mip level, too.
+    /// The fewest samples along a non-constant axis: two, also in the last mip level.
     std::size_t least() const { return lut_.mips ? std::size_t{2} << (lut_.levels() - 1) : 2; }
 
     /// Of the first mip level, where there are any.
@@ -337,7 +336,7 @@ private:
 
     void grow() {
         double before = std::numeric_limits<double>::infinity();
-        int idle = 0;  // steps that did not help
+        int idle = 0;  // steps without improvement
         for (InterpolationError error = error_now(); error.value > tolerance_;
              error = error_now()) {
             idle = error.value > kHelpful * before ? idle + 1 : 0;
@@ -348,7 +347,7 @@ private:
         }
     }
 
-    /// Larger sizes along the axes that matter most, if there is room.
+    /// Enlarges the axes that contribute most to the error, if possible.
     bool has_grown(const InterpolationError& error) {
         double largest = 0;
         for (std::size_t a = 0; a < plan_.axes.size(); ++a)
@@ -371,10 +370,10 @@ private:
         std::string place;
         for (std::size_t a = 0; a < lut_.axes.size(); ++a)
             place += (a > 0 ? ", " : "") + lut_.axes[a].name + " " + to_text(error.at[a]);
-        throw ToleranceError("no table of a reasonable size has an interpolation error of " +
+        throw ToleranceError("no table of a reasonable size reaches an interpolation error of " +
                              to_text(tolerance_) + " (" + plan_.measure.name +
                              "): the function is too steep at " + place + ", where " +
-                             to_text(error.value) + " is left; a range without that place may do");
+                             to_text(error.value) + " remains; a range that excludes it may work");
     }
 
     /// Fewer samples along one axis after the other, the largest first, while the error allows.
@@ -398,7 +397,7 @@ private:
         return error_now().value <= tolerance_;
     }
 
-    /// Between few, which do not suffice, and enough, to 3 %.
+    /// Bisects between too few and enough samples, to 3 %.
     std::size_t fewest(std::size_t a, std::size_t few, std::size_t enough) {
         while (enough - few > std::max<std::size_t>(1, enough / 32)) {
             const std::size_t middle = (enough + few) / 2;
@@ -413,7 +412,7 @@ private:
     double tolerance_;
 };
 
-/// The axes for the sizes that were typed.
+/// The axes for the requested sizes.
 void set_counts(Lut& lut, const LutPlan& plan, const std::vector<std::size_t>& counts) {
     if (counts.size() != plan.axes.size())
         throw LutError("the size must have one number for each of the " +
@@ -424,8 +423,9 @@ void set_counts(Lut& lut, const LutPlan& plan, const std::vector<std::size_t>& c
         if (counts[a] == axis.count()) continue;
         if (plan.axes[a].fixed || (lut.mips && a == 0))
             throw LutError("the size along " + name_of_axis(axis) + " must be " +
-                           std::to_string(axis.count()) + ", as many as its list has (got " +
-                           std::to_string(counts[a]) + ")");
+                           std::to_string(axis.count()) +
+                           ", the number of values in its list (got " + std::to_string(counts[a]) +
+                           ")");
         axis.values = counts[a] == 1
                           ? std::vector{0.5 * (axis.values.front() + axis.values.back())}
                           : equally_spaced(axis.values.front(), axis.values.back(), counts[a]);

@@ -11,53 +11,55 @@
 
 namespace irido::tables {
 
-/// How many samples a table gets along its axes.
+/// How to choose the numbers of samples along the axes.
 struct LutSizing {
-    std::vector<std::size_t> counts{};  ///< of every axis; empty: as planned or by the tolerance
+    std::vector<std::size_t> counts{};  ///< per axis; empty: as planned, or by the tolerance
     std::optional<double> tolerance{};  ///< largest interpolation error, in the plan's measure
-    bool power_of_two = true;           ///< sizes by the tolerance
+    bool power_of_two = true;           ///< restricts sizes chosen by the tolerance
 };
 
+/// Options for making a table.
 struct LutMaking {
     LutSizing sizing{};
     LutType type = LutType::f32;
     bool mips = false;     ///< the first axis as mip levels, where the plan allows it
-    bool measure = true;   ///< the interpolation error goes into the facts
+    bool measure = true;   ///< store the interpolation error in the facts
     unsigned threads = 0;  ///< 0: one per core; the table does not depend on it
     std::function<void(double done)> progress{};  ///< called with a growing fraction
 };
 
-/// How far a table, interpolated linearly along all axes that are ranges, is from its function:
-/// measured at the middles of the cells along each axis and along all of them, and on a finer grid
-/// in the eight worst of these cells: a sampled maximum, not a bound. Samples are taken as stored.
+/// The error of a table that is interpolated linearly along all axes that are ranges. Measured at
+/// the middles of the cells along each axis and along all axes, and on a finer grid in the eight
+/// worst cells: a sampled maximum, not a bound. Uses the values as stored.
 struct InterpolationError {
     double value = 0;
-    std::vector<double> at;       ///< the place, one number an axis
+    std::vector<double> at;       ///< the place, one number per axis
     std::vector<double> of_axis;  ///< along each axis alone
 };
 
-/// Of each mip level, or of the table alone.
+/// The error of each mip level, or of the table if it has none.
 std::vector<InterpolationError> interpolation_errors(const LutPlan& plan, const Lut& lut,
                                                      unsigned threads);
 
-/// Samples the plan's function. With a tolerance: axes that do not matter get one sample, ranges
-/// end where the function has become constant, and sizes grow until the error is met, of the first
-/// level where there are mip levels; what was left out is in the facts' notes. Throws
-/// ToleranceError if no size up to 8192 meets it, LutError for sizes that cannot be.
+/// Samples the plan's function. With a tolerance: axes along which it is constant get one sample,
+/// ranges are cut where it becomes constant (both are recorded in the facts' notes), and sizes grow
+/// until the error, that of the first mip level if there are several, meets the tolerance. Throws
+/// ToleranceError if no size up to 8192 does, LutError for impossible sizes.
 Lut make_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
-/// How often make_lut() will compute the plan's function: about, or, with a tolerance, at least.
+/// Number of evaluations of the plan's function by make_lut(): approximate or, with a tolerance, a
+/// lower bound.
 double least_evaluations(const LutPlan& plan, const LutMaking& making);
 
-/// make_lut() without the values and their error: what the table will be.
+/// The result of make_lut() without values and error.
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
-/// Of each mip level of a sized table its interpolation error, or what few samples show of it: in
-/// the cells in which it would be worst without a spread. Empty if there are no levels.
+/// The estimated interpolation error of each mip level of a sized table, from few samples in the
+/// cells that would be worst at a single thickness. Empty if there are no levels.
 std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized, unsigned threads);
 
-/// Seconds that make_lut() will take for the values of a sized table and their error, from the time
-/// that few samples of each level take.
+/// Estimated seconds of make_lut() for the values of a sized table and their error, extrapolated
+/// from few samples of each level.
 double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads);
 
 }  // namespace irido::tables

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Keys that follow from the table or from a file's layout, not from the facts.
+/// Keys derived from the table or the file's layout, not stored in the facts.
 constexpr std::array kDerivedKeys{"kind", "axes", "channels", "dtype", "mips", "blocks", "stacked"};
 
 constexpr const char* kMetadataChecksum = "metadata_checksum";
@@ -34,14 +34,14 @@ LutAxis axis_from(const json& metadata) {
     const bool has_values = metadata.contains("values");
     if (has_values != (metadata["mapping"] == "list"))
         throw LutError("metadata: axis " + axis.name +
-                       " has values if it is a list, and only then");
+                       " must have values exactly when its mapping is list");
     if (has_values)
         axis.values = metadata["values"].get<std::vector<double>>();
     else
         axis.values = equally_spaced(first, last, count);
     if (axis.count() != count || axis.values.front() != first || axis.values.back() != last)
         throw LutError("metadata: first, last and count of axis " + axis.name +
-                       " are not those of its values");
+                       " do not match its values");
     return axis;
 }
 
@@ -110,7 +110,7 @@ json metadata_of(const Lut& lut) {
 
 std::string metadata_text(const json& metadata) {
     std::string text = dumped(metadata);
-    parsed_metadata(text);  // what is written can be read
+    parsed_metadata(text);  // ensures that it can be read back
     return text;
 }
 
@@ -150,15 +150,16 @@ LutFile companion_of(const Lut& lut) {
 
 Lut lut_from_companion(std::string_view bytes) {
     if (bytes.empty())
-        throw LutError(
-            "its companion with the metadata, the same name with .json added, is missing");
+        throw LutError("its companion file with the metadata, named with .json added, is missing");
     return lut_from_metadata(bytes);
 }
 
 void check_plain(const LutLayout& layout, std::string_view format) {
     if (layout.zstd)
-        throw LutError(std::string(format) + " has no Zstandard compression, only ktx2 has");
-    if (layout.layers) throw LutError(std::string(format) + " has no array layers, only ktx2 has");
+        throw LutError(std::string(format) +
+                       " does not support Zstandard compression; only ktx2 does");
+    if (layout.layers)
+        throw LutError(std::string(format) + " does not support array layers; only ktx2 does");
 }
 
 }  // namespace irido::tables

@@ -23,7 +23,7 @@ LutFile companion_of(const Lut& lut);
 /// A table without values from a companion's bytes. Throws LutError, also if they are missing.
 Lut lut_from_companion(std::string_view bytes);
 
-/// Throws LutError if a format other than ktx2 is asked for a layout that only ktx2 has.
+/// Throws LutError for a layout that only ktx2 supports.
 void check_plain(const LutLayout& layout, std::string_view format);
 
 }  // namespace irido::tables

@@ -62,7 +62,7 @@ void append_values(Lut& lut, std::size_t level, std::size_t components, std::str
         if (is_channel)
             lut.values[start + i] = value;
         else if (value != filler(c))
-            throw LutError("a texel's component that is no channel was altered");
+            throw LutError("a padding component of a texel was modified");
     });
 }
 

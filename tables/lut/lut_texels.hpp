@@ -16,7 +16,7 @@ struct TexelBlocks {
     std::size_t channels = 1;  ///< of one block
 };
 
-/// Throws LutError for more than four channels that are no multiple of three.
+/// Throws LutError for more than four channels unless they are a multiple of three.
 TexelBlocks texel_blocks(const Lut& lut);
 
 /// Texels of one level as bytes: rows along the last axis, first sample first; each row block by
@@ -24,8 +24,10 @@ TexelBlocks texel_blocks(const Lut& lut);
 /// alpha = 1.
 std::string texels_of(const Lut& lut, std::size_t level, std::size_t components);
 
-/// The same back: values in the table's order, appended. `texels` has the level's size. Throws
-/// LutError if components that are no channels are not what texels_of() writes.
+/// Appends the values of a level, in the table's order. Throws LutError if padding components
+/// differ from those of texels_of(). lut         the table, whose values are appended to level the
+/// mip level components  numbers per texel, 1 to 4 texels      bytes in the order of texels_of(),
+/// of the level's size
 void append_values(Lut& lut, std::size_t level, std::size_t components, std::string_view texels);
 
 }  // namespace irido::tables

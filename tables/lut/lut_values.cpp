@@ -56,8 +56,8 @@ void check_name(const std::string& name, std::set<std::string>& names) {
 
 void check_axis(const LutAxis& axis) {
     if (axis.values.empty() || axis.count() > kMostSamples)
-        throw LutError("axis " + axis.name + " has " + std::to_string(axis.count()) +
-                       " samples, allowed are 1 to " + std::to_string(kMostSamples));
+        throw LutError("axis " + axis.name + " must have 1 to " + std::to_string(kMostSamples) +
+                       " samples (got " + std::to_string(axis.count()) + ")");
     const std::vector<double> samples = samples_of(axis);
     const bool rises = samples.back() > samples.front();
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -65,16 +65,16 @@ void check_axis(const LutAxis& axis) {
             i == 0 || (rises ? samples[i] > samples[i - 1] : samples[i] < samples[i - 1]);
         if (!std::isfinite(samples[i]) || !follows)
             throw LutError("the samples of axis " + axis.name +
-                           " are not finite and strictly monotonic: sample " + std::to_string(i) +
-                           " is " + text_of(samples[i]));
+                           " must be finite and strictly monotonic (got " + text_of(samples[i]) +
+                           " at sample " + std::to_string(i) + ")");
     }
 }
 
 void check_mips(const Lut& lut) {
-    if (lut.axes.size() < 2) throw LutError("mip levels need an axis beside that of the levels");
+    if (lut.axes.size() < 2) throw LutError("mip levels need an axis besides that of the levels");
     if (lut.levels() > kMostLevels)
-        throw LutError(std::to_string(lut.levels()) + " mip levels, allowed are " +
-                       std::to_string(kMostLevels));
+        throw LutError("there must be at most " + std::to_string(kMostLevels) +
+                       " mip levels (got " + std::to_string(lut.levels()) + ")");
     for (std::size_t a = 1; a < lut.axes.size(); ++a)
         if (!lut.axes[a].is_linear())
             throw LutError("mip levels need equally spaced samples along " + lut.axes[a].name);
@@ -115,7 +115,7 @@ void check_values(const Lut& lut) {
     check_shape(lut);
     if (lut.values.size() != values_of(lut))
         throw LutError("the table has " + std::to_string(lut.values.size()) +
-                       " values, its axes and channels make " + std::to_string(values_of(lut)));
+                       " values, its axes and channels require " + std::to_string(values_of(lut)));
     for (std::size_t i = 0; i < lut.values.size(); ++i) {
         if (std::isfinite(rounded(lut.values[i], lut.type))) continue;
         const std::string rule = std::isfinite(lut.values[i])

@@ -15,16 +15,16 @@ std::vector<double> samples_of(const LutAxis& axis);
 /// Numbers of all levels, channels counted.
 std::size_t values_of(const Lut& lut);
 
-/// Axes, channels and counts that no format could write and read back are a LutError: a wrong
-/// number of axes, names that are empty, twice there or no plain words, samples that are not
-/// strictly monotonic, mip levels of axes that are not linear, more than 2^40 values.
+/// Throws LutError for shapes that formats cannot write and read back: a wrong number of axes;
+/// names that are empty, repeated or no plain words; samples that are not strictly monotonic; mip
+/// levels of axes that are not linear; more than 2^40 values.
 void check_shape(const Lut& lut);
 
-/// check_shape(), and the number of values is right, and all are finite in the table's type.
-/// Throws LutError naming the place of the first that is not: "R at cos_theta = 0.5, nm = 300".
+/// check_shape(), and checks that the number of values is right and all are finite in the table's
+/// type. Throws LutError with the place of the first bad value: "R at cos_theta = 0.5, nm = 300".
 void check_values(const Lut& lut);
 
-/// What a value is and where: "R at cos_theta = 0.5, nm = 300".
+/// Channel and place of a value: "R at cos_theta = 0.5, nm = 300".
 std::string place_of(const Lut& lut, std::size_t index);
 
 /// One number as it stands in a file, little-endian, rounded to nearest even.
@@ -36,7 +36,7 @@ double number_at(const char* bytes, LutType type);
 /// All values, one after the other, as append_bytes() has them.
 std::string value_bytes(const Lut& lut);
 
-/// The same back. `bytes` has a whole number of numbers.
+/// The values in the bytes of value_bytes().
 std::vector<double> values_from_bytes(std::string_view bytes, LutType type);
 
 }  // namespace irido::tables

@@ -24,7 +24,7 @@ void silence() {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Keeps of all that the library says to an error the innermost text, or what the system says.
+/// Keeps the innermost text of the library's error, or the system's reason.
 herr_t keep_reason(unsigned, const H5E_error2_t* error, void* reason) {
     std::string& text = *static_cast<std::string*>(reason);
     const std::string said = error->desc ? error->desc : "";
@@ -115,7 +115,7 @@ Offsets create(const std::string& file, const RecordLayout& layout, std::uint64_
 /// Where the columns' data are in a file of create().
 Offsets offsets_in(const std::string& file, const RecordLayout& layout, std::uint64_t rows) {
     silence();
-    const char* const what = ": is not the HDF5 file that its journal says";
+    const char* const what = ": does not match its journal";
     const Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file, what);
     Offsets offsets;
     for (const RecordField& field : layout) {
@@ -139,7 +139,7 @@ void check_h5_names(const RecordLayout& layout) {
         if (field.name.empty() || field.name == "." ||
             field.name.find_first_of(std::string_view("/\0", 2)) != std::string::npos)
             throw OutputError("h5: a column cannot be named '" + field.name +
-                              "': use another --format");
+                              "'; use another --format");
 }
 
 void write_h5(const RecordLayout& layout, std::uint64_t rows, const std::string& part,

@@ -12,14 +12,15 @@ namespace irido::tables {
 /// Throws OutputError if HDF5 cannot have a dataset of the name of a column.
 void check_h5_names(const RecordLayout& layout);
 
-/// Makes an HDF5 file, `to`, of the packed rows (packed_rows.hpp, texts as UTF-8) that the
-/// file `part` holds: one contiguous dataset for each column, in their order; texts are of fixed
-/// length in UTF-8, null-padded; flags the boolean enumeration of h5py. No times: the bytes follow
-/// from the rows. In constant memory. Throws OutputError.
+/// Converts packed rows (packed_rows.hpp, strings as UTF-8) to an HDF5 file in constant memory: one
+/// contiguous dataset per column, in order; strings of fixed length in UTF-8, null-padded; flags as
+/// the boolean enumeration of h5py. No times: the bytes depend on the rows only. Throws
+/// OutputError. layout  the columns rows    number of rows part    path of the packed rows to path
+/// of the HDF5 file
 void write_h5(const RecordLayout& layout, std::uint64_t rows, const std::string& part,
               const std::string& to);
 
-/// Puts such files together, in that order: the same bytes as of one of all their rows.
+/// Joins such files in the given order: byte-identical to writing all rows at once.
 void join_h5(const RecordLayout& layout, const std::vector<StreamPiece>& pieces,
              const std::string& to);
 

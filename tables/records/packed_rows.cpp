@@ -41,7 +41,7 @@ void store(char* to, const std::string& text, TextCode code) {
     }
 }
 
-/// Whether a column is what its field says.
+/// Whether a column matches its field.
 struct IsOf {
     const RecordField& field;
 

@@ -13,7 +13,7 @@ constexpr std::array kRecordFormats{IRIDO_ALL};
 #undef IRIDO_DECLARE
 #undef IRIDO_ALL
 
-/// The layout of records that are all there: texts are as wide as the longest one.
+/// The layout of complete records: strings are as wide as the longest one.
 struct FieldOf {
     std::string name;
 

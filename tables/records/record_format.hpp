@@ -11,19 +11,19 @@
 
 namespace irido::tables {
 
-/// One of the files that are put together: a whole one of the format.
+/// A complete file to be joined with others.
 struct StreamPiece {
     std::string path;
     std::uint64_t rows;
 };
 
-/// Whether a head is written before the number of rows is known, to be replaced by one of the same
-/// length, or is what stands in the end.
+/// An open head is written before the number of rows is known, and later replaced by a final one of
+/// the same length.
 enum class HeadKind { open, final };
 
-/// A way to write records, block after block or all at once. The bytes of a file are
+/// A format of records, written block by block or at once. The bytes of a file are
 ///     head, rows of a block, separator, rows of the next block that has any, ..., tail
-/// and follow from the rows alone, not from how they were cut into blocks.
+/// and depend on the rows only, not on their division into blocks.
 struct RecordFormat {
     std::string_view name;  ///< as --format and as a file's extension
     std::string_view summary;
@@ -35,11 +35,11 @@ struct RecordFormat {
     /// The rows of one block, whose columns are those of the layout. Safe from many threads.
     std::string (*rows)(const RecordLayout&, const Records&);
     std::string_view tail;
-    /// Makes the file out of the part that holds head, rows and tail, when that is complete, if the
-    /// part is not already what is asked for; nullptr where it is.
+    /// Converts the complete part file (head, rows and tail) to the final file; nullptr if the part
+    /// is already in the final format.
     void (*finish)(const RecordLayout&, std::uint64_t rows, const std::string& part,
                    const std::string& to) = nullptr;
-    /// Puts files with a `finish` together, in that order, into the file `to`; else nullptr.
+    /// Joins files in the given order into the file `to`; nullptr for formats without `finish`.
     void (*join)(const RecordLayout&, const std::vector<StreamPiece>&,
                  const std::string& to) = nullptr;
 };
@@ -50,10 +50,10 @@ std::span<const RecordFormat* const> record_formats();
 /// nullptr if there is none of that name.
 const RecordFormat* find_record_format(std::string_view name);
 
-/// The layout of records that are all there: texts are as wide as the longest one.
+/// The layout of complete records: strings are as wide as the longest one.
 RecordLayout layout_of(const Records& records);
 
-/// The bytes of a file of these records, of a format without `finish`.
+/// The bytes of a file with these records, for a format without `finish`.
 std::string written(const RecordFormat& format, const Records& records);
 
 }  // namespace irido::tables

@@ -6,13 +6,13 @@
 
 namespace irido::tables {
 
-/// A column that is known before any of its rows.
+/// Name and type of a column of records.
 struct RecordField {
     enum class Type { number, text, flag };
 
     std::string name;
     Type type = Type::number;
-    std::size_t width = 0;  ///< of a text: the most bytes of UTF-8 that a row may have, at least 1
+    std::size_t width = 0;  ///< of a string: its longest length in bytes of UTF-8, at least 1
 
     bool operator==(const RecordField&) const = default;
 };

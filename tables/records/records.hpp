@@ -13,7 +13,7 @@ struct Column {
     using Numbers = std::vector<double>;
     using Texts = std::vector<std::string>;
     using Flags = std::vector<bool>;
-    /// A column of few different values: each once, and which of them stands in each row.
+    /// A column with few distinct values: each value once, and per row an index into them.
     template <class Value>
     struct Coded {
         std::vector<Value> values;
@@ -29,7 +29,7 @@ struct Column {
     std::variant<Numbers, Texts, Flags, CodedNumbers, CodedTexts> values;
 };
 
-/// What a command answers: columns of equal length in the order in which they are printed.
+/// The result of a command: columns of equal length, in the order of printing.
 struct Records {
     std::vector<Column> columns;
 
@@ -41,11 +41,10 @@ struct Records {
 /// Shortest text that reads back to the same double, appended.
 void append_number(std::string& out, double value);
 
-/// Bytes that one value takes in a text, with its comma, more or less.
+/// Typical bytes per value in text formats, separator included.
 inline constexpr std::size_t kUsualValueBytes = 16;
 
-/// Appends the values of some columns row by row: a column's values through `append(out, value)`,
-/// those of coded columns once.
+/// Appends the values of columns row by row; the text of each value of a coded column is made once.
 class RowWriter {
 public:
     using AppendText = void (*)(std::string& out, const std::string& text);

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-/// How every journal begins: the members are in order of their names.
+/// The beginning of every journal; keys are sorted.
 constexpr std::string_view kStart = R"({"a_journal_of":"irido sweep",)";
 constexpr std::array kTypeNames{"number", "text", "flag"};
 
@@ -84,7 +84,7 @@ std::string checksum(const std::string& head, std::string_view line) {
     return digits;
 }
 
-/// Takes up what a whole line says.
+/// Applies a complete line.
 void take_line(JournalContent& content, const std::string& line, std::uint64_t end) {
     content.whole_bytes = end;
     std::istringstream words(line);
@@ -135,7 +135,7 @@ JournalContent read_journal(const std::string& text, const std::string& journal)
     JournalContent content;
     content.is_empty = text.empty();
     if (std::string_view(text).substr(0, kStart.size()) != kStart.substr(0, text.size()))
-        throw OutputError(journal + ": is not a journal of irido sweep and in its place: move it");
+        throw OutputError(journal + ": is not a journal of irido sweep; move it away");
     std::size_t at = text.find('\n');
     if (at == std::string::npos) return content;
     const std::string head = text.substr(0, ++at);
@@ -163,7 +163,7 @@ std::string read_whole(const std::string& path) {
 
 Journal::Journal(const std::string& target, const std::string& shown)
     : path_(journal_name(target)), shown_(shown), file_(open_locked(path_, shown, was_there_)) {
-    if (!file_) throw OutputError(shown + ": is being written by another irido");
+    if (!file_) throw OutputError(shown + ": is being written by another irido process");
     std::string text(file_->size(), '\0');
     was_there_ |= !text.empty();
     file_->read_at(0, text);
@@ -208,7 +208,7 @@ void Journal::add_complete() {
     add("complete");
 }
 
-/// At a place of its own: what a full disk left of a line is overwritten by the next.
+/// Writes at a fixed offset, so that a line torn by a full disk is overwritten by the next.
 void Journal::add(const std::string& line) {
     const std::string whole = line + " " + checksum(head_, line) + "\n";
     file_->write_at(bytes_, whole);

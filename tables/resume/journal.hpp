@@ -16,11 +16,11 @@ namespace irido::tables {
 
 /// The journal of a stream of records: one line of JSON, then a line for each event, which ends in
 /// a checksum of itself and the first line, so that a torn or foreign line is noticed:
-///     boot ID                 a process writes on, since this start of the machine
-///     done UNITS ROWS BYTES   so many bytes of the part are whole blocks
-///     safe UNITS ROWS BYTES   and the disk has them
-///     file BYTES INODE TIME [SHA256]  the file that is to be given its name; a shard's checksum
-///     complete                it has its name
+///     boot ID                 a process started writing during this boot of the machine
+///     done UNITS ROWS BYTES   that many bytes of the part are complete blocks
+///     safe UNITS ROWS BYTES   the same, flushed to the disk
+///     file BYTES INODE TIME [SHA256]  the finished file before its rename; a shard's checksum
+///     complete                the file was renamed
 
 /// The first line.
 struct JournalHead {
@@ -32,17 +32,17 @@ struct JournalHead {
 struct Checkpoint {
     std::uint64_t units = 0, rows = 0, bytes = 0;
     bool is_safe = false;
-    std::uint64_t journal_bytes = 0;  ///< up to its line's end
+    std::uint64_t journal_bytes = 0;  ///< up to the end of its line
 };
 
-/// What tells a finished file from any other.
+/// Identifies a finished file.
 struct FileMark {
     std::uint64_t bytes = 0, inode = 0, changed_ns = 0;
 
     bool operator==(const FileMark&) const = default;
 };
 
-/// What a journal says, up to the first line that is not whole.
+/// The content of a journal, up to the first incomplete line.
 struct JournalContent {
     bool is_empty = true;
     std::optional<JournalHead> head;  ///< none if the first line is torn or damaged
@@ -54,13 +54,13 @@ struct JournalContent {
     std::uint64_t whole_bytes = 0;  ///< up to the last whole line's end
 };
 
-/// Throws OutputError if a text, that is not empty, does not begin as a journal does.
+/// Parses a journal. Throws OutputError if a text that is not empty does not begin as a journal.
 JournalContent read_journal(const std::string& text, const std::string& journal);
 
-/// Throws OutputError.
+/// Reads a whole file. Throws OutputError.
 std::string read_whole(const std::string& path);
 
-/// PATH.sweep, which nobody else can write as long as this object is there.
+/// PATH.sweep, locked against other writers while this object lives.
 class Journal {
 public:
     /// `target` without links; errors name `shown`. Throws OutputError.
@@ -69,10 +69,10 @@ public:
     const JournalContent& found() const { return found_; }
     bool was_there() const { return was_there_; }
 
-    /// Empties it, so that from now on it tells of nothing.
+    /// Empties the journal.
     void clear();
     void begin(const JournalHead& head, mode_t mode);
-    /// Forgets what is after a checkpoint.
+    /// Discards everything after a checkpoint.
     void go_back(const Checkpoint& checkpoint);
     void add_boot();
     void add_checkpoint(const Checkpoint& checkpoint);
@@ -92,10 +92,11 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-/// Of the machine's running, "" if unknown: what was written before and not synced may be lost.
+/// Identifies the current boot of the machine, "" if unknown: unsynced data of earlier boots may be
+/// lost.
 std::string boot_id();
 
-/// The name of the journal of a file, and of what the file is until it is whole.
+/// The names of a file's journal and of its unfinished part.
 std::string journal_name(const std::string& target);
 std::string part_name(const std::string& target);
 

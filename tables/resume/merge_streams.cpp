@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 4U << 20U;
 
-/// A finished file of which the whole is put together.
+/// A finished shard to be merged.
 struct Shard {
     std::string path;
     JournalHead head;
@@ -33,16 +33,16 @@ Shard read_shard(const std::string& path, const RecordFormat& format) {
     const std::string target = resolved_path(path), journal = journal_name(target);
     std::error_code ignored;
     if (!std::filesystem::exists(journal, ignored))
-        throw OutputError(path + ": is not a shard of irido sweep: there is no journal " + journal);
+        throw OutputError(path + ": is not a shard of irido sweep: it has no journal " + journal);
     const JournalContent content = read_journal(read_whole(journal), journal);
     if (content.is_empty || !content.head || !content.is_complete || content.checkpoints.empty())
-        throw OutputError(path + ": is not finished: run it again with --resume");
+        throw OutputError(path + ": is incomplete: rerun it with --resume");
     if (content.head->format != format.name)
-        throw OutputError(path + ": is " + content.head->format + ", not " +
-                          std::string(format.name) + " as the output");
+        throw OutputError(path + ": must be " + std::string(format.name) + " as the output (got " +
+                          content.head->format + ")");
     if (std::filesystem::file_size(target, ignored) != content.file->bytes || ignored ||
         sha256_of_file(target) != content.checksum)
-        throw OutputError(path + ": is not the file that its journal says: run it again");
+        throw OutputError(path + ": does not match its journal: rerun it");
     return {path, *content.head, content.checkpoints.back()};
 }
 
@@ -51,22 +51,22 @@ void require_same(const Shard& shard, const Shard& first) {
     const StreamIdentity &a = shard.identity(), &b = first.identity();
     const std::string than = " than " + first.path;
     if (a.build != b.build)
-        throw OutputError(shard.path + ": is of irido " + version_text(a.build) + ", " +
-                          first.path + " of " + version_text(b.build) +
-                          ", whose numbers may differ: run all shards with one of them");
+        throw OutputError(shard.path + ": was written by irido " + version_text(a.build) + ", " +
+                          first.path + " by " + version_text(b.build) +
+                          ", whose numbers may differ: run all shards with the same build");
     if (a.request != b.request || a.total != b.total || shard.head.layout != first.head.layout)
-        throw OutputError(shard.path + ": is of another request" + than);
+        throw OutputError(shard.path + ": belongs to another request" + than);
     if (a.shards != b.shards)
         throw OutputError(shard.path + ": is one of " + std::to_string(a.shards) + " shards, " +
                           first.path + " one of " + std::to_string(b.shards));
     if (a.simd != b.simd)
-        throw OutputError(shard.path + ": is of SIMD level " + a.simd + ", " + first.path + " of " +
-                          b.simd +
-                          ", whose last digits differ: run all shards with one of them, which the "
-                          "environment variable IRIDO_SIMD forces");
+        throw OutputError(shard.path + ": was computed at SIMD level " + a.simd + ", " +
+                          first.path + " at " + b.simd +
+                          ", whose last digits differ: run all shards at one level (set the "
+                          "environment variable IRIDO_SIMD)");
 }
 
-/// Throws OutputError unless the sorted shards are each there once.
+/// Throws OutputError unless each of the sorted shards is present exactly once.
 void require_all(const std::vector<Shard>& shards) {
     const std::string of = " of " + std::to_string(shards[0].identity().shards);
     std::uint64_t wanted = 1;
@@ -85,16 +85,16 @@ void require_contiguous(const std::vector<Shard>& shards) {
     std::uint64_t begin = 0;
     for (const Shard& shard : shards) {
         if (shard.identity().begin != begin)
-            throw OutputError(shard.path + ": begins with unit " +
-                              std::to_string(shard.identity().begin) + ", must with " +
+            throw OutputError(shard.path + ": begins at unit " +
+                              std::to_string(shard.identity().begin) + ", expected " +
                               std::to_string(begin));
         begin = shard.identity().end;
         if (shard.counts.units != begin - shard.identity().begin)
-            throw OutputError(shard.path + ": is not finished: run it again with --resume");
+            throw OutputError(shard.path + ": is incomplete: rerun it with --resume");
     }
     if (begin != shards[0].identity().total)
-        throw OutputError(shards.back().path + ": ends with unit " + std::to_string(begin) +
-                          ", must with " + std::to_string(shards[0].identity().total));
+        throw OutputError(shards.back().path + ": ends at unit " + std::to_string(begin) +
+                          ", expected " + std::to_string(shards[0].identity().total));
 }
 
 void require_other(const std::vector<Shard>& shards, const std::string& path) {
@@ -121,7 +121,7 @@ void copy_rows(const Shard& shard, const RecordFormat& format, int to, const std
     file.read_at(0, buffer);
     file.read_at(end, tail);
     if (buffer != head || tail != format.tail || file.size() != end + tail.size())
-        throw OutputError(shard.path + ": is not the file that its journal says: run it again");
+        throw OutputError(shard.path + ": does not match its journal: rerun it");
     for (std::uint64_t at = head.size(); at < end; at += buffer.size()) {
         buffer.resize(std::min<std::uint64_t>(kBufferBytes, end - at));
         file.read_at(at, buffer);
@@ -148,7 +148,7 @@ void write_merged(const std::vector<Shard>& shards, const RecordFormat& format,
     const OutputTarget target = output_target(path);
     if (!target.is_file) {
         if (format.join)
-            throw OutputError(path + ": is not a file, as " + std::string(format.name) + " needs");
+            throw OutputError(path + ": must be a regular file for " + std::string(format.name));
         const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
         if (descriptor < 0) fail_to_write(path, errno);
         copy_all(shards, format, descriptor, path);
@@ -170,7 +170,7 @@ void write_merged(const std::vector<Shard>& shards, const RecordFormat& format,
 
 void merge_streams(const std::vector<std::string>& paths, const std::string& path,
                    const RecordFormat& format) {
-    if (paths.empty()) throw OutputError(path + ": no shards to be merged");
+    if (paths.empty()) throw OutputError(path + ": no shards to merge");
     std::vector<Shard> shards;
     for (const std::string& shard : paths) shards.push_back(read_shard(shard, format));
     for (const Shard& shard : shards) require_same(shard, shards[0]);

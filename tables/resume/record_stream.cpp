@@ -23,13 +23,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Least time between two checkpoints, and the share of the time of a run that a kill may cost if
-/// that is more: the journal stays small.
+/// Shortest time between two checkpoints, or if longer, the share of the run time that a kill may
+/// cost: keeps the journal small.
 constexpr auto kCheckpointInterval = std::chrono::milliseconds(1);
 constexpr int kCheckpointShare = 1000;
-/// Between two checkpoints that a power cut does not harm.
+/// Time between two checkpoints that survive a power cut.
 constexpr auto kSafeInterval = std::chrono::seconds(5);
-/// What a part's name ends in once a format's finish() has worked on it.
+/// Suffix of a part that a format's finish() has converted.
 constexpr const char* kMade = ".tmp";
 
 std::optional<FileMark> mark_of(const std::string& path) {
@@ -57,7 +57,7 @@ public:
           journal_(target_.path, path) {}
 
     void begin();
-    /// False if there is nothing to go on from.
+    /// False if there is nothing to continue.
     bool resume();
 
     std::uint64_t units_done() const override { return at_.units; }
@@ -96,12 +96,12 @@ std::uint64_t FileStream::part_bytes() const {
     return mark ? mark->bytes : 0;
 }
 
-/// A part without a journal is none of ours: the journal comes first and goes last.
+/// A part without a journal is foreign: irido creates the journal first and removes it last.
 void FileStream::require_own_part() {
     if (journal_.was_there() || part_bytes() == 0) return;
     journal_.remove();
-    throw OutputError(part_name_ + ": is in the way, and no journal " + journal_name(target_.path) +
-                      " says what it is: move it");
+    throw OutputError(part_name_ + ": exists but has no journal " + journal_name(target_.path) +
+                      "; move it away");
 }
 
 void FileStream::begin() {
@@ -124,23 +124,23 @@ void FileStream::begin() {
 }
 
 void FileStream::require_same(const JournalHead& found) const {
-    const std::string anew = ": run without --resume to begin anew, or name another file";
+    const std::string anew = ": rerun without --resume to start over, or name another file";
     const StreamIdentity &a = found.identity, &b = head_.identity;
     if (a.build != b.build)
-        fail(": its part is of irido " + version_text(a.build) + ", this is " +
+        fail(": its .part was written by irido " + version_text(a.build) + ", this is " +
              version_text(b.build) + ", whose numbers may differ" + anew);
     if (found.format != head_.format)
-        fail(": its part is " + found.format + ", not " + head_.format + anew);
+        fail(": its .part is " + found.format + ", not " + head_.format + anew);
     if (a.request != b.request || a.total != b.total || found.layout != head_.layout)
-        fail(": its part is of another request" + anew);
+        fail(": its .part belongs to another request" + anew);
     if (a.shard != b.shard || a.shards != b.shards || a.begin != b.begin || a.end != b.end)
-        fail(": its part is " + shard_text(a) + ", not " + shard_text(b) + anew);
+        fail(": its .part is " + shard_text(a) + ", not " + shard_text(b) + anew);
     if (a.simd != b.simd)
-        fail(": its part is of SIMD level " + a.simd + ", this run is of " + b.simd +
-             ": set IRIDO_SIMD=" + a.simd + ", or run without --resume to begin anew");
+        fail(": its .part is at SIMD level " + a.simd + ", this run at " + b.simd +
+             ": set IRIDO_SIMD=" + a.simd + ", or rerun without --resume to start over");
 }
 
-/// Whether the file is whole already, and nothing but what is left beside it is to be put away.
+/// Whether the file is already complete; then removes leftovers.
 bool FileStream::take_finished(const JournalContent& found) {
     const auto mark = mark_of(target_.path);
     if (!found.file || !mark || found.checkpoints.empty()) return false;
@@ -171,7 +171,7 @@ bool FileStream::resume() {
     const JournalContent& found = journal_.found();
     if (found.is_empty) return false;
     const std::string damaged = ": its journal " + journal_name(target_.path) +
-                                " is damaged: run without --resume to begin anew";
+                                " is damaged: rerun without --resume to start over";
     if (!found.head) {
         if (part_bytes() > 0) fail(damaged);
         return false;
@@ -221,7 +221,7 @@ void FileStream::append(const std::string& bytes, std::uint64_t units, std::uint
         checkpoint(now - safe_ >= kSafeInterval);
 }
 
-/// The file that the part becomes, whole but for its name.
+/// The finished file before its rename.
 std::string FileStream::made_file() const {
     if (!format_.finish) return part_name_;
     try {
@@ -273,7 +273,7 @@ void FileStream::discard() noexcept {
     journal_.remove();
 }
 
-/// To standard output, a device, a pipe or a NewFile: what is written is written.
+/// Writes to standard output, a device, a pipe or a NewFile; cannot be resumed.
 class DirectStream : public RecordStream {
 public:
     DirectStream(int descriptor, const std::string& name, const RecordFormat& format,
@@ -307,14 +307,15 @@ public:
         begin();
         write(format_.tail);
         if (format_.head(layout_, rows_, HeadKind::final) != head_)
-            throw OutputError(name_ + ": is not whole: its head says another number of rows");
+            throw OutputError(name_ +
+                              ": incomplete: its header announces a different number of rows");
         if (file_) file_->commit();
     }
     void suspend() override {}
     void discard() noexcept override {}
 
 private:
-    /// With the first rows: what fails before has written nothing.
+    /// Writes the head with the first rows, so that an earlier failure writes nothing.
     void begin() {
         if (!std::exchange(has_begun_, true)) write(head_);
     }
@@ -340,9 +341,9 @@ std::unique_ptr<RecordStream> record_file(const std::string& path, const RecordF
                                           std::uint64_t rows) {
     const OutputTarget target = output_target(path);
     if (!target.is_file) {
-        if (resume) throw OutputError(path + ": is not a file: --resume has nothing to go on from");
+        if (resume) throw OutputError(path + ": must be a regular file for --resume");
         if (format.finish)
-            throw OutputError(path + ": is not a file, as " + std::string(format.name) + " needs");
+            throw OutputError(path + ": must be a regular file for " + std::string(format.name));
         return std::make_unique<DirectStream>(open(path.c_str(), O_WRONLY | O_CLOEXEC), path,
                                               format, layout, rows);
     }
@@ -357,7 +358,7 @@ std::unique_ptr<RecordStream> record_file(const std::string& path, const RecordF
 std::unique_ptr<RecordStream> record_output(const RecordFormat& format, const RecordLayout& layout,
                                             std::uint64_t rows) {
     if (format.finish)
-        throw OutputError("--format: " + std::string(format.name) + " needs --output FILE");
+        throw OutputError("--format: " + std::string(format.name) + " requires --output FILE");
     if (format.is_binary) check_binary_stdout();
     require_no_input("/dev/stdout");
     return std::make_unique<DirectStream>(STDOUT_FILENO, "standard output", format, layout, rows);

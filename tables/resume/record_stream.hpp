@@ -10,13 +10,13 @@
 
 namespace irido::tables {
 
-/// What makes two runs write the same bytes, and which part of the whole this one is.
+/// Identifies the bytes that a run writes: request, build and part of the whole.
 struct StreamIdentity {
     std::string request;      ///< SHA-256 of all that the rows depend on, in hexadecimal
     std::string simd;         ///< name of the SIMD level, on which last digits depend
     std::uint64_t shard = 1;  ///< of `shards`
     std::uint64_t shards = 1;
-    std::uint64_t begin = 0;  ///< of the units of work of the whole that are this shard's
+    std::uint64_t begin = 0;  ///< units of this shard: [begin, end)
     std::uint64_t end = 0;
     std::uint64_t total = 0;  ///< units of the whole
     bool is_shard = false;    ///< to be merged, perhaps the only one
@@ -39,51 +39,52 @@ class RecordStream {
 public:
     virtual ~RecordStream() = default;
 
-    /// Units of work, counted from identity.begin, that the file has already, as a resumed one may.
+    /// Units of work that a resumed file already has, counted from identity.begin.
     virtual std::uint64_t units_done() const = 0;
     virtual std::uint64_t rows_done() const = 0;
-    /// Whether the resumed file is whole: nothing is left to do.
+    /// Whether the resumed file is complete.
     virtual bool is_complete() const = 0;
 
-    /// The next block: `bytes` of RecordFormat::rows(), of that many units and rows. Throws
+    /// Appends the next block: `bytes` of RecordFormat::rows() for that many units and rows. Throws
     /// OutputError, or BrokenPipe.
     virtual void append(const std::string& bytes, std::uint64_t units, std::uint64_t rows) = 0;
-    /// Also of a stream that has all its units, but was not finished. Does nothing to a complete
-    /// one. Throws OutputError.
+    /// Completes the file. Does nothing if it is already complete. Throws OutputError.
     virtual void finish() = 0;
-    /// Leaves what is there for a later --resume: the part, cut after its last whole block, and its
-    /// journal.
+    /// Keeps the part, cut after its last complete block, and its journal for a later --resume.
     virtual void suspend() = 0;
-    /// Takes part and journal away.
+    /// Removes part and journal.
     virtual void discard() noexcept = 0;
 };
 
-/// `resume` continues a part of the same identity and begins one where there is none; without it,
-/// a part that is there is begun again. Holds a lock on the journal until it is destroyed. Throws
-/// OutputError if the file cannot be written, if another process is writing it, or if the part to
-/// be resumed is of another request, shard, SIMD level or build of irido (the text says which, and
-/// what to do).
-/// A device or a pipe is written to directly, without a part, and needs `rows` as record_output()
-/// does.
+/// A file of records. Holds a lock on the journal until it is destroyed. A device or a pipe is
+/// written to directly, without a part. Throws OutputError if the file cannot be written, if
+/// another process is writing it, or if the part to be resumed belongs to another request, shard,
+/// SIMD level or build of irido. path      the file format    format of the records layout    the
+/// columns identity  request, build and part of the whole resume    continue a part of the same
+/// identity, if there is one; else start over rows      number of rows, required for a device or
+/// pipe if the format's head contains it; else 0
 std::unique_ptr<RecordStream> record_file(const std::string& path, const RecordFormat& format,
                                           const RecordLayout& layout,
                                           const StreamIdentity& identity, bool resume,
                                           std::uint64_t rows = 0);
 
-/// Standard output; `rows` is the number of rows of the stream if it is known, or 0 for a format
-/// whose head does not need it.
+/// Records to standard output; `rows` is their number, or 0 for a format whose head does not need
+/// it.
 std::unique_ptr<RecordStream> record_output(const RecordFormat& format, const RecordLayout& layout,
                                             std::uint64_t rows);
 
-/// `rows` rows into a file, whole or not at all and with nothing beside it but a temporary file, or
-/// to standard output if `path` is empty. A device or a pipe is written to directly. Throws
-/// OutputError.
+/// A known number of records, without journal. A file is written whole or not at all, under a
+/// temporary name; a device or a pipe directly. Throws OutputError.
+/// path    the file; "" for standard output
+/// format  format of the records
+/// layout  the columns
+/// rows    number of rows
 std::unique_ptr<RecordStream> counted_output(const std::string& path, const RecordFormat& format,
                                              const RecordLayout& layout, std::uint64_t rows);
 
-/// Puts the shards of one stream, in any order, together: the same bytes as of one run, in constant
-/// memory. Throws OutputError if a file is not what its journal says, shards are missing or given
-/// twice, or they are of different requests, builds of irido or SIMD levels.
+/// Joins the shards of one stream, in any order and constant memory: byte-identical to a single
+/// run. Throws OutputError if a file does not match its journal, shards are missing or repeated, or
+/// they belong to different requests, builds of irido or SIMD levels.
 void merge_streams(const std::vector<std::string>& shards, const std::string& path,
                    const RecordFormat& format);
 

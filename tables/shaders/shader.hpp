@@ -12,7 +12,7 @@ std::vector<std::string_view> shader_names();
 /// Names of the languages: glsl (ES 3.00 and later) and hlsl (shader model 4 and later).
 std::vector<std::string_view> shader_languages();
 
-/// A snippet with all that it uses, as a file to include. The names must be known.
+/// A snippet with its dependencies, as a file to include. Both names must be known.
 std::string shader_source(std::string_view name, std::string_view language);
 
 }  // namespace irido::tables

@@ -68,7 +68,7 @@ TEST_CASE("approximations of mirrors say how far they are off", "[cli][color]") 
     for (const std::string method : {"landmarks", "bloch/0"}) {
         const Outcome outcome = run_irido({"color", kMirror, "--method", method});
         CHECK(outcome.status == 0);
-        CHECK_THAT(outcome.err, Contains(" is off by up to "));
+        CHECK_THAT(outcome.err, Contains(": error up to "));
         const Outcome held =
             run_irido({"color", kMirror, "--method", method, "--tolerance", "1e-9"});
         CHECK(held.status == 1);
@@ -96,11 +96,11 @@ TEST_CASE("methods for mirrors refuse in one line", "[cli][color][refused]") {
     check_refused({"--method", "bloch", "--harmonics", "-1"},
                   "--harmonics: must be in [0, 1000] (got -1)");
     check_refused({"--method", "bloch", "--harmonics", "1.5"}, "--harmonics: ");
-    check_refused({"--subdivide", "2"}, "--subdivide: needs --method landmarks (got auto)");
+    check_refused({"--subdivide", "2"}, "--subdivide: requires --method landmarks (got auto)");
     check_refused({"--method", "landmarks", "--harmonics", "2"},
-                  "--harmonics: needs --method bloch (got landmarks)");
+                  "--harmonics: requires --method bloch (got landmarks)");
     check_refused({"--method", "landmarks/2", "--subdivide", "2"},
-                  "--subdivide: the method has its number");
+                  "--subdivide: conflicts with the number in --method");
     check_refused({"--method", "landmarks/0"}, "the number of landmarks: must be in [1, 1000]");
     for (const std::string method : {"landmarks", "bloch"}) {
         check_refused({"--method", method}, "needs one group of two coherent layers",

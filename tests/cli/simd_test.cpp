@@ -38,7 +38,7 @@ TEST_CASE("every instruction set gives the same spectrum to rounding", "[cli][si
                    Contains("SIMD " + std::string(name_of(level)) + "\n"));
         if (level != SimdLevel::plain)
             CHECK_THAT(with_level(name_of(level), kRequest + " --stats").err,
-                       Contains("side by side (" + std::string(name_of(level)) + "), 7 layers"));
+                       Contains("vectorized (" + std::string(name_of(level)) + "), 7 layers"));
     }
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("instructions that the machine lacks are replaced with a note", "[cli]
         const Outcome outcome = with_level(name_of(level), "spectrum \"1 | 1.5@9 | 1\" -w 550");
         CHECK(outcome.status == 0);
         const std::string note =
-            "irido: note: IRIDO_SIMD: this machine has no " + std::string(name_of(level));
+            "irido: note: IRIDO_SIMD: this machine does not support " + std::string(name_of(level));
         CHECK(outcome.err.starts_with(note) != is_available(level));
     }
 }
@@ -79,18 +79,18 @@ TEST_CASE("stats say what was skipped and do not touch the answer", "[cli][simd]
         return outcome.err;
     };
     const std::string film = stats("\"1 | 1.33@400 | 1.5\" -a 0:60:20");
-    CHECK_THAT(film, Contains("1604 points of wavelength and angle"));
+    CHECK_THAT(film, Contains("1604 points (wavelength, angle)"));
     CHECK_THAT(film, Contains("skipped: p at 1 of 4 angles"));
-    CHECK_THAT(film, Contains("skipped: the recursion over layers"));
+    CHECK_THAT(film, Contains("skipped: recursion over layers"));
     CHECK_THAT(film, Contains("skipped: complex arithmetic in 1 of 1 layers"));
-    CHECK_THAT(film, Contains("skipped: angle terms of 2 of 2 media"));
+    CHECK_THAT(film, Contains("reused across wavelengths: angle terms of 2 of 2 media"));
     CHECK_THAT(film, Contains("skipped: absorption"));
     const std::string mirror = stats("\"1 | (2.3@60 | 1.46@94)^500 | Ag\" -p s");
-    CHECK_THAT(mirror, Contains("skipped: p (not asked for)"));
-    CHECK_THAT(mirror, Contains("skipped: the repetitions of 1 groups"));
+    CHECK_THAT(mirror, Contains("skipped: p (not requested)"));
+    CHECK_THAT(mirror, Contains("skipped: repetitions of 1 group ("));
     CHECK_THAT(mirror, !Contains("3 of 3 media"));
     const std::string hosted = stats("\"1.46 | (2.3@60 | 1.46@94)^500 | 1.46\" -a 0,30");
-    CHECK_THAT(hosted, Contains("skipped: the matrices of layers (a mirror in a host of one of"));
+    CHECK_THAT(hosted, Contains("skipped: layer matrices (closed form for a mirror"));
     CHECK_THAT(mirror, !Contains("Yeh"));
     const std::string metal = stats("\"1 | Ag@10 | 1.5@100 | Ag@10 | 1.5@100 | 1.5\" -a 30 -p s,p");
     CHECK_THAT(metal, Contains("skipped: complex arithmetic in 2 of 4 layers"));

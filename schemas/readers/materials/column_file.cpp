@@ -129,7 +129,7 @@ void note_angstroms(const std::vector<IndexRow>& rows, std::vector<std::string>&
     if (rows.front()[0] >= 1000 && rows.back()[0] <= 30000)
         notes.push_back("no header: wavelengths taken as " + to_text(rows.front()[0]) + " to " +
                         to_text(rows.back()[0]) +
-                        " nm (if they are angstroms, a header angstrom,n,k says so)");
+                        " nm (if they are in angstroms, add a header angstrom,n,k)");
 }
 
 }  // namespace
@@ -164,9 +164,10 @@ MaterialFile read_column_file(std::string_view text, const std::string& name) {
     const ColumnText table = read_columns(lines_of(text), name, names);
     if (!table.header.empty()) return material_of_columns(table, table.header, name);
     if (table.has_semicolon_comments)
-        throw InputError(name, "",
-                         "with ; comments, wavelengths may be nm or angstroms: a header such as "
-                         "angstrom,n,k must say so");
+        throw InputError(
+            name, "",
+            "wavelengths of files with ; comments may be in nm or angstroms: add a header "
+            "such as angstrom,n,k");
     std::vector<std::string> header{"wavelength", "n", "k"};
     header.resize(table.rows[0].values.size());
     return material_of_columns(table, header, name);

@@ -26,9 +26,10 @@ bool is_binary(std::string_view text) {
 
 MaterialFile refuse_binary(std::string_view text, const std::string& name) {
     if (text.starts_with("MATLAB"))
-        throw InputError(name, "", "is a binary file of Matlab, not a text");
+        throw InputError(name, "", "must be text (got a binary MATLAB file)");
     const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-    throw InputError(name, "", is_utf16 ? "must be UTF-8 text (got UTF-16)" : "is no text");
+    throw InputError(
+        name, "", is_utf16 ? "must be UTF-8 text (got UTF-16)" : "must be text (got binary data)");
 }
 
 constexpr std::array kFormats{

@@ -41,7 +41,7 @@ std::vector<IndexRow> rows_of(const ColumnText& block, const std::string& name,
     if (rows.front()[0] >= 1000 * kLongest_um)
         throw InputError(name, "",
                          "wl is in um, but " + to_text(rows.front()[0] / 1000) +
-                             " and more looks like nm (a header nm,n,k says so)");
+                             " and more looks like nm (then use a header nm,n,k)");
     return rows;
 }
 
@@ -83,7 +83,7 @@ MaterialFile read_refractiveindex_csv(std::string_view text, const std::string& 
         }
         start = end;
     }
-    if (!n) throw InputError(name, "", "gives k only, no n");
+    if (!n) throw InputError(name, "", "must give n (got k only)");
     if (!k) notes.emplace_back("no k in the file: k = 0");
     return material_of(name, *std::move(n), std::move(k), std::move(notes));
 }

@@ -73,13 +73,13 @@ std::vector<double> numbers_of(std::string_view line, const Reader& reader) {
 YAML::Node value_of(const YAML::Node& item, const char* key, const Reader& reader) {
     const YAML::Node value = item[key];
     if (!value || !(value.IsScalar() || value.IsSequence()))
-        reader.fail(std::string("needs the text '") + key + "'");
+        reader.fail(std::string("must have the text '") + key + "'");
     return value;
 }
 
 std::string text_of(const YAML::Node& item, const char* key, const Reader& reader) {
     const YAML::Node value = item[key];
-    if (!value || !value.IsScalar()) reader.fail(std::string("needs the text '") + key + "'");
+    if (!value || !value.IsScalar()) reader.fail(std::string("must have the text '") + key + "'");
     return value.Scalar();
 }
 
@@ -88,7 +88,7 @@ std::vector<double> numbers_of(const YAML::Node& value, const Reader& reader) {
     if (!value.IsSequence()) return numbers_of(std::string_view(value.Scalar()), reader);
     std::vector<double> numbers;
     for (const YAML::Node& entry : value) {
-        if (!entry.IsScalar()) reader.fail("a list of numbers must hold nothing else");
+        if (!entry.IsScalar()) reader.fail("must be a list of numbers only");
         for (const double number : numbers_of(std::string_view(entry.Scalar()), reader))
             numbers.push_back(number);
     }
@@ -224,7 +224,8 @@ std::optional<Table> joined(const Dispersion& first, const Dispersion& second,
     if (b->wavelength_nm.front() < a->wavelength_nm.front()) std::swap(a, b);
     if (!(a->wavelength_nm.back() < b->wavelength_nm.front())) return std::nullopt;
     const WavelengthRange between{a->wavelength_nm.back(), b->wavelength_nm.front()};
-    reader.notes.push_back(reader.where + ": " + what + " joined to that before it, linear from " +
+    reader.notes.push_back(reader.where + ": " + what +
+                           " joined to the table before, interpolated from " +
                            schemas::in_words(between));
     Table both = *a;
     both.wavelength_nm.insert(both.wavelength_nm.end(), b->wavelength_nm.begin(),
@@ -248,9 +249,9 @@ void take(std::optional<Known>& known, std::optional<Known> more, const std::str
         return;
     }
     const double apart = distance(*known, *more);
-    if (!(apart <= kEqual)) reader.fail(what + " is given twice, and not alike");
+    if (!(apart <= kEqual)) reader.fail(what + " is given twice with different values");
     reader.notes.push_back(reader.where + ": " + what + " given twice, at most " + to_text(apart) +
-                           " apart: the first counts");
+                           " apart: the first is used");
 }
 
 /// What a map says about air, by any of the names the keys have had; nothing if nothing.
@@ -314,8 +315,7 @@ Reference reference_of(const YAML::Node& document, const std::string& source,
                     (reference.index_to_air && reference.wavelength_in_air ? " and " : "") +
                     (reference.wavelength_in_air ? "wavelengths in air" : "") + " (" +
                     to_text(reference.temperature_c) + " C" +
-                    (by_catalogue ? ", as glass catalogues have it" : "") +
-                    ") converted to vacuum");
+                    (by_catalogue ? ", as in glass catalogues" : "") + ") converted to vacuum");
     return reference;
 }
 
@@ -363,7 +363,7 @@ MaterialFile material_in(const YAML::Node& document, const std::string& name) {
         take(found.k, std::move(item.k), "k", reader);
     }
     reader.where = "DATA";
-    if (!found.n) reader.fail("gives k only, no n");
+    if (!found.n) reader.fail("must give n (got k only)");
     if (!found.k) reader.notes.emplace_back("no k in the file: k = 0");
     return material_of(name, *std::move(found.n), std::move(found.k), std::move(reader.notes),
                        std::move(source));

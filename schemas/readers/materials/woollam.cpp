@@ -33,7 +33,7 @@ MaterialFile read_woollam_mat(std::string_view text, const std::string& name) {
     if (words != "nk" && words != "e1e2")
         throw InputError(
             name, place_of(lines[2], lines[2].text),
-            "must be NK or E1E2, tables; " + in_quotes(kind) + " stands for parameters of a model");
+            "must be NK or E1E2, a table (got " + in_quotes(kind) + ", parameters of a model)");
     const bool is_nk = words == "nk";
     const ColumnNames names{[](const std::vector<std::string>&) { return false; },
                             "the unit's, " + std::string(is_nk ? "n and k" : "eps1 and eps2"), 3,

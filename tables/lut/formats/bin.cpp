@@ -26,7 +26,7 @@ Lut read(std::string_view bytes, std::string_view companion) {
     const std::size_t expected = values_of(lut) * bytes_of(lut.type);
     if (bytes.size() != expected)
         throw LutError("the file has " + std::to_string(bytes.size()) +
-                       " bytes, a table of its metadata " + std::to_string(expected));
+                       " bytes, its metadata requires " + std::to_string(expected));
     lut.values = values_from_bytes(bytes, lut.type);
     return lut;
 }

@@ -1,6 +1,7 @@
 // CSV: for people, spreadsheets and scripts.
 // - The first line has the names: one column for each axis, then one for each channel.
-// - One line a sample, the last axis fastest; with mip levels those of level 0 first, each level at
+// - One line per sample, the last axis fastest; with mip levels those of level 0 first, each level
+// at
 //   its own samples, the level's value of the mip axis in the leading column.
 // - Numbers are the shortest text of the double that the table's type rounds the value to, so that
 //   f16, f32 and f64 all read back bit-equal. Linear axes are written as the metadata has them.
@@ -143,11 +144,12 @@ void read_row(Lines& lines, const std::vector<std::vector<double>>& samples,
                        std::to_string(values_of(lut) / lut.channels.size()) + " rows");
     for (std::size_t a = 0; a < samples.size(); ++a)
         if (lines.number() != samples[a][odometer[a]])
-            lines.fail("the value of " + lut.axes[a].name + " is not that of the metadata");
+            lines.fail("the value of " + lut.axes[a].name + " does not match the metadata");
     for (const std::string& channel : lut.channels) {
         const double value = lines.number();
         if (rounded(value, lut.type) != value)
-            lines.fail("the value of " + channel + " is no " + std::string(name_of(lut.type)));
+            lines.fail("the value of " + channel + " is not an " + std::string(name_of(lut.type)) +
+                       " number");
         lut.values.push_back(value);
     }
     if (!lines.is_at_end()) lines.fail("has too many numbers");
@@ -161,14 +163,14 @@ Lut read(std::string_view bytes, std::string_view companion) {
     names.pop_back();
     Lines lines(bytes);
     if (!lines.next() || lines.line() != names)
-        throw LutError("the first line is not that of the metadata, " + names);
+        throw LutError("the first line must match the metadata: " + names);
     for (std::size_t level = 0; level < lut.levels(); ++level) {
         const std::vector<std::vector<double>> samples = samples_of_level(lut, level);
         Odometer odometer(samples);
         do read_row(lines, samples, odometer, lut);
         while (odometer.advance());
     }
-    if (lines.next()) lines.fail("the table has no more rows");
+    if (lines.next()) lines.fail("is after the last row of the table");
     return lut;
 }
 
@@ -176,7 +178,7 @@ Lut read(std::string_view bytes, std::string_view companion) {
 
 extern const LutFormat lut_format_csv{
     .name = "csv",
-    .summary = "one line a sample: axes, then channels; metadata in FILE.csv.json",
+    .summary = "one line per sample: axes, then channels; metadata in FILE.csv.json",
     .is_binary = false,
     .write = write,
     .read = read,

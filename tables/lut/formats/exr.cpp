@@ -56,7 +56,7 @@ std::int32_t checked_size(std::size_t size) {
 /// Throws LutError naming what a picture cannot hold.
 Picture picture_of(const Lut& lut) {
     if (lut.type == LutType::f64) throw LutError("exr holds f16 and f32, not f64");
-    if (lut.mips) throw LutError("exr has no mip levels, only ktx2, bin and csv have");
+    if (lut.mips) throw LutError("exr has no mip levels; only ktx2, bin and csv do");
     const auto [blocks, channels] = texel_blocks(lut);
     Picture picture;
     picture.width = checked_size(blocks * lut.axes.back().count());
@@ -81,7 +81,7 @@ std::string metadata_for(const Lut& lut) {
 
 // --- the library, on memory -----------------------------------------------------------------
 
-/// An open file in memory, and what the library said last about it.
+/// An open file in memory, with the library's last message about it.
 struct Stream {
     std::string_view input;
     std::string output;
@@ -294,11 +294,11 @@ std::string metadata_in(const File& file) {
     std::int32_t length = 0;
     const char* text = nullptr;
     if (exr_attr_get_string(file, 0, kMetadata, &length, &text) != EXR_ERR_SUCCESS)
-        throw LutError(std::string("this picture was not made by irido: it has no ") + kMetadata);
+        throw LutError(std::string("not a picture made by irido: it has no ") + kMetadata);
     return {text, static_cast<std::size_t>(length)};
 }
 
-/// Throws LutError if the header is not that of the table's picture.
+/// Throws LutError if the header does not match the table.
 void check_header(const File& file, const Picture& picture, LutType type) {
     int parts = 0;
     exr_storage_t storage{};
@@ -322,7 +322,7 @@ void check_header(const File& file, const Picture& picture, LutType type) {
                   channel.y_sampling == 1 &&
                   channel.pixel_type == (type == LutType::f16 ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT);
     }
-    if (!is_ours) throw LutError("the header is not that of a picture of its metadata");
+    if (!is_ours) throw LutError("the header does not match the metadata");
 }
 
 Lut read(std::string_view bytes, std::string_view /*companion*/) {

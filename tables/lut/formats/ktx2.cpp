@@ -85,13 +85,13 @@ void check_mips_halve(const Lut& lut, const Texture& texture) {
                            " that can be halved " + std::to_string(lut.levels() - 1) + " times");
 }
 
-/// Throws LutError naming what a texture cannot hold.
+/// Throws LutError, which names what a texture cannot hold.
 Texture texture_of(const Lut& lut, const LutLayout& layout) {
     if (lut.type == LutType::f64) throw LutError("ktx2 holds f16 and f32, not f64");
     const std::vector<LutAxis> axes = lut.axes_of_level(0);
     if (layout.layers && axes.size() != 3)
         throw LutError("array layers need a table of three axes without mip levels");
-    if (lut.mips && axes.size() > 2) throw LutError("3D textures have no mip levels here");
+    if (lut.mips && axes.size() > 2) throw LutError("irido writes no mip levels of 3D textures");
     Texture texture;
     texture.vk_format = vk_format_of(lut.type, components_of(lut));
     texture.type_size = static_cast<std::uint32_t>(bytes_of(lut.type));
@@ -245,7 +245,7 @@ Number number_in(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-/// `length` bytes from `offset` on. Throws LutError if the file has not got them.
+/// `length` bytes from `offset` on. Throws LutError if the file ends before.
 std::string_view part_of(std::string_view bytes, std::uint64_t offset, std::uint64_t length,
                          const std::string& what) {
     if (offset > bytes.size() || length > bytes.size() - offset)
@@ -266,7 +266,7 @@ std::string_view metadata_in(std::string_view key_values) {
         const std::size_t padded = sizeof(std::uint32_t) + (std::size_t{length} + 3) / 4 * 4;
         key_values.remove_prefix(std::min(padded, key_values.size()));
     }
-    throw LutError("this texture was not made by irido: it has no " + std::string(kMetadataKey));
+    throw LutError("not a texture made by irido: it has no " + std::string(kMetadataKey));
 }
 
 Texture texture_in(std::string_view bytes) {
@@ -280,8 +280,7 @@ Texture texture_in(std::string_view bytes) {
 std::string decompressed(std::string_view frame, std::size_t size) {
     if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != size ||
         size > kZstandardLargestRatio * frame.size() + kZstandardBlock)
-        throw LutError("a level's Zstandard frame is not one of " + std::to_string(size) +
-                       " bytes");
+        throw LutError("a level's Zstandard frame must hold " + std::to_string(size) + " bytes");
     std::string out(size, '\0');
     const std::size_t result = ZSTD_decompress(out.data(), size, frame.data(), frame.size());
     if (ZSTD_isError(result) != 0)
@@ -306,7 +305,7 @@ void read_level(std::string_view bytes, std::size_t level, const Texture& textur
 }
 
 Lut read(std::string_view bytes, std::string_view /*companion*/) {
-    if (!bytes.starts_with(kIdentifier)) throw LutError("this is no KTX2 file");
+    if (!bytes.starts_with(kIdentifier)) throw LutError("not a KTX2 file");
     part_of(bytes, 0, kHeaderBytes, "the header");
     const Texture texture = texture_in(bytes);
     constexpr std::size_t descriptor_field = 48, key_value_field = 56;
@@ -318,7 +317,7 @@ Lut read(std::string_view bytes, std::string_view /*companion*/) {
     const LutLayout layout{texture.scheme == kZstandard, texture.layers > 0};
     if (!(texture == texture_of(lut, layout)) ||
         part_named(descriptor_field, "the data format descriptor") != descriptor_of(lut))
-        throw LutError("the header is not that of a texture of its metadata");
+        throw LutError("the header does not match the metadata");
     part_of(bytes, kHeaderBytes, kLevelIndexBytes * lut.levels(), "the level index");
     for (std::size_t level = 0; level < lut.levels(); ++level)
         read_level(bytes, level, texture, lut);

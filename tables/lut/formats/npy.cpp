@@ -29,7 +29,7 @@ std::string header(const Lut& lut) {
 
 std::vector<LutFile> write(const Lut& lut, const LutLayout& layout) {
     check_plain(layout, "npy");
-    if (lut.mips) throw LutError("npy has no mip levels, only ktx2, bin and csv have");
+    if (lut.mips) throw LutError("npy has no mip levels; only ktx2, bin and csv do");
     check_values(lut);
     std::vector<LutFile> files;
     files.push_back(companion_of(lut));
@@ -43,13 +43,13 @@ Lut read(std::string_view bytes, std::string_view companion) {
     if (lut.mips) throw LutError("metadata: npy has no mip levels");
     const std::string start = header(lut);
     if (!bytes.starts_with(start))
-        throw LutError("this is not the NumPy array of its metadata: the first " +
+        throw LutError("the NumPy header does not match the metadata: the first " +
                        std::to_string(start.size()) + " bytes differ");
     bytes.remove_prefix(start.size());
     const std::size_t expected = values_of(lut) * bytes_of(lut.type);
     if (bytes.size() != expected)
         throw LutError("the array has " + std::to_string(bytes.size()) +
-                       " bytes, a table of its metadata " + std::to_string(expected));
+                       " bytes, its metadata requires " + std::to_string(expected));
     lut.values = values_from_bytes(bytes, lut.type);
     return lut;
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWorstError = 1e-4;  ///< of X, Y, Z
 
-/// Everything that the table's function needs for as long as it is called.
+/// The state of the table's function.
 struct Source {
     ColorTables tables;
     ColorValues values;
@@ -53,8 +53,8 @@ LutPlan plan(const LutRequest& request) {
             for (std::size_t i = 0; i < column.size(); ++i) {
                 if (!(column[i].error <= kWorstError))
                     throw DomainError("the albedo at cos_theta " + to_text(axes[0].values[i]) +
-                                      " is known to " + to_text(column[i].error) +
-                                      " only, a table needs " + to_text(kWorstError));
+                                      " has error " + to_text(column[i].error) + ", tables need " +
+                                      to_text(kWorstError));
                 const Triple rgb = source->values(column[i].xyz);
                 for (std::size_t c = 0; c < 3; ++c) values[(i * alphas + a) * 3 + c] = rgb[c];
             }
@@ -66,7 +66,7 @@ LutPlan plan(const LutRequest& request) {
     return plan;
 }
 
-/// Luminance Y must be that of less than all light. Adaptation and rounding may move it a little.
+/// The luminance must be in [0, 1], but for adaptation and rounding.
 std::vector<std::string> problems(const Lut& lut) {
     constexpr double kSlack = 0.02;
     constexpr std::size_t kMostLines = 5;
@@ -93,13 +93,13 @@ std::vector<std::string> problems(const Lut& lut) {
 
 extern const LutKind lut_kind_albedo = {
     .name = "albedo",
-    .summary = "Directional albedo of a rough surface whose facets are the stack, as a colour.",
+    .summary = "Directional albedo, as a colour, of a rough surface whose facets are the stack.",
     .axes = "cos theta, alpha",
     .notes =
-        "The light that leaves in any direction after one reflection:\n"
+        "Fraction of light that leaves in any direction after one reflection:\n"
         "    E(theta_i) = integral of D G2 R / (4 cos_i cos_o) cos_o over all directions o\n"
         "with GGX's D, Smith's height-correlated G2 and the stack's reflectance R at the\n"
-        "half angle. alpha 0 is the smooth stack's colour. --tolerance is a CIEDE2000.",
+        "half angle. alpha 0 is the smooth stack's colour. --tolerance is in CIEDE2000.",
     .examples = {"albedo \"1 | 1.33@400 | 1.5+3i\" -o albedo.ktx2",
                  "albedo mirror.json --alpha 0.05,0.1,0.4 --space xyz"},
     .stack = true,

@@ -35,12 +35,12 @@ std::string path_of_spread(const LutRequest& request) {
     const std::string thickness = "thickness_nm";
     std::string path = request.vary.empty() ? std::string() : request.vary.front().path;
     if (!path.ends_with(thickness))
-        throw DomainError("a spread needs a thickness as the first value that varies");
+        throw DomainError("sigma requires the first varied value to be a thickness");
     return path.replace(path.size() - thickness.size(), thickness.size(), "thickness_sigma_nm");
 }
 
-/// The colours of a stack with some values free, at angles given by their cosine or in degrees.
-/// Axes: the spread of the first value if asked for, the angle, the values.
+/// The colours of a stack with varied values, at angles given as cosines or in degrees. Axes: the
+/// standard deviation of the first value if requested, the angle, the values.
 class ColorFunction {
 public:
     ColorFunction(const LutRequest& request, std::size_t colors, bool by_cosine)
@@ -85,19 +85,19 @@ private:
             sigma,
             std::make_shared<schemas::VariedStack>(std::move(source), paths_of(request.vary)),
             nullptr};
-        level.stack->at(last);  // or it throws, and not later
+        level.stack->at(last);  // throws now rather than later
         const Stack stack = level.stack->at(first);
         if (level.stack->varies_thickness_only())
             level.algorithm = color_algorithm(*tables_, stack, {}, color_);
         levels_.push_back(std::move(level));
     }
 
-    /// A colour that is not known well enough for any table has no place in one.
+    /// Refuses colours too inaccurate for any table.
     static void require_known(const StackColor& color, double angle_deg) {
         constexpr double worst = 1e-4;
         if (!(color.error <= worst))
-            throw DomainError("the colour at " + to_text(angle_deg) + " degrees is known to " +
-                              to_text(color.error) + " only, a table needs " + to_text(worst));
+            throw DomainError("the colour at " + to_text(angle_deg) + " degrees has error " +
+                              to_text(color.error) + ", tables need " + to_text(worst));
     }
 
     /// [angle][values][channel]
@@ -138,10 +138,10 @@ LutPlan plan(const LutRequest& request) {
     LutPlan result;
     if (request.has("sigma") &&
         !std::ranges::is_sorted(request.list("sigma"), std::ranges::less_equal()))
-        throw DomainError("the spreads must ascend");
+        throw DomainError("sigma must ascend");
     if (request.has("sigma") && request.list("sigma").size() > 1) {
         if (request.vary.size() > 1)
-            throw DomainError("a table has a spread or a second value that varies, not both");
+            throw DomainError("sigma cannot be combined with a second varied value");
         result.axes.push_back({{"thickness_sigma_nm", "nm", request.list("sigma")}, true});
         result.mips = true;
     }
@@ -169,11 +169,11 @@ LutPlan plan(const LutRequest& request) {
 
 extern const LutKind lut_kind_color = {
     .name = "color",
-    .summary = "Colour of a stack over the angle and up to two values of it.",
+    .summary = "Colour of a stack over the angle of incidence and up to two varied values.",
     .axes = "cos_theta or theta_deg, the varied values",
     .notes =
         "Linear RGB of --space, unclamped, or X, Y, Z with --space xyz. Without --vary the\n"
-        "table has the angle alone. The error is CIEDE2000 under the white.",
+        "angle is the only axis. The error is in CIEDE2000.",
     .examples = {"color \"air | 1.33@400 | 1.9+1.5i\" --vary layers.0.thickness_nm=0:1000/512 "
                  "-o film.ktx2 --dtype f16",
                  "color mirror.json --vary layers.0.layers.0.thickness_nm=80:120/64 "
@@ -190,13 +190,13 @@ extern const LutKind lut_kind_color = {
                  .highest = 1},
                 {.name = "theta",
                  .type = LutOption::Type::list,
-                 .help = "the angles themselves instead, degrees, [0, 90]",
+                 .help = "angles of incidence instead of cosines, degrees, [0, 90]",
                  .lowest = 0,
                  .highest = kLargestAngle_deg},
                 {.name = "sigma",
                  .type = LutOption::Type::list,
-                 .help = "standard deviations of the first value that varies, a thickness, nm,\n"
-                         "ascending: a first axis, in KTX2 files mip levels",
+                 .help = "standard deviations of the first varied value, a thickness, nm,\n"
+                         "ascending; adds a first axis: mip levels in KTX2 files",
                  .lowest = 0,
                  .highest = kLargestThickness_nm}},
     .plan = plan,

@@ -37,12 +37,13 @@ std::vector<std::string> problems(const Lut& lut) {
 
 extern const LutKind lut_kind_cumulative = {
     .name = "cumulative",
-    .summary = "Integrals of the observer under the illuminant up to a wavelength.",
+    .summary =
+        "Cumulative integrals of the weighted colour-matching functions over the wavelength.",
     .axes = "wavelength_nm",
     .notes =
         "X, Y, Z of a stack that reflects all light up to this wavelength and none beyond it;\n"
-        "white Y = 1. A box of reflectance 1 between two wavelengths is the difference of\n"
-        "two samples. The error is absolute.",
+        "white Y = 1. The colour of a band of reflectance 1 is the difference of the samples\n"
+        "at its edges. The error is absolute.",
     .examples = {"cumulative -o cumulative.ktx2", "cumulative -w 380:780:5 --illuminant E"},
     .light = true,
     .options = {{.name = "wavelengths",

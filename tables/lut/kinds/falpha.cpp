@@ -32,7 +32,7 @@ LutPlan plan(const LutRequest& request) {
         }
         return values;
     };
-    // about the largest value of a row, whose integral is G1 and whose width is alpha
+    // about the peak of a row, which has integral G1 and width alpha
     plan.measure = relative_to("relative to G1/alpha", [](double alpha, double theta_i_deg) {
         return smith_masking(alpha, cos_of_incidence(theta_i_deg)) / alpha;
     });
@@ -52,8 +52,8 @@ double integral_of(const LutAxis& axis, std::span<const double> row, std::size_t
     return sum * std::numbers::pi / 180;
 }
 
-/// A row that starts at 0 and has its samples close enough integrates to G1: closer than what
-/// leaving out every second sample changes.
+/// A row that starts at 0 must integrate to G1, to within the change by leaving out every second
+/// sample.
 std::vector<std::string> problems(const Lut& lut) {
     std::vector<std::string> lines =
         out_of_range(lut, [](std::size_t) { return std::numeric_limits<double>::max(); });
@@ -89,10 +89,9 @@ extern const LutKind lut_kind_falpha = {
     .notes =
         "F is per radian of theta_d, from its closed form, relative error below 1e-14:\n"
         "    ft_cos(theta_i) = integral of T(theta_d) F(theta_i, theta_d) dtheta_d\n"
-        "is the light that a rough layer lets straight through, and G1(theta_i) where\n"
-        "T = 1. GGX distribution of facets. The error is\n"
-        "relative to G1/alpha, the size of a row. FPB24: Fourneau, Pacanowski and Barla,\n"
-        "CGF 43(2), 2024, eq. 29.",
+        "is the light that passes straight through a rough layer; it is G1(theta_i) where\n"
+        "T = 1. Facets have the GGX distribution. The error is relative to G1/alpha, the\n"
+        "scale of a row. FPB24: Fourneau, Pacanowski and Barla, CGF 43(2), 2024, eq. 29.",
     .examples = {"falpha -o falpha.npy", "falpha --alpha 0.05,0.1,0.2 --theta-i 0:85:5",
                  "falpha --alpha 0.2 --theta-i 20,60 --theta-d 15,45,75 --dtype f64"},
     .options = {alpha_option(),

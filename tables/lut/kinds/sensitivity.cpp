@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAccuracy = 1e-13;
 
-/// H_j of some optical paths for every spread of the path, from the transform of each spread.
+/// H_j at optical path differences, for each standard deviation of the difference.
 class SensitivityFunction {
 public:
     SensitivityFunction(const LutRequest& request, double opd_max_nm)
@@ -64,11 +64,11 @@ std::vector<double> paths(const LutRequest& request) {
 LutPlan plan(const LutRequest& request) {
     const std::vector<double> opd_nm = paths(request);
     if (!std::ranges::is_sorted(opd_nm, std::ranges::less_equal()))
-        throw DomainError("the optical paths must ascend");
+        throw DomainError("opd must ascend");
     if (!std::ranges::is_sorted(request.list("sigma"), std::ranges::less_equal()))
-        throw DomainError("the spreads must ascend");
+        throw DomainError("sigma must ascend");
     if (request.has("real") && request.has("carrier"))
-        throw DomainError("the real part alone has its carrier: leave out --real or --carrier");
+        throw DomainError("--real cannot be combined with --carrier");
     LutPlan result;
     result.axes = {{{"opd_sigma_nm", "nm", request.list("sigma")}, true},
                    {{"opd_nm", "nm", opd_nm}, false, true, "no fringes are left"}};
@@ -89,7 +89,7 @@ LutPlan plan(const LutRequest& request) {
     return result;
 }
 
-/// |H_j| is at most its value at a path of 0, and that is the white.
+/// |H_j| is at most its value at a path difference of 0, the white.
 std::vector<std::string> problems(const Lut& lut) {
     constexpr double rounding = 1e-3;
     const auto& white = lut.facts.at("request").at("white_xyz");
@@ -106,41 +106,43 @@ std::vector<std::string> problems(const Lut& lut) {
 
 extern const LutKind lut_kind_sensitivity = {
     .name = "sensitivity",
-    .summary = "Fourier transform of the observer's sensitivity over optical paths.",
+    .summary =
+        "Fourier transform of the weighted colour-matching functions over optical path "
+        "differences.",
     .axes = "opd_sigma_nm, opd_nm",
     .notes =
         "H_j(D) = integral s_j(L) exp(2 pi i D / L) exp(-2 pi^2 sigma^2 / L^2) dL, j = X, Y, Z,\n"
-        "the white at D = 0: what a fringe of the path D adds to a colour. Each spread is\n"
-        "exact; in KTX2 files the spreads are mip levels, each half as wide. With --carrier the\n"
-        "values are H_j(D) exp(-2 pi i D / carrier_nm_j), which needs far fewer samples. The\n"
-        "error is absolute.",
+        "the white at D = 0: the contribution to a colour of a fringe of optical path\n"
+        "difference D. Each sigma is exact; in KTX2 files they are mip levels, each half as\n"
+        "wide. With --carrier the values are H_j(D) exp(-2 pi i D / carrier_nm_j), which need\n"
+        "far fewer samples. The error is absolute.",
     .examples = {"sensitivity --carrier --opd 0:30000/512 -o h.ktx2 --dtype f16",
                  "sensitivity --sigma 0,50,100,150 --tolerance 1e-3 -o h.npy"},
     .light = true,
-    .options =
-        {{.name = "opd",
-          .type = LutOption::Type::list,
-          .help = "optical paths D, nm, [0, 1e7] \n[0:OPD-MAX/1024, with --carrier 0:OPD-MAX/128]",
-          .lowest = 0,
-          .highest = 1e7},
-         {.name = "opd-max",
-          .type = LutOption::Type::number,
-          .help = "the longest one, nm, [1, 1e7] [10000]",
-          .fallback = "10000",
-          .lowest = 1,
-          .highest = 1e7},
-         {.name = "sigma",
-          .type = LutOption::Type::list,
-          .help = "standard deviations of the path, nm, ascending, [0, 1e7] [0]",
-          .fallback = "0",
-          .lowest = 0,
-          .highest = 1e7},
-         {.name = "carrier",
-          .type = LutOption::Type::flag,
-          .help = "divide out each channel's carrier"},
-         {.name = "real",
-          .type = LutOption::Type::flag,
-          .help = "the real part alone: enough over a base that does not absorb"}},
+    .options = {{.name = "opd",
+                 .type = LutOption::Type::list,
+                 .help = "optical path differences D, nm, [0, 1e7]\n[0:OPD-MAX/1024, with "
+                         "--carrier 0:OPD-MAX/128]",
+                 .lowest = 0,
+                 .highest = 1e7},
+                {.name = "opd-max",
+                 .type = LutOption::Type::number,
+                 .help = "largest optical path difference, nm, [1, 1e7] [10000]",
+                 .fallback = "10000",
+                 .lowest = 1,
+                 .highest = 1e7},
+                {.name = "sigma",
+                 .type = LutOption::Type::list,
+                 .help = "standard deviations of D, nm, ascending, [0, 1e7] [0]",
+                 .fallback = "0",
+                 .lowest = 0,
+                 .highest = 1e7},
+                {.name = "carrier",
+                 .type = LutOption::Type::flag,
+                 .help = "divide out each channel's carrier"},
+                {.name = "real",
+                 .type = LutOption::Type::flag,
+                 .help = "store the real part only: sufficient over a base that does not absorb"}},
     .plan = plan,
     .problems = problems,
 };

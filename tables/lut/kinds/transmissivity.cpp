@@ -44,7 +44,7 @@ LutPlan plan(const LutRequest& request) {
                  (*layer)(alpha_value, axes[1].values, axes[2].values)) {
                 if (!(error <= kWorstError))
                     throw DomainError("the transmissivity at alpha " + to_text(alpha_value) +
-                                      " is known to " + to_text(error) + " only, a table needs " +
+                                      " has error " + to_text(error) + ", tables need " +
                                       to_text(kWorstError));
                 values.push_back(value);
             }
@@ -72,17 +72,16 @@ std::vector<std::string> problems(const Lut& lut) {
 
 extern const LutKind lut_kind_transmissivity = {
     .name = "transmissivity",
-    .summary = "Light that goes straight on through a rough layer of the stack, by wavelength.",
+    .summary = "Light that passes straight through a rough layer of the stack, by wavelength.",
     .axes = "alpha, theta_i, wavelength",
     .notes =
-        "The layer's facets each are the stack; the same medium is meant to be on both\n"
-        "of its sides, so that light is not refracted:\n"
+        "Each facet of the layer is the stack, whose outer media should be the same, so that\n"
+        "light is not refracted:\n"
         "    ft_cos(theta_i) = integral of T(theta_d) F_alpha(theta_i, theta_d) dtheta_d,\n"
-        "error below 1e-9 of G1(theta_i), which it is where T = 1. What is missing from 1\n"
-        "is reflected, absorbed or shadowed. The error is relative to G1. FPB24: Fourneau, "
-        "Pacanowski and Barla,\n"
-        "CGF 43(2), 2024, eq. 28; p_trans and sample weights follow from it by eqs. 31\n"
-        "to 33.",
+        "with an error below 1e-9 of G1(theta_i), its value where T = 1. The rest is\n"
+        "reflected, absorbed or shadowed. The error is relative to G1. FPB24: Fourneau,\n"
+        "Pacanowski and Barla, CGF 43(2), 2024, eq. 28; p_trans and sample weights follow\n"
+        "by eqs. 31 to 33.",
     .examples = {"transmissivity \"1 | (1@250 | 1.5@250)^10 | 1\" --alpha 0.05,0.1 -o bragg.npy",
                  "transmissivity mirror.json --theta-i 0:85:5 --wavelengths 450,550,650"},
     .stack = true,

@@ -1,5 +1,5 @@
 // csv: comma-separated values after RFC 4180, but with LF line ends.
-// - A header line, then one line a record.
+// - A header line, then one line per record.
 // - Texts with commas, quotes or line ends are quoted; numbers are in their shortest form.
 
 #include "tables/records/packed_rows.hpp"
@@ -50,7 +50,7 @@ std::string rows(const RecordLayout& layout, const Records& records) {
 }  // namespace
 
 extern const RecordFormat record_format_csv{.name = "csv",
-                                            .summary = "one line a record, names in the first",
+                                            .summary = "one line per record, after a line of names",
                                             .is_binary = false,
                                             .separator = "",
                                             .head = head,

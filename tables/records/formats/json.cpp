@@ -1,4 +1,4 @@
-// json: an array with one object a record, one record a line; numbers in their shortest form.
+// json: an array with one object per record, one record per line; numbers in their shortest form.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

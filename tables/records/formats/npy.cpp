@@ -1,4 +1,4 @@
-// npy: NumPy's array format, a one-dimensional structured array with one field a column.
+// npy: NumPy's array format, a one-dimensional structured array with one field per column.
 // - Little-endian; numbers are <f8, texts <U of the longest one's bytes, flags |b1.
 // - A head whose number of rows is still open has room for 20 digits, so that it can be replaced.
 

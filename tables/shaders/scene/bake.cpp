@@ -37,10 +37,10 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* kLock = ".irido-lock";
-/// Angles that are tried, in degrees, where a table cannot serve larger ones.
+/// Largest angles to try, in degrees, where a table cannot cover all.
 constexpr std::array kServedAngles_deg{85.0, 80.0, 70.0, 60.0};
 
-/// One bake at a time in a folder; released with the process.
+/// Locks a folder for one bake; released when the process ends.
 class Lock {
 public:
     explicit Lock(const std::string& folder)
@@ -49,10 +49,9 @@ public:
         if (descriptor_ >= 0 && flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
         const int error = errno;
         if (descriptor_ >= 0) close(descriptor_);
-        throw OutputError(folder +
-                          (error == EWOULDBLOCK
-                               ? std::string(": another bake is at work there")
-                               : std::string(": cannot be written: ") + std::strerror(error)));
+        throw OutputError(folder + (error == EWOULDBLOCK ? std::string(": locked by another bake")
+                                                         : std::string(": cannot be written: ") +
+                                                               std::strerror(error)));
     }
     ~Lock() { close(descriptor_); }
     Lock(const Lock&) = delete;
@@ -65,10 +64,10 @@ private:
 void make_folder(const std::string& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error) throw OutputError(folder + ": cannot be made: " + error.message());
+    if (error) throw OutputError(folder + ": cannot be created: " + error.message());
 }
 
-/// Writes a file of the folder. What stands in its place is replaced, not written through.
+/// Writes a file of the folder, replacing anything in its place, symbolic links included.
 void write_own(const std::string& path, const std::string& bytes) {
     std::error_code error;
     if (fs::symlink_status(path, error).type() != fs::file_type::not_found && !is_regular(path) &&
@@ -83,7 +82,7 @@ std::size_t size_of_files(const std::vector<LutFile>& files) {
     return bytes;
 }
 
-/// When a file was last written or renamed, in nanoseconds; the largest number if it is not there.
+/// Time of the last write or rename of a file, in nanoseconds; the largest number if it is missing.
 std::int64_t time_of(const std::string& path) {
     struct stat status {};
     if (lstat(path.c_str(), &status) != 0) return std::numeric_limits<std::int64_t>::max();
@@ -93,15 +92,15 @@ std::int64_t time_of(const std::string& path) {
     return std::max(nanoseconds(status.st_mtim), nanoseconds(status.st_ctim));
 }
 
-/// A table by `make`, which gets a request. Where a table cannot have all of the largest angles,
-/// the range ends earlier if the scene leaves that open; else the error says which angles would do.
+/// Calls make(request). Where a table cannot cover the largest angles, the range is shortened if
+/// the scene allows it; else the error names angles that would work.
 Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest&)>& make) {
     std::string reason;
     try {
         return make(table.request);
     } catch (const ToleranceError& error) {
         reason = error.what();
-    } catch (const DomainError& error) {  // a value is not known well enough
+    } catch (const DomainError& error) {  // a value is not accurate enough
         reason = error.what();
     }
     for (const double angle_deg : kServedAngles_deg) {
@@ -143,7 +142,7 @@ json made_entry(const SceneTable& table, const LutFormat& format, const BakeRequ
     return entry;
 }
 
-/// Files of write_file() that a bake has left which was killed; nobody else writes here now.
+/// Removes temporary files left by a killed bake; the folder is locked.
 void remove_unfinished(const BakePlace& place) {
     std::vector<fs::path> left;
     for (const auto& file : fs::directory_iterator(place.folder)) {
@@ -158,7 +157,7 @@ void remove_unfinished(const BakePlace& place) {
     for (const fs::path& file : left) fs::remove(file);
 }
 
-/// Files that other manifests of the folder have.
+/// Files listed by other manifests in the folder.
 std::set<std::string> files_of_others(const BakePlace& place) {
     std::set<std::string> files;
     for (const auto& file : fs::directory_iterator(place.folder)) {
@@ -183,7 +182,7 @@ std::vector<std::string> pruned_files(const BakePlace& place,
     return removed;
 }
 
-/// What a scene's manifest calls the scene's file.
+/// Name of the scene's file in its manifest.
 std::string source_of(const schemas::Scene& scene) {
     return schemas::well_formed(fs::path(scene.file).filename().string());
 }
@@ -207,11 +206,12 @@ json vary_of(const MaterialPlan& material) {
     return result;
 }
 
-/// What differs from a manifest that has no such table, in words.
+/// Why a manifest does not contain a table, in words.
 std::string why_unknown(const schemas::Scene& scene, const ScenePlan& plan, const SceneTable& table,
                         const json& manifest) {
     if (manifest.is_null()) return "nothing was baked before";
-    if (manifest["numbers"] != kNumbersVersion) return "irido computes other numbers now";
+    if (manifest["numbers"] != kNumbersVersion)
+        return "made by a version of irido with other numbers";
     std::string changed;
     const auto add = [&](const std::string& what) {
         changed += (changed.empty() ? "" : ", ") + what;
@@ -223,13 +223,13 @@ std::string why_unknown(const schemas::Scene& scene, const ScenePlan& plan, cons
     const MaterialPlan& material =
         *std::ranges::find(plan.materials, table.materials.front(), &MaterialPlan::name);
     const auto old = manifest["materials"].find(material.name);
-    if (old == manifest["materials"].end()) return "a material that the manifest has not";
+    if (old == manifest["materials"].end()) return "a material that is not in the manifest";
     if ((*old)["shading"] != name_of(material.shading)) add("shading");
     if ((*old)["vary"] != vary_of(material)) add("vary");
     if (const json angles = {material.angles_deg.first, material.angles_deg.last};
         !table.may_end_early && (*old)["angles_deg"] != angles)
         add("angles_deg");
-    return "changed: " + (changed.empty() ? "the stack or how it is seen" : changed);
+    return "changed: " + (changed.empty() ? "the stack or its request" : changed);
 }
 
 json material_entry(const ScenePlan& plan, const MaterialPlan& material,
@@ -253,7 +253,7 @@ json material_entry(const ScenePlan& plan, const MaterialPlan& material,
     return result;
 }
 
-/// A mip level's error beyond the tolerance, of the worst one.
+/// Adds a loss if the error of a mip level exceeds the tolerance.
 void add_levels(std::vector<Omission>& all, const MaterialPlan& material, const std::string& role,
                 const json& entry, double tolerance) {
     if (!entry["error"].is_object() || !entry["error"].contains("levels")) return;
@@ -262,8 +262,7 @@ void add_levels(std::vector<Omission>& all, const MaterialPlan& material, const 
     if (!(*worst > tolerance)) return;
     const bool is_color = entry["error"]["measure"] == "delta_e_2000";
     Omission loss{material.name, role + " mip levels",
-                  "are coarser than the tolerance allows, level " +
-                      std::to_string(worst - levels.begin()) + " most of all",
+                  "exceed the tolerance, level " + std::to_string(worst - levels.begin()) + " most",
                   Omission::Kind::loss};
     if (is_color)
         loss.delta_e = *worst;
@@ -295,12 +294,12 @@ std::vector<Omission> omissions_of(const ScenePlan& plan, const MaterialPlan& ma
         }
         if (entry->second.contains("values"))
             all.push_back({material.name, use.role + " table",
-                           "nothing matters at this tolerance: numbers in the manifest"});
+                           "constant within the tolerance: stored in the manifest"});
     }
     if (const double last = served_angles(plan, material, entries).last;
         last < material.angles_deg.last)
         all.push_back({material.name, "angles",
-                       "those beyond " + to_text(last) +
+                       "above " + to_text(last) +
                            " degrees: no table of a reasonable size meets the tolerance there",
                        Omission::Kind::loss});
     return all;
@@ -344,11 +343,11 @@ Baked baked_scene(const BakePlace& place, const schemas::Scene& scene) {
     const json& manifest = baked.manifest;
     const std::string source = source_of(scene);
     if (manifest["scene"] != scene.name || manifest.value("source", source) != source)
-        throw OutputError(path + ": is of another scene, " + manifest.value("source", "") + " " +
-                          manifest["scene"].dump() +
-                          ": bake into another folder, or with --manifest NAME, or remove it");
+        throw OutputError(path + ": belongs to another scene, " + manifest.value("source", "") +
+                          " " + manifest["scene"].dump() +
+                          ": bake into another folder or with --manifest NAME, or remove it");
     if (manifest.value("checksum", "") != checksum_of(manifest)) {
-        baked.note = path + ": is not as irido wrote it: all tables are read again";
+        baked.note = path + ": was modified: all tables are read again";
         return baked;
     }
     baked.files = files_of(manifest);
@@ -384,7 +383,7 @@ Keeping keeping_of(const schemas::Scene& scene, const ScenePlan& plan, const Sce
         return {nullptr, why_unknown(scene, plan, table, baked.manifest)};
     try {
         json entry = found_entry(place.folder, table.file, table.id);
-        if (is_known && entry != old->second) return {nullptr, "its file is not that of before"};
+        if (is_known && entry != old->second) return {nullptr, "its file has changed"};
         return {std::move(entry), ""};
     } catch (const std::exception& error) {  // LutError, InputError
         const std::string text = error.what(), start = path + ": ";
@@ -478,7 +477,7 @@ BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRe
             entries[table.id] = std::move(keeping.entry);
         } catch (const OutputError&) {
             throw;
-        } catch (const std::exception& error) {  // whatever it is, it is these materials'
+        } catch (const std::exception& error) {  // of any type: it concerns these materials only
             add_faults(result.faults, scene, table, error);
         }
     }
@@ -486,7 +485,7 @@ BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRe
     if (request.prune && result.faults.empty())
         result.pruned = pruned_files(place, std::exchange(stale, {}));
     json manifest = manifest_of(scene, plan, entries, result.faults);
-    // of the program that made the last table: another one that makes none changes nothing
+    // the commit that made the last table; a bake that makes none keeps it
     const std::string commit = result.made.empty() && before.manifest.is_object()
                                    ? before.manifest.value("commit", "")
                                    : this_build().commit;

@@ -54,12 +54,12 @@ json entry_of(const Lut& lut, const json& metadata) {
 json found_entry(const std::string& folder, const std::string& file, const std::string& id) {
     const std::string path = folder + "/" + file;
     const std::size_t bytes = size_of_table(path);
-    if (bytes == 0) throw LutError("its file is not there, or not a regular file");
+    if (bytes == 0) throw LutError("its file is missing or not a regular file");
     const Lut lut = read_lut(path);
     const std::string own_id = lut.facts.value("id", "");
-    if (own_id.empty()) throw LutError("its file has a table without an id (" + lut.kind + ")");
+    if (own_id.empty()) throw LutError("its file holds a table without an id (" + lut.kind + ")");
     if (own_id != id)
-        throw LutError("its file has another table (" + lut.kind + " " + own_id + ")");
+        throw LutError("its file holds another table (" + lut.kind + " " + own_id + ")");
     if (const auto problems = lut_problems(lut); !problems.empty())
         throw LutError("its file is damaged: " + problems.front());
     json entry = entry_of(lut, metadata_of(lut));
@@ -104,14 +104,14 @@ const char* manifest_schema_text() {
 
 namespace {
 
-/// What is wrong with a table's entry and its file, in words; "" for nothing.
+/// The problem of a table's entry and file, in words; "" if there is none.
 std::string fault_of_entry(const json& entry, const std::string& id, const std::string& folder) {
     if (!entry.contains("file")) return "";
     try {
         const json found = found_entry(folder, entry["file"].get<std::string>(), id);
         for (const auto& [key, value] : found.items())
             if (entry.value(key, json()) != value)
-                return "its file has another \"" + key + "\" than the manifest";
+                return "its file and the manifest differ in \"" + key + "\"";
     } catch (const std::exception& error) {  // LutError, InputError
         return error.what();
     }
@@ -131,8 +131,7 @@ std::vector<std::string> manifest_problems(const json& document, const std::stri
         add(problem.pointer, problem.message);
     if (!lines.empty()) return lines;
     if (document["checksum"] != checksum_of(document))
-        add("/checksum",
-            "is not that of the manifest, which was edited (irido bake makes it anew)");
+        add("/checksum", "does not match the manifest, which was edited (irido bake rewrites it)");
     for (const auto& [name, material] : document["materials"].items())
         for (const auto& [role, id] : material["tables"].items())
             if (!id.is_string() || !document["tables"].contains(id.get<std::string>()))

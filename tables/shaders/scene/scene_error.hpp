@@ -8,31 +8,37 @@
 
 namespace irido::tables {
 
-/// All channels of a table at one place: one number for each axis that the level has, linear
-/// between samples, the end samples outside of them.
+/// All channels of a table at one place, given by one coordinate per axis of the level;
+/// interpolated linearly, clamped to the end samples.
 std::vector<double> sampled(const Lut& lut, std::size_t level, const std::vector<double>& place);
 
-/// Points at which tables are compared with their functions: point i depends on seed + i only.
+/// Random points for comparing tables with their functions; point i depends on seed + i only.
 struct RandomPoints {
     std::size_t count = 10000;
     std::uint64_t seed = 1;
     unsigned threads = 0;
-    bool all_levels = true;  ///< or without a spread alone
+    bool all_levels = true;  ///< false: the first level only
 };
 
-/// Largest difference, in the plan's measure, of a table from its function at random points of all
-/// that the plan was asked for.
+/// Largest difference, in the plan's measure, between a table and its function at random points of
+/// the plan's domain.
 double worst_difference(const LutPlan& plan, const Lut& lut, const RandomPoints& points);
 
-/// The same of what a shader computes from a table of the sensitivity, with the constants of the
-/// plan, as Delta E 2000 from the exact colours: at the material's angles and values, without a
-/// spread of the thickness and with the one that it has, and with a third of that.
+/// Largest Delta E 2000 between the shading fourier and the exact colours, at random angles and
+/// varied values of a material; at a single thickness, at the material's thickness_spread_nm and at
+/// a third of it.
+/// scene        the scene
+/// material     one of its materials, shaded by fourier
+/// plan         the material's plan, for the shader's constants
+/// sensitivity  its table of that kind; nullptr if it has none
+/// execution    threads and SIMD level for the exact colours
+/// points       number and seed of the points
 double worst_fourier_difference(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                                 const MaterialPlan& plan, const Lut* sensitivity,
                                 const Execution& execution, const RandomPoints& points);
 
-/// Largest Delta E 2000 of a material's reflected light that comes from taking all indices where
-/// shaders take them, at places of its angles and of what varies, up to nine of each.
+/// Largest Delta E 2000 of a material's reflected light caused by replacing all indices by those at
+/// kShaderIndices_nm, over up to nine angles and nine values of each varied quantity.
 double dispersion_difference(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                              const Execution& execution);
 

@@ -83,7 +83,7 @@ public:
             try {
                 if (plan.faults.empty()) plan.faults = shading_faults(material);
                 if (plan.faults.empty()) plan_material(material, plan);
-            } catch (const std::exception& error) {  // whatever it is, it is this material's
+            } catch (const std::exception& error) {  // of any type: it concerns this material only
                 plan.faults.push_back(schemas::fault_of(material, error));
                 plan.tables.clear();
                 result_.omissions.resize(omissions);
@@ -104,7 +104,7 @@ public:
     }
 
 private:
-    /// What the shading does not take, as far as the scene itself says it.
+    /// Requests of the scene that the shading does not support.
     std::vector<schemas::SceneFault> shading_faults(const schemas::SceneMaterial& material) const {
         const std::string name(name_of(material.shading));
         std::vector<schemas::SceneFault> faults;
@@ -125,7 +125,7 @@ private:
         return faults;
     }
 
-    /// What a shader's mirror needs and this stack has not; "" if it has all.
+    /// What the stack lacks for the shader's mirror; "" if nothing.
     static std::string mirror_fault(const Stack& stack) {
         const auto* group =
             stack.elements.size() == 1 ? std::get_if<Group>(&stack.elements[0].value) : nullptr;
@@ -148,12 +148,12 @@ private:
             if (!held.usable)
                 throw schemas::InputError(material.source.file,
                                           material.document.material_pointers[held.material],
-                                          "a colour needs a material known from 400 to 700 nm");
+                                          "must be known from 400 to 700 nm for a colour");
         const schemas::ValueRange all_angles{0, 90};
         if (material.angles_deg.first > all_angles.first ||
             material.angles_deg.last < all_angles.last)
             omit(material, "angles",
-                 "those outside of " + in_text(material.angles_deg) + " degrees never occur",
+                 "those outside " + in_text(material.angles_deg) + " degrees do not occur",
                  Kind::given);
         for (const schemas::VariedRange& vary : material.vary)
             if (vary.range.is_one())
@@ -173,19 +173,19 @@ private:
         }
     }
 
-    /// What is given and has no part in this shading.
+    /// Lists settings that this shading ignores.
     void plan_ignored(const schemas::SceneMaterial& material) {
         const schemas::Shading shading = material.shading;
         const std::string name(name_of(shading));
         if (material.is_rough &&
             (shading == schemas::Shading::color || shading == schemas::Shading::fourier ||
              shading == schemas::Shading::bragg))
-            omit(material, "roughness", "the shading " + name + " is of smooth surfaces",
+            omit(material, "roughness", "the shading " + name + " is for smooth surfaces only",
                  Kind::loss);
         if (material.thickness_spread_nm != 0 &&
             (shading == schemas::Shading::bragg || shading == schemas::Shading::rough_layers ||
              (shading == schemas::Shading::albedo && material.is_rough)))
-            omit(material, "mip levels", "the shading " + name + " has no spread of a thickness",
+            omit(material, "mip levels", "the shading " + name + " ignores thickness_spread_nm",
                  Kind::loss);
         const bool has_constants =
             shading == schemas::Shading::fourier || shading == schemas::Shading::bragg;
@@ -193,14 +193,14 @@ private:
             material.document.stack.materials, [](const Material& m) { return is_constant(m); });
         if (has_constants && has_dispersion)
             omit(material, "dispersion",
-                 "the shader takes the indices of " + to_text(kMiddle_nm) + " nm", Kind::loss);
+                 "the shader uses the indices at " + to_text(kMiddle_nm) + " nm", Kind::loss);
     }
 
     void omit_transmission(const schemas::SceneMaterial& material, const std::string& reason) {
         if (material.transmission)
             omit(material, "transmission", reason);
         else
-            omit(material, "transmission", "was not asked for", Kind::given);
+            omit(material, "transmission", "was not requested", Kind::given);
     }
 
     void omit(const schemas::SceneMaterial& material, const std::string& what,
@@ -208,7 +208,7 @@ private:
         result_.omissions.push_back({material.name, what, reason, kind});
     }
 
-    /// What a kind is asked, but for its own options.
+    /// The request to a kind of table, without its own options.
     LutRequest request_of(const schemas::SceneMaterial& material) const {
         LutRequest request;
         request.execution = execution_;
@@ -234,7 +234,7 @@ private:
         return making;
     }
 
-    /// Adds a table, or finds it among those that there are.
+    /// Adds a table, or reuses an equal one.
     void use(const schemas::SceneMaterial& material, MaterialPlan& plan, const std::string& role,
              std::string_view kind, LutRequest request, const LutMaking& making) {
         SceneTable table;
@@ -258,7 +258,7 @@ private:
         plan.tables.push_back({role, place});
     }
 
-    /// All that a table's values depend on.
+    /// All inputs that a table's values depend on.
     json inputs_of(const SceneTable& table) const {
         const LutRequest& request = table.request;
         json inputs = {{"numbers", kNumbersVersion},
@@ -317,10 +317,11 @@ private:
         }
     }
 
-    /// Levels of the thickness's spread, for mips.
+    /// Standard deviations of the thickness, as mip levels.
     void plan_spread(const schemas::SceneMaterial& material, LutRequest& request) {
         const double spread = material.thickness_spread_nm;
-        if (spread == 0) return omit(material, "mip levels", "no spread is given", Kind::given);
+        if (spread == 0)
+            return omit(material, "mip levels", "no thickness_spread_nm is given", Kind::given);
         if (request.vary.size() != 1 || !request.vary.front().path.ends_with("thickness_nm"))
             return omit(material, "mip levels", "the one value that varies must be a thickness",
                         Kind::loss);
@@ -329,7 +330,7 @@ private:
 
     // --- the series in the shader -----------------------------------------------------------
 
-    /// Films at the ends and in the middle of what varies, with the indices of shaders.
+    /// Films at the ends and in the middle of the varied ranges, with the indices of shaders.
     std::vector<Film> films_of(const schemas::SceneMaterial& material) const {
         const LutRequest request = request_of(material);
         const std::vector<std::string> paths = paths_of(request.vary);
@@ -369,14 +370,15 @@ private:
                                             : "the base absorbs all that enters it");
         if (orders == 0)
             return omit(material, "sensitivity",
-                        "no fringes are left at these optical paths: C_0 only");
+                        "no fringes are left at these optical path differences: C_0 only");
         if (std::ranges::any_of(films, [&](const Film& f) {
                 return f.incident *
                            std::sqrt(1 - square(cos_of_incidence(material.angles_deg.last))) >=
                        f.film;
             }))
             omit(material, kPastCriticalAngle,
-                 "the series has none: the shader gives white, the shading color what tunnels too",
+                 "the series cannot represent it: the shader gives white (the shading color is "
+                 "exact)",
                  Kind::loss);
         omit(material, "orders from " + std::to_string(orders + 1), "are below the tolerance");
         LutRequest request = request_of(material);
@@ -395,7 +397,7 @@ private:
         use(material, plan, "sensitivity", "sensitivity", std::move(request), making_of(false));
     }
 
-    /// The last order that matters anywhere, and the longest path m D among those that do.
+    /// The last significant order, and the largest significant path difference m D.
     int orders_of(const schemas::SceneMaterial& material, const std::vector<Film>& films,
                   double& longest_nm) const {
         constexpr int most = 1000, angles = 17;
@@ -420,14 +422,14 @@ private:
         return orders;
     }
 
-    /// Spreads of the optical path. That of order m is m 2 n2 cos(theta2) sigma, sigma being the
-    /// spread of the thickness: the shader looks for each order's own among these levels. The last
-    /// one is the largest that occurs, or leaves no fringes at all.
+    /// Standard deviations of the optical path difference. That of order m is
+    /// m 2 n2 cos(theta2) sigma, with sigma that of the thickness: the shader picks the level of
+    /// each order. The last level is the largest that occurs, or one without any fringes.
     std::vector<double> sigmas_of(const schemas::SceneMaterial& material,
                                   const std::vector<Film>& films, int orders) {
         const double spread = material.thickness_spread_nm;
         if (spread == 0) {
-            omit(material, "mip levels", "no spread is given", Kind::given);
+            omit(material, "mip levels", "no thickness_spread_nm is given", Kind::given);
             return {0};
         }
         double largest = 0;
@@ -436,7 +438,8 @@ private:
         const double gone =
             kRed_nm * std::sqrt(std::log(1 / scene_.relative) / 2) / std::numbers::pi;
         if (largest > gone && gone > 0)
-            omit(material, "spreads from " + to_text(std::ceil(gone)) + " nm of path",
+            omit(material,
+                 "standard deviations from " + to_text(std::ceil(gone)) + " nm of path difference",
                  "no fringes are left there");
         const double most = std::max(1.0, std::ceil(std::min(largest, gone)));
         return {0, most / 4, most / 2, most};
@@ -475,7 +478,7 @@ private:
 
     void plan_rough_layers(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         plan.snippets = {"transmissivity"};
-        omit_transmission(material, "rough-layers is of reflected light");
+        omit_transmission(material, "rough-layers is for reflected light only");
         const std::vector<double> angles = samples_of(
             {material.angles_deg.first, std::min(material.angles_deg.last, kGrazing_deg)});
         if (material.alpha.is_one()) {
@@ -509,7 +512,7 @@ private:
         request.options["alpha"] = samples_of(material.alpha);
         use(material, plan, "albedo", "albedo", std::move(request), making_of(true));
         plan.snippets = {"albedo"};
-        omit_transmission(material, "an albedo is of reflected light");
+        omit_transmission(material, "albedo is for reflected light only");
     }
 
     /// Tables of materials that failed.

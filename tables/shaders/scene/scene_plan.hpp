@@ -15,42 +15,42 @@
 
 namespace irido::tables {
 
-/// Changes whenever irido computes other numbers for the same request: tables made before are then
-/// made again.
+/// Incremented whenever irido computes different numbers for the same request: older tables are
+/// then remade.
 inline constexpr int kNumbersVersion = 2;
 
-/// A table that a scene needs, before its size is known.
+/// A table that a scene needs; its size is not known yet.
 struct SceneTable {
-    std::string id;    ///< 16 hexadecimal digits of a hash of all that its values depend on
+    std::string id;    ///< hash of all that its values depend on, 16 hexadecimal digits
     std::string file;  ///< KIND-ID.FORMAT
     const LutKind* kind = nullptr;
     LutRequest request;
     LutMaking making;
     /// The largest angle of an axis of cosines, degrees; 0 if the table has none.
     double largest_angle_deg = 0;
-    bool may_end_early = false;  ///< the scene gives no angles: those that a table can serve
-    nlohmann::json inputs;       ///< what the id is made of
-    std::vector<std::string> materials;  ///< that use it
+    bool may_end_early = false;          ///< the scene gives no angles: the range may be shortened
+    nlohmann::json inputs;               ///< the hashed inputs of the id
+    std::vector<std::string> materials;  ///< materials that use it
 };
 
-/// Something that a material does without, and why.
+/// Something left out for a material, and why.
 struct Omission {
     enum class Kind {
-        skipped,  ///< work that changes nothing
-        loss,     ///< what is seen differs from what the scene describes
-        given,    ///< the scene says so itself
+        skipped,  ///< work that would not change the result
+        loss,     ///< the result differs from the scene's description
+        given,    ///< requested by the scene
     };
     std::string material;
     std::string what;    ///< transmission, mip levels, layers.0.thickness_nm, ...
     std::string reason;  ///< in words
     Kind kind = Kind::skipped;
-    std::optional<double> delta_e{};  ///< of a loss, where it is known: the largest that was found
+    std::optional<double> delta_e{};  ///< of a loss, if known: the largest value found
 };
 
-/// The loss of a series that shades a film past its critical angle.
+/// The loss of the shading fourier past a film's critical angle.
 inline constexpr const char* kPastCriticalAngle = "light past the film's critical angle";
 
-/// What an engine needs for one material.
+/// Everything that an engine needs for one material.
 struct MaterialPlan {
     struct Use {
         std::string role;  ///< reflection, transmission, sensitivity, falpha, ...
@@ -58,12 +58,12 @@ struct MaterialPlan {
     };
     std::string name;
     schemas::Shading shading = schemas::Shading::color;
-    schemas::ValueRange angles_deg;  ///< of the scene, or the largest range
+    schemas::ValueRange angles_deg;  ///< of the scene, or [0, 90]
     std::vector<schemas::VariedRange> vary;
     std::vector<Use> tables;
     nlohmann::json constants = nlohmann::json::object();
-    std::vector<std::string> snippets;        ///< of irido lut shader
-    std::vector<schemas::SceneFault> faults;  ///< why it cannot be; none if it can
+    std::vector<std::string> snippets;        ///< names for irido lut shader
+    std::vector<schemas::SceneFault> faults;  ///< why it cannot be made; empty if it can
 };
 
 struct ScenePlan {
@@ -74,30 +74,33 @@ struct ScenePlan {
     ColorMatrix rgb_from_xyz{};  ///< to the scene's space, with its adaptation; rows
 };
 
-/// What a scene needs: tables with their axes and tolerances, numbers in place of tables, and all
-/// that is left out. Equal tables are one. Depends on the scene alone. A material that cannot be
-/// has faults and no tables.
+/// Plans a scene: tables with axes and tolerances, constants, and omissions. Equal tables are
+/// shared. Depends on the scene only. A material that cannot be made has faults and no tables.
 ScenePlan plan_scene(const schemas::Scene& scene, const Execution& execution);
 
-/// Everything that is known to be wrong with a scene before its tables are computed, one line each:
+/// All problems of a scene that are known before its tables are computed, one line each:
 /// "FILE: POINTER: material NAME: reason".
+/// document   the scene
+/// file       its name in messages
+/// folder     where its relative paths start
+/// execution  threads and SIMD level
 std::vector<std::string> problems_of_scene(const nlohmann::json& document, const std::string& file,
                                            const std::string& folder, const Execution& execution);
 
-/// The table's request with the angles ending at this one, degrees.
+/// The table's request with its angles limited to `largest_angle_deg`.
 LutRequest request_up_to(const SceneTable& table, double largest_angle_deg);
 
-/// What the kind `color` is asked for a material's reflected light, however it is shaded.
+/// The request to the kind `color` for a material's reflected light, whatever its shading.
 LutRequest color_request_of(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                             const Execution& execution);
 
-/// Where shaders take the indices of a stack.
+/// The wavelength of the indices that shaders use.
 inline constexpr double kShaderIndices_nm = 550;
 
-/// One film with the indices that shaders take.
+/// The film of a stack, with the indices that shaders use.
 Film shader_film(const Stack& stack);
 
-/// The layout that the scene's format and type ask for.
+/// The file format that the scene requests.
 const LutFormat& format_of(const schemas::Scene& scene);
 
 }  // namespace irido::tables

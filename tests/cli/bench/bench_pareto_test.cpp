@@ -126,10 +126,10 @@ TEST_CASE("bench pareto draws its rows", "[cli][bench][slow]") {
 TEST_CASE("bench pareto refuses what it does not know in one line", "[cli][bench][refused]") {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
         {{"--cases", "leader"},
-         "--cases: there is no case 'leader' (did you mean \"leather\"?) (see irido bench pareto "
+         "--cases: unknown case 'leader' (did you mean \"leather\"?) (see irido bench pareto "
          "--help)"},
         {{"--count", "0"}, "--count: must be in [1, 1e+05] (got 0)"},
-        {{"--count", "1.5"}, "--count: must be one whole number (got '1.5')"},
+        {{"--count", "1.5"}, "--count: must be a single whole number (got '1.5')"},
         {{"--seed", "-1"}, "--seed: must be in [0, "},
         {{"--time", "0"}, "--time: must be in [1e-04, 60] (got 0)"},
         {{"--plot", "front.gif"}, "--plot: must end in .pdf, .png or .svg (got 'front.gif')"},

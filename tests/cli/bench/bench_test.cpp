@@ -81,8 +81,8 @@ TEST_CASE("bench refuses what it does not know in one line", "[cli][bench][refus
     const std::vector<Case> cases{
         {{"stability", "--count", "0"}, "--count: must be in [1, 1e+06] (got 0)"},
         {{"stability", "--count", "1000001"}, "--count: must be in [1, 1e+06]"},
-        {{"stability", "--count", "2.5"}, "--count: must be one whole number (got '2.5')"},
-        {{"stability", "--count", "1,2"}, "--count: must be one whole number (got '1,2')"},
+        {{"stability", "--count", "2.5"}, "--count: must be a single whole number (got '2.5')"},
+        {{"stability", "--count", "1,2"}, "--count: must be a single whole number (got '1,2')"},
         {{"stability", "--count", "many"}, "--count: must be a number (got 'many')"},
         {{"stability", "--seed", "-1"}, "--seed: must be in [0, "},
         {{"stability", "--seed", "nan"}, "--seed: must be a number (got 'nan')"},
@@ -93,8 +93,8 @@ TEST_CASE("bench refuses what it does not know in one line", "[cli][bench][refus
         {{"stability", "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
         {{"stability", "-o", "/no/such/folder/x.csv", "-n", "1", "-r", "thin"}, "/no/such/folder"},
         {{"stability", "extra"}, "extra"},
-        {{}, "a command must follow irido bench"},
-        {{"sped"}, "there is no command 'sped' (did you mean \"speed\"?)"},
+        {{}, "a command is required after irido bench"},
+        {{"sped"}, "unknown command 'sped' (did you mean \"speed\"?)"},
     };
     for (const auto& [arguments, error] : cases) {
         std::vector<std::string> all{"bench"};
@@ -161,9 +161,9 @@ TEST_CASE("bench speed compares the closed form of the filter with its sum", "[c
 
 TEST_CASE("bench speed refuses what it does not know in one line", "[cli][bench][refused]") {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-        {{"--cases", "41"}, "--cases: there is no case '41'"},
+        {{"--cases", "41"}, "--cases: unknown case '41'"},
         {{"--time", "0"}, "--time: must be in [0.001, 60] (got 0)"},
-        {{"--time", "1,2"}, "--time: must be one number (got '1,2')"},
+        {{"--time", "1,2"}, "--time: must be a single number (got '1,2')"},
         {{"-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
     };
     for (const auto& [arguments, error] : cases) {

@@ -156,10 +156,10 @@ TEST_CASE("a second scene needs a manifest of its own, and its tables are safe",
         return run_irido(all);
     };
     check_refused(bake({}),
-                  "a/manifest.json: is of another scene, scene.json \"test\": bake into "
-                  "another folder, or with --manifest NAME");
+                  "a/manifest.json: belongs to another scene, scene.json \"test\": bake into "
+                  "another folder or with --manifest NAME");
     CHECK(files_in(bakery.path("a")) == first);
-    check_refused(bake({"--manifest", "../up"}), "--manifest: must be the name of a file");
+    check_refused(bake({"--manifest", "../up"}), "--manifest: must be a file name");
     const Outcome second = bake({"--manifest", "other"});
     CHECK_THAT(second.err, Contains("0 made, 2 kept, other.json written"));
     CHECK(run_irido({"validate", bakery.path("a/other.json")}).status == 0);
@@ -222,9 +222,9 @@ TEST_CASE("a table that is not the one asked for is made again", "[cli][bake]") 
         swap();
         const Outcome validated = run_irido({"validate", bakery.path("a/manifest.json")});
         CHECK(validated.status == 1);
-        CHECK_THAT(validated.out, Contains(": its file has another table (color "));
+        CHECK_THAT(validated.out, Contains(": its file holds another table (color "));
         CHECK_THAT(run_irido({"plan", bakery.path("scene.json"), "-o", bakery.path("a")}).out,
-                   Contains("its file has another table"));
+                   Contains("its file holds another table"));
         CHECK_THAT(bakery.bake("a", options).err, Contains("2 made, 1 kept"));
         CHECK(files_in(bakery.path("a")) == whole);
         copy();
@@ -250,10 +250,10 @@ TEST_CASE("an edited manifest is noticed", "[cli][bake]") {
         write_text(path, edited.dump(2));
         const Outcome validated = run_irido({"validate", path});
         CHECK(validated.status == 1);
-        CHECK_THAT(validated.out, Contains("/checksum: is not that of the manifest"));
+        CHECK_THAT(validated.out, Contains("/checksum: does not match the manifest"));
         const Outcome outcome = bakery.bake("a");
-        CHECK_THAT(outcome.err, Contains("manifest.json: is not as irido wrote it") &&
-                                    Contains("manifest.json written"));
+        CHECK_THAT(outcome.err,
+                   Contains("manifest.json: was modified") && Contains("manifest.json written"));
         CHECK(files_in(bakery.path("a")) == whole);
     }
 }
@@ -299,7 +299,7 @@ TEST_CASE("where a scene gives no angles, they are those that a table can serve"
     const json manifest = json::parse(bakery.baked("a").at("manifest.json"));
     const json& wall = manifest["materials"]["wall"];
     CHECK(wall["angles_deg"] == json::array({0, 85}));
-    CHECK_THAT(wall["losses"].dump(), Contains("those beyond 85 degrees"));
+    CHECK_THAT(wall["losses"].dump(), Contains("above 85 degrees"));
     const json& table = manifest["tables"][wall["tables"]["reflection"].get<std::string>()];
     CHECK(table["axes"][0]["first"].get<double>() == Approx(std::cos(85 * M_PI / 180)));
     CHECK(manifest["materials"]["film"]["angles_deg"] == json::array({0, 90}));
@@ -332,7 +332,7 @@ TEST_CASE("plan says why a table is new, and bytes do not depend on that", "[cli
     CHECK(plan(folder)["tables"][0]["why"] == "changed: tolerance");
     // a time is on standard error
     CHECK_THAT(run_irido({"plan", bakery.path("scene.json")}).err,
-               Contains("making what is new will take about "));
+               Contains("making the new tables will take about "));
 }
 
 TEST_CASE("a changed scene makes only what changed", "[cli][bake]") {
@@ -392,7 +392,7 @@ TEST_CASE("two bakes of one folder at once: one says so, nothing is harmed", "[c
     fs::create_directory(bakery.path("a"));
     const Outcome second =
         run_shell("flock -n a/.irido-lock \"$IRIDO\" bake scene.json -o a", stage);
-    check_refused(second, "a: another bake is at work there");
+    check_refused(second, "a: locked by another bake");
     CHECK(bakery.baked("a") == whole);
     // two real ones
     const Outcome both = run_shell(

@@ -198,7 +198,7 @@ TEST_CASE("what bands cannot answer is refused", "[cli][bands]") {
     for (const char* range : {"500", "800:400", "400:400", "400:500:1", "0:500", "a:b"})
         refused({kMirror, "--range", range}, "--range");
     refused({kMirror, "-a", "91"}, "--angles");
-    refused({kMirror, "--plot", "x.svg"}, "--plot: needs several angles");
+    refused({kMirror, "--plot", "x.svg"}, "--plot: requires several angles");
     refused({kMirror, "-a", "0,1", "--plot", "x.gif"}, "--plot: must end in .pdf, .png or .svg");
     refused({kMirror, "-a", "0,1", "--plot", "x.svg", "-o", "x.svg", "-f", "csv"}, "another file");
     refused({kMirror, "-f", "gif"}, "--format");

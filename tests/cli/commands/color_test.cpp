@@ -137,7 +137,7 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
         {{"--method", "equal/x"}, "--method: "},
         {{"--adaptation", "cat02"}, "--adaptation: must be one of bradford, none"},
         {{"--tolerance", "0"}, "--tolerance: must be in [1e-12, 1] (got 0)"},
-        {{"--tolerance", "1e-6,1"}, "--tolerance: must be one number"},
+        {{"--tolerance", "1e-6,1"}, "--tolerance: must be a single number"},
         {{"-a", "91"}, "--angles: must be in [0, 90] (got 91)"},
     };
     for (const auto& [options, error] : cases) {
@@ -157,7 +157,7 @@ TEST_CASE("methods that are not exact say how far they are off", "[cli][color]")
         const Outcome outcome =
             run_irido({"color", film, "-a", "40", "--method", method, "--stats"});
         CHECK(outcome.status == 0);
-        CHECK_THAT(outcome.err, StartsWith("irido: note: ") && Contains(" is off by up to "));
+        CHECK_THAT(outcome.err, StartsWith("irido: note: ") && Contains(": error up to "));
         const auto row = parse_csv(outcome.out).at(1);
         CHECK(row[12] == (method == "equal" ? "equal/32" : method));
         double distance = 0;
@@ -198,7 +198,7 @@ TEST_CASE("gltf takes the base colour that is typed", "[cli][color]") {
     check_refused(with("1,0.5"), "--base-color: must be three numbers R,G,B (got 1,0.5)");
     check_refused(with("0:1:0.5"), "--base-color: must be three numbers R,G,B (got 0:1:0.5)");
     check_refused(run_irido({"color", "1 | 1.3@300 | Au", "--base-color", "1,1,1"}),
-                  "--base-color: needs --method gltf (got auto)");
+                  "--base-color: requires --method gltf (got auto)");
 }
 
 TEST_CASE("a strip of colours", "[cli][color]") {

@@ -63,13 +63,13 @@ void append_rows(Table& to, const Words& leading, const Table& rows) {
 }  // namespace
 
 TEST_CASE("a sweep's rows are those of its command, one stack after another", "[cli][sweep]") {
-    const std::map<std::string, std::pair<std::string, Words>> questions{
+    const std::map<std::string, std::pair<std::string, Words>> queries{
         {"spectrum", {kFilm, {"-w", "400:700:100", "-a", "0,60", "-p", "s,u"}}},
         {"color", {kFilm, {"-a", "0,40,80", "--side", "R,T", "--method", "quadrature", "--stats"}}},
         {"bands", {kMirror, {"-a", "0,20"}}},
         {"cm", {kFilm, {"-a", "0,50", "--orders", "0:2:1", "--side", "T,R"}}}};
-    for (const auto& [command, question] : questions) {
-        const auto& [stack, options] = question;
+    for (const auto& [command, query] : queries) {
+        const auto& [stack, options] = query;
         const std::string thickness =
             command == "bands" ? "layers.0.layers.1.thickness_nm" : "layers.0.thickness_nm";
         const Table swept = rows_of(Words{"sweep", stack, "--compute", command, "--vary",
@@ -238,9 +238,9 @@ TEST_CASE("shards put together are the whole sweep", "[cli][sweep][slow]") {
         "sweep",    kMirror,          "--vary", "layers.0.layers.0.thickness_nm=100:400:50",
         "--vary",   "substrate=1,Si", "-a",     "0,30",
         "--compute"};
-    const std::map<std::string, Words> questions{
+    const std::map<std::string, Words> queries{
         {"spectrum", {"-w", "400:700:50"}}, {"color", {"--stats"}}, {"bands", {}}};
-    for (const auto& [command, options] : questions) {
+    for (const auto& [command, options] : queries) {
         for (const std::string& format : kFormats) {
             const std::string whole = folder / ("whole." + format);
             out_of(sweep + Words{command} + options + Words{"-o", whole});
@@ -292,13 +292,13 @@ TEST_CASE("what cannot be computed is said, or left out", "[cli][sweep]") {
     const Outcome kept = run_irido(sweep + Words{"--keep-going"});
     CHECK(kept.status == 0);
     CHECK(parse_csv(kept.out).size() == 4);
-    CHECK(kept.err.find("left out 2 of 5, the first one at angle_deg=60: ") != std::string::npos);
+    CHECK(kept.err.find("left out 2 of 5; the first fails at angle_deg=60: ") != std::string::npos);
     // whether angles come together or not
     const Outcome list =
         run_irido({"sweep", "1.5 | 1@300 | 1.7", "--vary", "substrate=1.7,1.6", "-a", "0:80:20",
                    "--compute", "cm", "-p", "s", "--orders", "1", "--keep-going"});
     CHECK(parse_csv(list.out).size() == 7);
-    CHECK(list.err.find("the first one at substrate=1.7, angle_deg=60: ") != std::string::npos);
+    CHECK(list.err.find("the first fails at substrate=1.7, angle_deg=60: ") != std::string::npos);
     // whichever comes first
     const Outcome first =
         run_irido({"sweep", kFilm, "--vary", "layers.0.material=1.5+0.1i,1.5", "--compute", "cm",
@@ -357,7 +357,7 @@ TEST_CASE("a sweep in which nothing is left fails and replaces nothing", "[cli][
         "sweep",    "air | SiO2@100 | Si", "--vary", "wavelength_nm=150,160", "--compute",
         "spectrum", "--keep-going"};
     const std::string reason =
-        "irido: error: nothing is left: none of 2 can be computed, the first one at "
+        "irido: error: nothing is left: none of 2 combinations can be computed; the first fails at "
         "wavelength_nm=150: ";
     const auto check_failed = [&](const Words& options) {
         const Outcome outcome = run_irido(sweep + options);
@@ -401,7 +401,7 @@ TEST_CASE("a job array of one, an edited digit, another SIMD level", "[cli][swee
     std::string edited = read_file(two);
     edited[edited.size() - 3] ^= 1;
     write_text(two, edited);
-    check_refused(run_irido(merge), "2.csv: is not the file that its journal says: run it again");
+    check_refused(run_irido(merge), "2.csv: does not match its journal: rerun it");
     REQUIRE(run_irido(sweep + Words{"--shard", "2/2", "-o", two, "--resume"}).status == 0);
     CHECK(run_irido(merge).status == 0);
     CHECK(read_file(all) == rows);
@@ -420,8 +420,8 @@ TEST_CASE("a value inside of another that varies is refused", "[cli][sweep][refu
         {"layers.0.thickness_nm=1,2", "layers=[" + layer + "]"},
         {"layers.0.thickness_nm=1,2", "layers.00=" + layer}};
     for (const auto& [inner, outer] : pairs) {
-        const std::string said = inner.substr(0, inner.find('=')) + " is inside of " +
-                                 outer.substr(0, outer.find('=')) + ", which varies, too";
+        const std::string said = inner.substr(0, inner.find('=')) + " is inside " +
+                                 outer.substr(0, outer.find('=')) + ", which also varies";
         const Words compute{"--compute", "color"};
         check_refused(run_irido(Words{"sweep", kFilm, "--vary", inner, "--vary", outer} + compute),
                       "--vary: " + said);
@@ -436,7 +436,7 @@ TEST_CASE("a value inside of another that varies is refused", "[cli][sweep][refu
     write_text(folder / "p.csv", "layers.0.thickness_nm,substrate\n1,Ag\n2,Au\n");
     check_refused(run_irido({"sweep", kFilm, "--points", folder / "p.csv", "--vary",
                              "layers.0=" + layer, "--compute", "color"}),
-                  "--points: layers.0.thickness_nm is inside of layers.0");
+                  "--points: layers.0.thickness_nm is inside layers.0");
     // neighbours are no parts of each other
     CHECK(run_irido({"sweep", kFilm, "--vary", "layers.0.material=1.4,1.5", "--vary",
                      "layers.0.thickness_nm=1,2", "--compute", "color"})
@@ -447,7 +447,7 @@ TEST_CASE("sweeps say what was used again", "[cli][sweep]") {
     const Outcome outcome = run_irido({"sweep", kFilm, "--vary", "substrate=Ag,Au,Cu", "--vary",
                                        "layers.0.thickness_nm=0:100:10", "--compute", "spectrum",
                                        "-w", "500", "--stats"});
-    CHECK(outcome.err.find("stacks 33, of structures 3") != std::string::npos);
+    CHECK(outcome.err.find("33 stacks; 3 structures") != std::string::npos);
 }
 
 TEST_CASE("a sweep that cannot be written leaves nothing", "[cli][sweep]") {
@@ -482,7 +482,7 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
     const Words color{"--compute", "color"}, some{"--vary", "layers.0.thickness_nm=1,2"};
     refused(some, "--compute: is required");
     refused(some + Words{"--compute", "hue"}, "--compute: must be one of");
-    refused(color, "needs --vary PATH=LIST or --points FILE");
+    refused(color, "requires --vary PATH=LIST or --points FILE");
     refused(color + Words{"--vary", "layers.0.thickness_nm"}, "must be PATH=LIST");
     refused(color + Words{"--vary", "layers.0.thickness_nm=-1:5:1"},
             "must be in [0, 1e9] (got -1)");
@@ -491,7 +491,7 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
     refused(color + Words{"--vary", "layers.1.thickness_nm=1,2"}, "layers.1.thickness_nm");
     refused(color + Words{"--vary", "layers.0.thicknes_nm=1,2"}, "thickness_nm");
     refused(color + Words{"--vary", "substrate=Ag,Unobtainium"}, "Unobtainium");
-    refused(color + Words{"--vary", "substrate=Ag,,Au"}, "a value is empty");
+    refused(color + Words{"--vary", "substrate=Ag,,Au"}, "values must not be empty");
     refused(color + some + some, "varied twice");
     refused(color + Words{"--vary", "layers.0.thickness_nm=0:1/10000000", "--vary",
                           "layers.0.material=1:2/10000000", "--vary", "substrate=1:2/100"},
@@ -501,13 +501,13 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
             "1e18 combinations");
     refused(color + Words{"--vary", "angle_deg=0,91"}, "must be in [0, 90] (got 91)");
     refused(color + Words{"--vary", "wavelength_nm=500,600"}, "--compute spectrum");
-    refused(color + Words{"--vary", "angle_deg=0,10", "-a", "5"}, "leave out --angles");
+    refused(color + Words{"--vary", "angle_deg=0,10", "-a", "5"}, "--angles: cannot be combined");
     refused({"--compute", "spectrum", "--vary", "wavelength_nm=500", "-w", "5"},
-            "leave out --wavelengths");
+            "--wavelengths: cannot be combined");
     refused(color + some + Words{"--shard", "3/2"}, "--shard");
     refused(color + some + Words{"--shard", "0/2"}, "--shard");
     refused(color + some + Words{"--shard", "2"}, "must be K/N");
-    refused(color + some + Words{"--resume"}, "needs --output FILE");
+    refused(color + some + Words{"--resume"}, "requires --output FILE");
     refused(color + some + Words{"-f", "gif"}, "must be one of csv, h5, json, npy, pdf, png, svg");
     refused(color + Words{"--points", "tests/data/glass.csv"}, "");
     const TemporaryFolder folder;

@@ -21,21 +21,22 @@ TEST_CASE("the first wrong word of a command line is named", "[cli][refused]") {
          "spectrum has no option --wavelenghts (did you mean \"--wavelengths\"?)" + help},
         {{"spectrum", kFilm, "--foo", "--bar", "-x"}, "spectrum has no option --foo" + help},
         {{"spectrum", kFilm, "-x"}, "spectrum has no option -x" + help},
-        {{"spectrum", kFilm, "-w"}, "--wavelengths: needs a value, LIST" + help},
-        {{"spectrum", kFilm, "--set", "--quiet"}, "--set: needs a value, PATH=VALUE" + help},
-        {{"spectrum", kFilm, "-w", "550", "-w", "600"}, "--wavelengths: is there twice" + help},
+        {{"spectrum", kFilm, "-w"}, "--wavelengths: requires a value, LIST" + help},
+        {{"spectrum", kFilm, "--set", "--quiet"}, "--set: requires a value, PATH=VALUE" + help},
+        {{"spectrum", kFilm, "-w", "550", "-w", "600"},
+         "--wavelengths: given more than once" + help},
         {{"spectrum", kFilm, "--quiet=5"}, "--quiet: takes no value (got '5')" + help},
         {{"spectrum", "-w", "550"}, "STACK is required" + help},
-        {{"spectrum", "a", "b", "c"}, "there is one word too many: 'b'"},
-        {{"spectrum", kFilm, "--", "--foo"}, "there is one word too many: '--foo'"},
+        {{"spectrum", "a", "b", "c"}, "unexpected argument 'b'"},
+        {{"spectrum", kFilm, "--", "--foo"}, "unexpected argument '--foo'"},
         {{"bake", "x.json"}, "--output is required (see irido bake --help)"},
         {{"validate", "--schema", "stack", "a.json"}, "--schema and FILE cannot be used together"},
         {{"lut", "color"}, "STACK is required (see irido lut color --help)"},
-        {{"lut"}, "a command must follow irido lut (see irido lut --help)"},
-        {{}, "a command must follow irido (see irido --help)"},
-        {{"--quiet", "spectrum"}, "a command must follow irido, before --quiet"},
+        {{"lut"}, "a command is required after irido lut (see irido lut --help)"},
+        {{}, "a command is required after irido (see irido --help)"},
+        {{"--quiet", "spectrum"}, "a command is required after irido, before --quiet"},
         {{"materials", "lst"},
-         "there is no command 'lst' (did you mean \"list\"?) (see irido "
+         "unknown command 'lst' (did you mean \"list\"?) (see irido "
          "materials --help)"},
         {{"sweep", kFilm, "-w", "633"},
          "--compute: is required before -w is known: spectrum, "
@@ -154,7 +155,7 @@ TEST_CASE("convert writes stacks as JSON and as expressions", "[cli][convert]") 
                                     R"({"incident": 1, "substrate": 1.5, "layers": [{"material": 2,
                       "thickness_nm": 5, "thickness_sigma_nm": 1}]})");
     CHECK(lossy.out == "1 | 2@5 | 1.5\n");
-    CHECK(lossy.err == "irido: note: an expression cannot say: thickness_sigma_nm\n");
+    CHECK(lossy.err == "irido: note: an expression cannot hold: thickness_sigma_nm\n");
     check_refused(run_irido({"convert", mirror, "-f", "yaml"}), "--format: must be one of json");
     check_refused(run_irido({"convert", "air | 1.5@-1 | air"}), "must be in [0, 1e9]");
 }

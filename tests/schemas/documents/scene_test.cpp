@@ -212,9 +212,10 @@ TEST_CASE("every rule of the scene schema is refused with its place and value", 
 }
 
 TEST_CASE("what a scene must have is named", "[scene]") {
-    CHECK(error_without("/materials") == "misses \"materials\"");
+    CHECK(error_without("/materials") == "must have the key \"materials\"");
     for (const std::string key : {"name", "stack", "shading"})
-        CHECK(error_without("/materials/0/" + key) == "/materials/0: misses \"" + key + "\"");
+        CHECK(error_without("/materials/0/" + key) ==
+              "/materials/0: must have the key \"" + key + "\"");
 }
 
 TEST_CASE("unknown keys of a scene are named with the nearest known one", "[scene]") {
@@ -251,7 +252,7 @@ TEST_CASE("errors of a stack say where in the scene it is", "[scene]") {
 TEST_CASE("a path that varies must be in the stack, over its whole range", "[scene]") {
     const std::string place = "/materials/0/vary";
     CHECK(error_with(place, {{"layers.7.thickness_nm", {1, 2}}})
-              .starts_with(place + "/layers.7.thickness_nm: names no number of the stack"));
+              .starts_with(place + "/layers.7.thickness_nm: must name a number of the stack"));
     CHECK(error_with(place, {{"layers.0.thicknes_nm", {1, 2}}}) ==
           "/materials/0/stack/layers/0/thicknes_nm: unknown key (did you mean "
           "\"thickness_nm\"?)");
@@ -305,11 +306,11 @@ TEST_CASE("validate takes scenes and manifests, by what is in them", "[cli][vali
         return run_irido({"validate", folder / "manifest.json"});
     }();
     CHECK(edited.status == 1);
-    CHECK(edited.out.starts_with(folder / "manifest.json: /checksum: is not that of the manifest"));
+    CHECK(edited.out.starts_with(folder / "manifest.json: /checksum: does not match the manifest"));
     write_text(folder / "manifest.json", R"({"tables": {}, "materials": {}})");
     const Outcome manifest = run_irido({"validate", folder / "manifest.json"});
     CHECK(manifest.status == 1);
-    CHECK(manifest.out.find("misses \"settings\"") != std::string::npos);
+    CHECK(manifest.out.find("must have the key \"settings\"") != std::string::npos);
     CHECK(run_irido({"validate", "tests/data/complete-stack.json"}).status == 0);
 }
 

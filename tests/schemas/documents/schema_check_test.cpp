@@ -170,7 +170,7 @@ TEST_CASE("All problems come, each once, in the order of the document") {
     document.erase("substrate");
     const std::vector<Problem> problems = check(stack_schema(), document);
     REQUIRE(problems.size() == 2 + 2 * 10);
-    CHECK(problems[0] == Problem{"", "misses \"substrate\""});
+    CHECK(problems[0] == Problem{"", "must have the key \"substrate\""});
     CHECK(problems[1] ==
           Problem{"/layers/0/thicknes_nm", "unknown key (did you mean \"thickness_nm\"?)"});
     CHECK(problems[2].pointer == "/layers/1/material");

@@ -73,7 +73,7 @@ TEST_CASE("values of any type vary", "[varied]") {
     CHECK(at(1.5, 300).file == mirror().file);
     const std::string file = mirror().file + ": ";
     CHECK(error_of([&] { at("Agg", 20); }) ==
-          file + "/substrate: there is no material \"Agg\" (did you mean \"Ag\"?)");
+          file + "/substrate: unknown material \"Agg\" (did you mean \"Ag\"?)");
     CHECK(error_of([&] { at("Ag", -20); }) ==
           file + "layers.1.thickness_nm: must be in [0, 1e9] (got -20)");
     CHECK(error_of([&] { at("Ag", "20 nm"); }) ==
@@ -106,7 +106,7 @@ TEST_CASE("whole layers vary, and keys that are not there yet", "[varied]") {
     const VariedStack incident(mirror(), {"incident"});
     CHECK(error_of([&] {
               incident.document(std::vector<json>{{{"n", 1}, {"k", 1}}});
-          }).starts_with(mirror().file + ": /incident: must neither absorb nor amplify"));
+          }).starts_with(mirror().file + ": /incident: must be transparent"));
 }
 
 TEST_CASE("many threads may ask for documents at once", "[varied]") {
@@ -148,13 +148,13 @@ TEST_CASE("files of materials are read once", "[varied]") {
 TEST_CASE("paths of which one is a part of another are refused", "[varied][refused]") {
     CHECK(error_of([] {
               VariedStack(mirror(), {"substrate", "substrate"});
-          }) == "substrate: varies twice");
+          }) == "substrate: is varied twice");
     CHECK(error_of([] {
               VariedStack(mirror(), {"layers.1.material", "layers.1"});
-          }) == "layers.1.material: is inside of \"layers.1\", which varies, too");
+          }) == "layers.1.material: is inside \"layers.1\", which also varies");
     CHECK_NOTHROW(VariedStack(mirror(), {"layers.1.thickness_nm", "layers.1.thickness_sigma_nm"}));
     CHECK(error_of([] { VariedStack(mirror(), {"substrate.n"}); }) ==
-          "substrate.n: there is nothing inside of what comes before \"n\"");
+          "substrate.n: the value before \"n\" has no members");
 }
 
 TEST_CASE("a thickness is known by its path", "[varied]") {

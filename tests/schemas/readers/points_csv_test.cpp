@@ -73,23 +73,23 @@ TEST_CASE("points that are no table are refused at line and column", "[points][r
         {"a,b\n", "1:1: has no rows below its header"},
         {"a,b", "1:1: has no rows below its header"},
         {"a,,c\n1,2,3\n", "1:3: the name of a column must not be empty"},
-        {"a,b,a\n1,2,3\n", "1:5: the column 'a' is there twice"},
-        {"a,\"a\"\n1,2\n", "1:3: the column 'a' is there twice"},
+        {"a,b,a\n1,2,3\n", "1:5: duplicate column 'a'"},
+        {"a,\"a\"\n1,2\n", "1:3: duplicate column 'a'"},
         {"100,1.5\n200,1.6\n", "1:1: the first row must name the paths (got '100')"},
         {"a,2\n3,4\n", "1:3: the first row must name the paths (got '2')"},
         {"a,b\n1,2\n\n1\n", "4:1: must have as many cells as the header, 2 (got 1)"},
         {"a,b\n1,2,\n", "2:1: must have as many cells as the header, 2 (got 3)"},
         {"a,b\n1,{\"n\":2}\n",
-         "2:4: a cell with quotes must be in quotes, with each of its own doubled (got "
+         "2:4: a cell that contains quotes must be quoted, with its quotes doubled (got "
          "'{\"n\":2}')"},
         {"a,b\n1, \n", "2:4: a cell must not be empty"},
         {"a,b\n1,\"\"\n", "2:3: a cell must not be empty"},
         {"a\n\"\"\n", "2:1: a cell must not be empty"},
         {"a\n1\n\n  \"2\n3\n", "4:3: the quote is never closed"},
-        {"a\n\"1\"2\n", "2:4: after the closing quote must come a comma or the end of the line"},
+        {"a\n\"1\"2\n", "2:4: a closing quote must be followed by a comma or the end of the line"},
         {"a\n\"\xC3\xA9\",1\n", "2:1: must have as many cells as the header, 1 (got 2)"},
         {"a,b\n\xC3\xA9,\n", "2:3: a cell must not be empty"},
-        {"a,b\n\"x\ny\",nan\n", "3:4: must be a finite number that a double holds (got 'nan')"},
+        {"a,b\n\"x\ny\",nan\n", "3:4: must be a finite number in double precision (got 'nan')"},
     };
     for (const auto& [text, error] : cases) {
         CAPTURE(text);

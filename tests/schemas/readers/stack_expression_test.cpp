@@ -61,8 +61,8 @@ TEST_CASE("Groups nest and repeat once unless told otherwise") {
         return "air | " + std::string(depth, '(') + "1.5@1" + std::string(depth, ')') + " | air";
     };
     CHECK_NOTHROW(parse_stack_expression(nested(30)));
-    CHECK(error_of(nested(31)) == "column 37: groups nest at most 30 deep");
-    CHECK(error_of(nested(1000000)) == "column 37: groups nest at most 30 deep");
+    CHECK(error_of(nested(31)) == "column 37: groups must nest at most 30 deep");
+    CHECK(error_of(nested(1000000)) == "column 37: groups must nest at most 30 deep");
 }
 
 TEST_CASE("An index is real or complex") {
@@ -102,7 +102,7 @@ TEST_CASE("Errors of expressions tell the column, what was expected and what is 
     CHECK(error_of("air | (1.33@5 | 1@5") == "column 20: expected \")\", found the end");
     CHECK(error_of("air | () | air") == "column 8: expected a layer, found \")\"");
     CHECK(error_of("air | (1@5)^ | air") ==
-          "column 14: expected how many times the group repeats, found \"|\"");
+          "column 14: expected the number of repetitions, found \"|\"");
     CHECK(error_of("air | 1.33@5 | air)") ==
           "column 19: expected \"@\" and the thickness of the layer, found \")\"");
     CHECK(error_of("air | 1.5x@5 | air") ==
@@ -190,5 +190,5 @@ TEST_CASE("Names of files and names in quotes are media") {
           stack(1, json::array({layer("a (1)|b.csv", 2)}), 1));
     CHECK(error_of("1 | \"a@2 | 1") ==
           "column 5: expected a second \" at the end of the name, found \"\"a\"");
-    CHECK(error_of("1 | \"\"@2 | 1") == "column 5: a name is empty");
+    CHECK(error_of("1 | \"\"@2 | 1") == "column 5: a name must not be empty");
 }

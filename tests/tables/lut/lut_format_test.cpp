@@ -235,7 +235,7 @@ TEST_CASE("files are written with their companion and read by their extension", 
     CHECK_FALSE(std::filesystem::exists(folder / "t.exr.json"));
     std::filesystem::remove(folder / "t.npy.json");
     CHECK_THAT(refusal([&] { read_lut(folder / "t.npy"); }),
-               Contains("t.npy: its companion with the metadata"));
+               Contains("t.npy: its companion file with the metadata"));
     CHECK_THAT(refusal([&] { read_lut(folder / "t.png"); }),
                Contains("must be one of .bin, .csv, .exr, .ktx2, .npy"));
 }
@@ -259,7 +259,7 @@ TEST_CASE("problems of a table that was read are named", "[tables][lut]") {
     const LutFormat& bin = *find_lut_format("bin");
     std::vector<std::string> problems = lut_problems(bin.read(files.bytes, files.companion));
     REQUIRE(problems.size() == 1);
-    CHECK_THAT(problems[0], Contains("the checksum is not that of the values"));
+    CHECK_THAT(problems[0], Contains("the checksum does not match the values"));
     files.bytes.replace(4, 4, std::string("\0\0\xC0\x7F", 4));
     problems = lut_problems(bin.read(files.bytes, files.companion));
     REQUIRE(problems.size() == 2);

@@ -112,7 +112,8 @@ TEST_CASE("an axis that does not matter gets one sample and a note", "[lut]") {
     CHECK(lut.axes[0].count() > 2);
     CHECK(lut.axes[1].values == std::vector<double>{0.5});
     REQUIRE(lut.facts["notes"].size() == 1);
-    CHECK(lut.facts["notes"][0].get<std::string>() == "y: does not matter from 0 to 1, one sample");
+    CHECK(lut.facts["notes"][0].get<std::string>() ==
+          "y: constant over [0, 1]: stored as one sample");
     const Lut other =
         make_lut(kKind, plan_of([](double x, double y) { return std::sin(x) + 0.01 * y; }),
                  with_tolerance(1e-3));

@@ -109,8 +109,10 @@ TEST_CASE("metadata that breaks a rule is refused by name", "[tables][lut]") {
     CHECK_THAT(refusal_with("/axes/1/count", 1e15), Contains("/axes/1/count: must be a whole"));
     CHECK_THAT(refusal_with("/axes/1/count", 2.5), Contains("/axes/1/count: must be a whole"));
     CHECK_THAT(refusal_with("/axes/1/mapping", "log"), Contains("must be one of linear, list"));
-    CHECK_THAT(refusal_with("/axes/1/mapping", "list"), Contains("has values if it is a list"));
-    CHECK_THAT(refusal_with("/axes/1/values", {1, 2, 3}), Contains("has values if it is a list"));
+    CHECK_THAT(refusal_with("/axes/1/mapping", "list"),
+               Contains("must have values exactly when its mapping is list"));
+    CHECK_THAT(refusal_with("/axes/1/values", {1, 2, 3}),
+               Contains("must have values exactly when its mapping is list"));
     CHECK_THAT(refusal_with("/axes/1/last", 0.1), Contains("strictly monotonic"));
     CHECK_THAT(refusal_with("/axes/1/name", "a"), Contains("two axes or channels are called 'a'"));
     CHECK_THAT(refusal_with("/axes/1/name", "b c"), Contains("cannot be called 'b c'"));
@@ -144,7 +146,7 @@ TEST_CASE("tables that no file could hold are refused", "[tables][lut]") {
     CHECK_THAT(refusal_of([](Lut& l) { l.axes[0].values.clear(); }), Contains("has 0 samples"));
     CHECK_THAT(refusal_of([](Lut& l) { l.channels.clear(); }), Contains("channels"));
     CHECK_THAT(refusal_of([](Lut& l) { l.axes[0].values[1] = 7; }),
-               Contains("axis a are not finite and strictly monotonic"));
+               Contains("axis a must be finite and strictly monotonic"));
     CHECK_THAT(refusal_of([](Lut& l) { l.values.pop_back(); }), Contains("has 35 values"));
     CHECK_THAT(refusal_of([](Lut& l) {
                    l.mips = true;

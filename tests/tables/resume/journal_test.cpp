@@ -242,25 +242,26 @@ TEST_CASE("a part of something else is not gone on with", "[tables][stream]") {
     };
     StreamIdentity other = identity;
     other.request = "other";
-    CHECK_THAT(refused(csv, sample_layout(), other),
-               Equals(path + ": its part is of another request: run without --resume to begin "
-                             "anew, or name another file"));
+    CHECK_THAT(
+        refused(csv, sample_layout(), other),
+        Equals(path + ": its .part belongs to another request: rerun without --resume to start "
+                      "over, or name another file"));
     other = identity;
     other.simd = "baseline";
     CHECK_THAT(refused(csv, sample_layout(), other), Contains("set IRIDO_SIMD=avx2"));
     other = identity;
     other.build.commit = "0123456789ab";
     CHECK_THAT(refused(csv, sample_layout(), other),
-               Equals(path + ": its part is of irido " + version_text(this_build()) + ", this is " +
-                      this_build().version +
-                      " (0123456789ab), whose numbers may differ: run without --resume to begin "
-                      "anew, or name another file"));
+               Equals(path + ": its .part was written by irido " + version_text(this_build()) +
+                      ", this is " + this_build().version +
+                      " (0123456789ab), whose numbers may differ: rerun without --resume to start "
+                      "over, or name another file"));
     CHECK_THAT(refused(csv, sample_layout(), identity_of(90, 3, 3)),
-               Contains("its part is shard 2 of 3, not shard 3 of 3"));
+               Contains("its .part is shard 2 of 3, not shard 3 of 3"));
     CHECK_THAT(refused(csv, sample_layout(), identity_of(90, 2, 4)), Contains("not shard 2 of 4"));
     CHECK_THAT(refused(csv, sample_layout(), identity_of(91, 2, 3)), Contains("another request"));
     CHECK_THAT(refused(*find_record_format("json"), sample_layout(), identity),
-               Contains("its part is csv, not json"));
+               Contains("its .part is csv, not json"));
     RecordLayout layout = sample_layout();
     layout[1].width += 1;
     CHECK_THAT(refused(csv, layout, identity), Contains("another request"));

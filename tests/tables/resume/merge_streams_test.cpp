@@ -144,7 +144,7 @@ TEST_CASE("shards that were edited are refused", "[tables][stream][refused]") {
         const Shards shards(*format);
         const std::string& path = shards.paths[2];
         const std::string bytes = read_file(path);
-        const std::string said = path + ": is not the file that its journal says: run it again";
+        const std::string said = path + ": does not match its journal: rerun it";
         std::string digit = bytes;
         digit[bytes.size() - 12] ^= 1;
         write_text(path, digit);
@@ -170,7 +170,7 @@ TEST_CASE("a single shard is merged, too", "[tables][stream]") {
     for (const RecordFormat* const format : record_formats()) {
         INFO(format->name);
         Shards shards(*format, 47, 1);
-        CHECK_THAT(shards.refused(), Contains("there is no journal"));
+        CHECK_THAT(shards.refused(), Contains("it has no journal"));
         StreamIdentity identity = identity_of(47);
         identity.is_shard = true;
         write_shard(shards.paths[0], *format, identity);
@@ -191,18 +191,19 @@ TEST_CASE("shards that are not one whole are refused", "[tables][stream]") {
         };
         StreamIdentity other = identity_of(47, 3, 3);
         other.request = "other";
-        CHECK_THAT(with(3, other), Equals(path(3) + ": is of another request than " + path(1)));
-        CHECK_THAT(with(2, identity_of(48, 2, 3)), Contains("is of another request"));
+        CHECK_THAT(with(3, other),
+                   Equals(path(3) + ": belongs to another request than " + path(1)));
+        CHECK_THAT(with(2, identity_of(48, 2, 3)), Contains("belongs to another request"));
         CHECK_THAT(with(2, identity_of(47, 2, 4)),
                    Equals(path(2) + ": is one of 4 shards, " + path(1) + " one of 3"));
         CHECK_THAT(with(3, identity_of(47, 2, 3)),
                    Equals(path(2) + " and " + path(3) + ": are both shard 2 of 3"));
         other = identity_of(47, 2, 3);
         ++other.begin;
-        CHECK_THAT(with(2, other), Equals(path(2) + ": begins with unit 16, must with 15"));
+        CHECK_THAT(with(2, other), Equals(path(2) + ": begins at unit 16, expected 15"));
         other = identity_of(47, 3, 3);
         --other.end;
-        CHECK_THAT(with(3, other), Equals(path(3) + ": ends with unit 46, must with 47"));
+        CHECK_THAT(with(3, other), Equals(path(3) + ": ends at unit 46, expected 47"));
         const std::vector<std::string> all = shards.paths;
         shards.paths = {path(1), path(3)};
         CHECK_THAT(shards.refused(), Equals("shard 2 of 3 is missing"));
@@ -230,7 +231,7 @@ TEST_CASE("shards that are not finished or not their own are refused", "[tables]
         const Shards shards(*format);
         const std::string& path = shards.paths[1];
         const std::string bytes = read_file(path), journal = read_file(path + ".sweep");
-        const std::string not_finished = path + ": is not finished: run it again with --resume";
+        const std::string not_finished = path + ": is incomplete: rerun it with --resume";
         for (const std::string& less :
              {std::string(), journal.substr(0, 20), journal.substr(0, journal.find('\n') + 1),
               journal.substr(0, journal.rfind("complete")),

@@ -106,7 +106,7 @@ TEST_CASE("files that are not the program's are left alone", "[tables][stream]")
         fs::remove(folder / "out.sweep");
         write_text(folder / "out.part", "half");
         CHECK_THAT(refusal([&] { open_stream(folder / "out", csv, identity_of(9), resume); }),
-                   Contains("out.part: is in the way"));
+                   Contains("out.part: exists but has no journal"));
         CHECK(read_file(folder / "out.part") == "half");
         CHECK(names_in(folder.path()) == std::vector<std::string>{"out.part"});
         fs::remove(folder / "out.part");
@@ -144,7 +144,7 @@ TEST_CASE("one process writes a stream, another is refused", "[tables][stream]")
         const auto stream = open_stream(folder / "out", csv, identity);
         for (const char* const name : {"out", "link"})
             CHECK_THAT(refusal([&] { open_stream(folder / name, csv, identity, true); }),
-                       Equals(folder / name + ": is being written by another irido"));
+                       Equals(folder / name + ": is being written by another irido process"));
         stream->discard();
     }
     CHECK(read_file(folder / "out") == "old");
@@ -337,7 +337,7 @@ TEST_CASE("standard output gets the same bytes", "[tables][stream]") {
         if (status == 0) CHECK(read_file(folder / "out") == whole(*format, 100));
     }
     CHECK_THAT(refusal([&] { record_output(*find_record_format("h5"), sample_layout(), 0); }),
-               Equals("--format: h5 needs --output FILE"));
+               Equals("--format: h5 requires --output FILE"));
     const int terminal = in_child([&] {
         const int master = posix_openpt(O_RDWR | O_NOCTTY);
         if (master < 0 || grantpt(master) != 0 || unlockpt(master) != 0) return 1;

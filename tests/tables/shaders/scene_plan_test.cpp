@@ -93,7 +93,7 @@ TEST_CASE("plan: a colour that hardly changes is numbers, another a table", "[sc
     const json flat =
         planned(R"({"stack": "1 | 1.33@6 | 1", "angles_deg": [0, 20]})").entry("reflection");
     CHECK(flat.contains("values"));
-    CHECK(has_note(flat, "cos_theta: does not matter"));
+    CHECK(has_note(flat, "cos_theta: constant over "));
     const json steep =
         planned(R"({"stack": "1 | 1.33@400 | 1", "angles_deg": [0, 80]})").entry("reflection");
     CHECK(steep.contains("file"));
@@ -104,7 +104,7 @@ TEST_CASE("plan: an axis along which nothing changes is dropped", "[scene][plan]
     // the layer has the index of the base
     const std::string rest = R"(, "vary": {"layers.0.thickness_nm": [100, 900]}})";
     const json none = planned(R"({"stack": "1 | 1.5@400 | 1.5")" + rest).entry("reflection");
-    CHECK(has_note(none, kThickness + ": does not matter from 100 to 900, one sample"));
+    CHECK(has_note(none, kThickness + ": constant over [100, 900]: stored as one sample"));
     CHECK(count_of(none, kThickness) == 1);
     const json film = planned(R"({"stack": "1 | 1.33@400 | 1.5")" + rest).entry("reflection");
     CHECK(!has_note(film, kThickness));
@@ -137,7 +137,8 @@ TEST_CASE("plan: a value that varies over nothing is none", "[scene][plan]") {
 
 TEST_CASE("plan: a film without fringes is its mean, C_0", "[scene][plan]") {
     const Planned thick = planned(R"({"stack": "1 | 1.33@60000 | 1.5", "shading": "fourier"})");
-    CHECK(thick.reason("sensitivity") == "no fringes are left at these optical paths: C_0 only");
+    CHECK(thick.reason("sensitivity") ==
+          "no fringes are left at these optical path differences: C_0 only");
     CHECK(thick.plan.tables.empty());
     CHECK(thick.plan.materials[0].constants["orders"] == 0);
     const Planned thin = planned(R"({"stack": "1 | 1.33@600 | 1.5", "shading": "fourier"})");
@@ -149,7 +150,7 @@ TEST_CASE("plan: a film without fringes is its mean, C_0", "[scene][plan]") {
 TEST_CASE("plan: no transmitted table unless asked for and light comes through", "[scene][plan]") {
     const std::string asked = R"(, "transmission": true})";
     CHECK(planned(R"({"stack": "1 | 1.33@400 | 1.5"})").reason("transmission") ==
-          "was not asked for");
+          "was not requested");
     const Planned opaque = planned(R"({"stack": "1 | 1.33@400 | 1.5+3i")" + asked);
     CHECK(opaque.reason("transmission") == "the base absorbs all that enters it");
     CHECK(opaque.roles() == std::vector<std::string>{"reflection"});
@@ -182,7 +183,7 @@ TEST_CASE("plan: one polarization at normal incidence alone", "[scene][plan]") {
 
 TEST_CASE("plan: angles that never occur have no samples", "[scene][plan]") {
     const Planned some = planned(R"({"stack": "1 | 1.33@400 | 1.5", "angles_deg": [0, 60]})");
-    CHECK(some.reason("angles") == "those outside of 0 to 60 degrees never occur");
+    CHECK(some.reason("angles") == "those outside 0 to 60 degrees do not occur");
     CHECK(some.entry("reflection")["axes"][0]["first"].get<double>() == Approx(0.5));
     const Planned all = planned(R"({"stack": "1 | 1.33@400 | 1.5"})");
     CHECK(all.reason("angles").empty());
@@ -241,7 +242,7 @@ TEST_CASE("plan: a closed form in the shader needs no table", "[scene][plan]") {
 TEST_CASE("plan: mip levels only where a spread of a thickness is given", "[scene][plan]") {
     const std::string film = R"({"stack": "1 | 1.33@400 | 1.5", "angles_deg": [0, 60],
                                  "vary": {"layers.0.thickness_nm": [300, 500]})";
-    CHECK(planned(film + "}").reason("mip levels") == "no spread is given");
+    CHECK(planned(film + "}").reason("mip levels") == "no thickness_spread_nm is given");
     const Planned spread = planned(film + R"(, "thickness_spread_nm": 20})");
     CHECK(spread.reason("mip levels").empty());
     CHECK(count_of(spread.entry("reflection"), "thickness_sigma_nm") == 4);
@@ -259,8 +260,9 @@ TEST_CASE("plan: the levels of a series are spreads of the path, as far as fring
     REQUIRE(levels.size() == 4);
     CHECK(levels[0] == 0);
     CHECK(levels[3] == std::ceil(2 * 2.3 * constants["orders"].get<int>() * 2));
-    CHECK(narrow.reason("spreads from 415 nm of path").empty());
-    CHECK(wide.reason("spreads from 415 nm of path") == "no fringes are left there");
+    CHECK(narrow.reason("standard deviations from 415 nm of path difference").empty());
+    CHECK(wide.reason("standard deviations from 415 nm of path difference") ==
+          "no fringes are left there");
     CHECK(wide.plan.materials[0].constants["level_sigma_nm"][3] == 415);
 }
 
@@ -278,12 +280,12 @@ TEST_CASE("plan: a table with levels has two samples in the last one", "[scene][
 TEST_CASE("plan: what a shading has no use for is said", "[scene][plan]") {
     const std::string film = R"({"stack": "1 | 1.33@400 | 1.5", "roughness": 0.2, "shading": )";
     CHECK(planned(film + "\"color\"}").reason("roughness") ==
-          "the shading color is of smooth surfaces");
+          "the shading color is for smooth surfaces only");
     CHECK(planned(film + R"("albedo", "angles_deg": [0, 60]})").reason("roughness").empty());
     CHECK(planned(R"({"stack": "1 | 1.33@400 | 1.5", "shading": "albedo"})").reason("alpha") ==
           "the surface is smooth: its albedo is its colour");
     CHECK(planned(R"({"stack": "1 | 1.33@400 | Fe", "shading": "fourier"})").reason("dispersion") ==
-          "the shader takes the indices of 550 nm");
+          "the shader uses the indices at 550 nm");
     CHECK(planned(R"({"stack": "1 | 1.33@400 | 1.5", "shading": "fourier"})")
               .reason("dispersion")
               .empty());

@@ -103,7 +103,7 @@ TEST_CASE("CSV spectrum", "[csv]") {
     CHECK(spectrum_error("energy_eV,value\n2,1\n3,1\n").find("names other columns") != npos);
     CHECK(spectrum_error("0.4,1\n0.5,1\n").find("looks like um") != npos);
     CHECK(spectrum_error("400,1\n400,2\n") ==
-          "s.csv: must have one row a wavelength (got two at 400 nm)");
+          "s.csv: must have one row per wavelength (got two at 400 nm)");
     CHECK(spectrum_error("400,1,1\n500,1,1\n") == "s.csv: 1:1: must have 2 columns (got 3)");
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("what was done to rows is told", "[csv]") {
           Notes{"rows at equal wavelengths averaged, 1 row fewer"});
     CHECK(notes("eV,n\n2,1\n3,1\n").empty());
     CHECK(notes("nm,n,k\n400,1,-0.5\n500,1,0\n") ==
-          Notes{"k is nowhere positive: taken as that of n - ik, which absorbs"});
+          Notes{"k is nowhere positive: read as n - ik, which absorbs"});
     CHECK(notes("1500,1\n5000,1\n") ==
           Notes{"no header: wavelengths taken as 1500 to 5000 nm (if they are angstroms, a header "
                 "angstrom,n,k says so)"});
@@ -176,7 +176,7 @@ TEST_CASE("tables that could be misread are refused by name", "[csv]") {
     const auto [text, part] = GENERATE(table<std::string, std::string>({
         {"0.4,1.5\n0.8,1.4\n", "0.4 to 0.8 looks like um or eV"},
         {"wavelength,n\n0.4,1.5\n0.8,1.4\n", "looks like um or eV"},
-        {"nm,R\n400,0.5\n500,0.5\n", "1:1: names other columns than are known"},
+        {"nm,R\n400,0.5\n500,0.5\n", "1:1: must name known columns"},
         {"nm,k\n400,0.5\n500,0.5\n", "names other columns"},
         {"nm,n,n\n400,1,1\n500,1,1\n", "names other columns"},
         {"nm,eV,n\n400,3,1\n500,2,1\n", "names other columns"},

@@ -66,7 +66,7 @@ TEST_CASE("Woollam's tables", "[formats]") {
     check_index("400 nm\nnm\nE1E2\n400 3 4\n500 3 4\n", 450, 2, 1);
     check_index("x\num\nnk\n0.4 1.5 0.1\n0.5 1.4 0.2\n", 500, 1.4, 0.2);
     CHECK(error_of("x\nnm\nCAUCHY\n1.45 0.01 0\n") ==
-          "m.txt: 3:1: must be NK or E1E2, tables; 'CAUCHY' stands for parameters of a model");
+          "m.txt: 3:1: must be NK or E1E2, a table (got 'CAUCHY', parameters of a model)");
     CHECK(error_of("x\nnm\nNK\n400 1.5\n").find("must have 3 columns") != std::string::npos);
 }
 
@@ -81,11 +81,11 @@ TEST_CASE("the CSV of the refractiveindex.info site has a block of n and one of 
     CHECK(range_of(part.material) == WavelengthRange{400, 500});
     REQUIRE(part.notes.size() == 1);
     CHECK(part.notes[0] ==
-          "k is known from 400 to 500 nm only, n from 400 to 600 nm: k = 5e-04 is not small, and "
+          "k is known from 400 to 500 nm only, n from 400 to 600 nm: k = 5e-04 is not small, so "
           "the material not known above 500 nm");
     CHECK(read_material_file("wl,n\n0.4,1.5\n", "m.csv").notes ==
           std::vector<std::string>{"no k in the file: k = 0"});
-    CHECK(error_of("wl,k\n0.4,1.5\n") == "m.txt: gives k only, no n");
+    CHECK(error_of("wl,k\n0.4,1.5\n") == "m.txt: must give n (got k only)");
     CHECK(error_of("wl,n\n0.4,1.5\nwl,n\n0.5,1.5\n") == "m.txt: 3:1: n is given twice");
     CHECK(error_of("wl,n\n400,1.5\n500,1.5\n").find("looks like nm") != std::string::npos);
 }
@@ -104,10 +104,10 @@ TEST_CASE("formats are told by the content, whatever the name", "[formats]") {
     CHECK(is_material_file("x/GOLD.MAT"));
     CHECK_FALSE(is_material_file("x.csv/gold"));
     CHECK(error_of(std::string_view("MATLAB 5.0 MAT-file, \0\0", 23)) ==
-          "m.txt: is a binary file of Matlab, not a text");
+          "m.txt: must be text (got a binary MATLAB file)");
     CHECK(error_of(std::string_view("\xFF\xFEn\0m\0", 6)) ==
           "m.txt: must be UTF-8 text (got UTF-16)");
     CHECK(error_of(std::string_view("\x7F"
                                     "ELF\0\1",
-                                    6)) == "m.txt: is no text");
+                                    6)) == "m.txt: must be text (got binary data)");
 }

@@ -105,11 +105,11 @@ TEST_CASE("n given twice must agree, k comes from the table", "[rii]") {
         told |= note.starts_with("DATA/1: n given twice, at most 0.001") &&
                 note.ends_with(" apart: the first counts");
     CHECK(told);
-    CHECK(error_of(both(0.01)) == "m.yml: DATA/1: n is given twice, and not alike");
+    CHECK(error_of(both(0.01)) == "m.yml: DATA/1: n is given twice with different values");
     CHECK(error_of("DATA:\n" + kFormulaN + kFormulaN) ==
-          "m.yml: DATA/1: n is given twice, and not alike");
+          "m.yml: DATA/1: n is given twice with different values");
     CHECK(error_of("DATA:\n" + kFormulaN + table("n", "        0.9 1.5\n        1.1 1.5\n")) ==
-          "m.yml: DATA/1: n is given twice, and not alike");
+          "m.yml: DATA/1: n is given twice with different values");
 }
 
 TEST_CASE("blocks that do not overlap are joined", "[rii]") {
@@ -119,11 +119,12 @@ TEST_CASE("blocks that do not overlap are joined", "[rii]") {
         const auto file = read("DATA:\n" + kFormulaN + blocks);
         CHECK(std::get<RefractiveIndex>(file.material.model).k ==
               Dispersion{Table{{380, 500, 600, 780}, {0.1, 0.2, 0.3, 0.4}}});
-        CHECK(has_note(file, "DATA/2: k joined to that before it, linear from 500 to 600 nm"));
+        CHECK(has_note(file,
+                       "DATA/2: k joined to the table before, interpolated from 500 to 600 nm"));
     }
     CHECK(error_of("DATA:\n" + kFormulaN + low + low).find("apart") == std::string::npos);
     CHECK(error_of("DATA:\n" + kFormulaN + low + table("k", "        0.4 0.3\n")) ==
-          "m.yml: DATA/2: k is given twice, and not alike");
+          "m.yml: DATA/2: k is given twice with different values");
 }
 
 TEST_CASE("k before n", "[rii]") {
@@ -138,9 +139,10 @@ TEST_CASE("where k is not known the material is not, unless k is very small", "[
         read("DATA:\n" + kFormulaN + table("k", "        0.28 1e-6\n        0.29 1e-7\n"));
     CHECK(range_of(glass.material) == WavelengthRange{380, 780});
     CHECK(index_at(glass.material, 400).imag() == 1e-7);
-    CHECK(has_note(glass,
-                   "k is known from 280 to 290 nm only, n from 380 to 780 nm: k = 1e-07 is held "
-                   "above 290 nm"));
+    CHECK(
+        has_note(glass,
+                 "k is known from 280 to 290 nm only, n from 380 to 780 nm: k = 1e-07 is extended "
+                 "above 290 nm"));
 
     const auto shorter =
         read("DATA:\n" + kFormulaN + table("k", "        0.4 1e-5\n        0.6 0.1\n"));
@@ -151,15 +153,16 @@ TEST_CASE("where k is not known the material is not, unless k is very small", "[
                       "k of m.yml is known from 380 to 600 nm (asked for 601)");
     CHECK_THROWS_WITH(index_at(shorter.material, 781),
                       "m.yml is known from 380 to 780 nm (asked for 781)");
-    CHECK(has_note(shorter,
-                   "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 1e-05 is held "
-                   "below 400 nm"));
+    CHECK(
+        has_note(shorter,
+                 "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 1e-05 is extended "
+                 "below 400 nm"));
     CHECK(
         has_note(shorter,
                  "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 0.1 is not small, "
                  "and the material not known above 600 nm"));
     CHECK(error_of("DATA:\n" + kFormulaN + table("k", "        0.9 0.1\n        1.1 0.1\n")) ==
-          "m.yml: n is known from 380 to 780 nm and k from 900 to 1100 nm: nowhere both");
+          "m.yml: n is known from 380 to 780 nm and k from 900 to 1100 nm: they do not overlap");
 }
 
 TEST_CASE("what is relative to air is converted to vacuum", "[rii]") {
@@ -214,7 +217,7 @@ TEST_CASE("files of before 2018 and lists of YAML are read", "[rii]") {
                    "      - 0.5 1.4 0.2\n") ==
           index_of("DATA:\n" + table("nk", "        0.4 1.5 0.1\n        0.5 1.4 0.2\n")));
     CHECK(error_of("DATA:\n  - type: formula 5\n    coefficients: [1, [2, 3]]\n    range: 1 2\n") ==
-          "m.yml: DATA/0: a list of numbers must hold nothing else");
+          "m.yml: DATA/0: must be a list of numbers only");
 }
 
 TEST_CASE("a formula whose last coefficient is missing is refused", "[rii]") {
@@ -311,7 +314,8 @@ TEST_CASE("formula 4 with unused poles is finite at 1 um", "[rii]") {
 TEST_CASE("what is no linear index is refused", "[rii]") {
     CHECK(error_of("DATA:\n" + table("n2", "        1.55 1.80-17\n")) ==
           "m.yml: DATA/0: tabulated n2 is a nonlinear index in m^2/W, not a refractive index");
-    CHECK(error_of("DATA:\n" + table("k", "        0.4 1\n")) == "m.yml: DATA: gives k only, no n");
+    CHECK(error_of("DATA:\n" + table("k", "        0.4 1\n")) ==
+          "m.yml: DATA: must give n (got k only)");
     CHECK(error_of("DATA:\n" + table("q", "        0.4 1\n")) ==
           "m.yml: DATA/0: unknown type 'tabulated q'");
     CHECK(error_of("DATA:\n  - type: spline 3\n") == "m.yml: DATA/0: unknown type 'spline 3'");
@@ -322,7 +326,7 @@ TEST_CASE("what is no linear index is refused", "[rii]") {
     CHECK(error_of("") == "m.yml: DATA: must be a list of formulas and tables");
     CHECK(error_of("- 1\n- 2\n") == "m.yml: DATA: must be a list of formulas and tables");
     CHECK(error_of("DATA:\n  - 7\n") == "m.yml: DATA/0: must be a map with a type");
-    CHECK(error_of("DATA:\n  - x: 7\n") == "m.yml: DATA/0: needs the text 'type'");
+    CHECK(error_of("DATA:\n  - x: 7\n") == "m.yml: DATA/0: must have the text 'type'");
 }
 
 TEST_CASE("faults in tables and formulas are told", "[rii]") {
@@ -340,13 +344,13 @@ TEST_CASE("faults in tables and formulas are told", "[rii]") {
           "m.yml: DATA/0: row 1: the wavelength must be positive (got 0)");
     CHECK(error_of("DATA:\n  - type: tabulated n\n    data: |\nX: 1\n") ==
           "m.yml: DATA/0: the table has no rows");
-    CHECK(error_of("DATA:\n  - type: tabulated n\n") == "m.yml: DATA/0: needs the text 'data'");
+    CHECK(error_of("DATA:\n  - type: tabulated n\n") == "m.yml: DATA/0: must have the text 'data'");
     CHECK(error_of("DATA:\n  - type: formula 10\n") ==
           "m.yml: DATA/0: formula must be 1 to 9 (got '10')");
     CHECK(error_of("DATA:\n  - type: formula\n") ==
           "m.yml: DATA/0: formula must be 1 to 9 (got '')");
     CHECK(error_of("DATA:\n  - type: formula 5\n    coefficients: 1\n") ==
-          "m.yml: DATA/0: needs the text 'wavelength_range'");
+          "m.yml: DATA/0: must have the text 'wavelength_range'");
     CHECK(error_of("DATA:\n  - type: formula 8\n    coefficients: 1 2 3 4 5\n"
                    "    wavelength_range: 0.4 1\n") ==
           "m.yml: DATA/0: formula 8 must have 1, 3 or 4 coefficients (got 5)");

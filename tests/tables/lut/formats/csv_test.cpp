@@ -37,9 +37,9 @@ TEST_CASE("csv says in which line it is not the table", "[tables][lut]") {
     };
     const std::string last =
         files.bytes.substr(files.bytes.rfind('\n', files.bytes.size() - 2) + 1);
-    CHECK_THAT(words("a,v0", "a,v1"), Contains("the first line is not that of the metadata, a,v0"));
+    CHECK_THAT(words("a,v0", "a,v1"), Contains("the first line must match the metadata: a,v0"));
     CHECK_THAT(words(last, ""), Contains("ends after 2 of 3 rows"));
-    CHECK_THAT(words(last, last + last), Contains("line 5: the table has no more rows"));
+    CHECK_THAT(words(last, last + last), Contains("line 5: is after the last row of the table"));
     CHECK_THAT(words("0.1,-0", "0.2,-0"), Contains("line 2: the value of a"));
     CHECK_THAT(words("0.1,-0", "0.1,nan"), Contains("line 2: 'nan' is not a finite number"));
     CHECK_THAT(words("0.1,-0", "0.1,0.1"), Contains("line 2: the value of v0 is no f16"));

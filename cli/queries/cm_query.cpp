@@ -1,4 +1,4 @@
-#include "cli/queries/cm_question.hpp"
+#include "cli/queries/cm_query.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMostOrders = 1e6, kMostRows = 1e7;
 
-/// The letters of a list, each one of `allowed`; `rule` says so.
+/// The letters of a comma-separated list, each one of `allowed`; `rule` is the error message.
 std::vector<char> parse_letters(const std::string& text, std::string_view allowed,
                                 std::string rule) {
     std::vector<char> letters;
@@ -68,17 +68,15 @@ FilmSeries series_at(const schemas::StackDocument& document, const Film& film, d
     if (series) return *series;
     throw schemas::InputError(
         document.file, "",
-        "there is no series at " + to_text(angle_deg) + " degrees, where " +
-            (film.base.imag() < 0 ? "the film is past its critical angle or the base "
-                                    "amplifies without bound"
-                                  : "the film is past its critical angle"));
+        "no Fourier series at " + to_text(angle_deg) + " degrees: past the film's critical angle" +
+            (film.base.imag() < 0 ? ", or the base amplifies without bound" : ""));
 }
 
 }  // namespace
 
-class CmAnswers : public Answers {
+class CmResult : public QueryResult {
 public:
-    explicit CmAnswers(const CmQuestion& question) : question_(question) {}
+    explicit CmResult(const CmQuery& query) : query_(query) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
@@ -86,13 +84,13 @@ public:
         film.thickness_nm = only_film(stack).thickness_nm;
         std::vector<FilmSeries> series;
         for (const double angle_deg : incidence.angles_deg)
-            for (const char p : question_.polarizations_)
+            for (const char p : query_.polarizations_)
                 series.push_back(series_at(prepared.document, film, angle_deg, p));
         std::size_t rows = 0;
         for (std::size_t i = 0; i < series.size(); ++i) {
-            const std::size_t polarizations = question_.polarizations_.size();
+            const std::size_t polarizations = query_.polarizations_.size();
             rows += append(series[i], incidence.angles_deg[i / polarizations],
-                           question_.polarizations_[i % polarizations]);
+                           query_.polarizations_[i % polarizations]);
         }
         return rows;
     }
@@ -115,8 +113,8 @@ private:
     };
 
     std::size_t append(const FilmSeries& series, double angle_deg, char polarization) {
-        for (const char s : question_.sides_) {
-            for (const double m : question_.orders_) {
+        for (const char s : query_.sides_) {
+            for (const double m : query_.orders_) {
                 rows_.angle.push_back(angle_deg);
                 rows_.polarization.emplace_back(1, polarization);
                 rows_.side.emplace_back(1, s);
@@ -126,36 +124,36 @@ private:
                 rows_.phi.push_back(series.phase_rad());
             }
         }
-        return question_.sides_.size() * question_.orders_.size();
+        return query_.sides_.size() * query_.orders_.size();
     }
 
-    const CmQuestion& question_;
+    const CmQuery& query_;
     Rows rows_;
 };
 
-CmQuestion::CmQuestion(const CmOptions& typed)
+CmQuery::CmQuery(const CmOptions& typed)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
-      polarizations_(parse_letters(typed.polarization, "sp",
-                                   "--polarization: must be s, p or both with a comma")),
-      sides_(parse_letters(typed.sides, "RT", "--side: must be R, T or both with a comma")),
+      polarizations_(
+          parse_letters(typed.polarization, "sp", "--polarization: must be s, p or s,p")),
+      sides_(parse_letters(typed.sides, "RT", "--side: must be R, T or R,T")),
       orders_(parse_orders(typed.orders)),
       at_nm_(
           parse_one_number("--at", typed.at, kAllWavelengths.first_nm, kAllWavelengths.last_nm)) {
     const double rows =
         static_cast<double>(angles_deg_.size()) * static_cast<double>(rows_per_angle());
     if (rows > kMostRows)
-        throw UsageError("--orders: asks for " + to_text(rows) + " rows, more than " +
-                         to_text(kMostRows));
+        throw UsageError("--orders: the result must have at most " + to_text(kMostRows) +
+                         " rows (got " + to_text(rows) + ")");
 }
 
-tables::RecordLayout CmQuestion::layout(const schemas::StackDocument&) const {
+tables::RecordLayout CmQuery::layout(const schemas::StackDocument&) const {
     using enum tables::RecordField::Type;
     return {
         {"angle_deg"}, {"polarization", text, 1}, {"side", text, 1}, {"order"}, {"C"}, {"opd_nm"},
         {"phi_rad"}};
 }
 
-tables::RowPlot CmQuestion::plot(const tables::Records&, tables::GamutMapping) const {
+tables::RowPlot CmQuery::plot(const tables::Records&, tables::GamutMapping) const {
     tables::RowPlot plot;
     plot.form = tables::Series::Form::bars;
     for (const char* name : {"order", "angle_deg", "polarization", "side"})
@@ -164,25 +162,23 @@ tables::RowPlot CmQuestion::plot(const tables::Records&, tables::GamutMapping) c
     return plot;
 }
 
-std::unique_ptr<const PreparedStack> CmQuestion::prepare(schemas::StackDocument document) const {
+std::unique_ptr<const PreparedStack> CmQuery::prepare(schemas::StackDocument document) const {
     return std::make_unique<CmStack>(std::move(document), at_nm_);
 }
 
-std::unique_ptr<Answers> CmQuestion::answers() const {
-    return std::make_unique<CmAnswers>(*this);
+std::unique_ptr<QueryResult> CmQuery::new_result() const {
+    return std::make_unique<CmResult>(*this);
 }
 
-double CmQuestion::cost_us(const PreparedStack&, const Stack&, double,
-                           std::optional<double>) const {
+double CmQuery::cost_us(const PreparedStack&, const Stack&, double, std::optional<double>) const {
     constexpr double kAngle = 0.5, kRow = 0.5;
     return kAngle + kRow * static_cast<double>(rows_per_angle());
 }
 
-std::unique_ptr<QuestionOptions> CmOptions::add(CLI::App& command) {
+std::unique_ptr<QueryOptions> CmOptions::add(CLI::App& command) {
     auto options = std::make_unique<CmOptions>();
     add_angles_option(command, options->angles);
-    command
-        .add_option("-p,--polarization", options->polarization, "s, p or both with a comma [s,p]")
+    command.add_option("-p,--polarization", options->polarization, "s, p or s,p [s,p]")
         ->type_name("LETTERS");
     command.add_option("--side", options->sides, "R (reflected), T (transmitted) or R,T [R]")
         ->type_name("SIDES");
@@ -190,15 +186,13 @@ std::unique_ptr<QuestionOptions> CmOptions::add(CLI::App& command) {
     offer(command, "side", "R T", OfferedWords::Use::several);
     command.add_option("--orders", options->orders, "orders m, whole numbers in [0, 1e6] [0:5:1]")
         ->type_name("LIST");
-    command
-        .add_option("--at", options->at,
-                    "vacuum wavelength at which the indices are taken, nm, [1, 1e7] [550]")
+    command.add_option("--at", options->at, "vacuum wavelength of the indices, nm, [1, 1e7] [550]")
         ->type_name("NM");
     return options;
 }
 
-std::unique_ptr<const Question> CmOptions::parse(const Answering&) const {
-    return std::make_unique<CmQuestion>(*this);
+std::unique_ptr<const Query> CmOptions::parse(const QueryRun&) const {
+    return std::make_unique<CmQuery>(*this);
 }
 
 nlohmann::json CmOptions::typed() const {

@@ -1,4 +1,4 @@
-#include "cli/queries/spectrum_question.hpp"
+#include "cli/queries/spectrum_query.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "core/spectrum/stack_power.hpp"
 #include "core/stack/index_table.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/index_rows.hpp"
 
 namespace irido::cli {
 
@@ -27,7 +28,8 @@ std::string parse_polarizations(std::string_view text) {
     return letters;
 }
 
-/// The error of the first material that has no index at one of the wavelengths, with its place.
+/// Throws the error of the first material without an index at one of the wavelengths, with its
+/// JSON pointer.
 [[noreturn]] void throw_material_error(const schemas::StackDocument& document,
                                        const std::vector<double>& wavelengths_nm,
                                        const DomainError& fallback) {
@@ -71,32 +73,32 @@ std::string count_of(std::size_t part, std::size_t all, const std::string& what)
     return std::to_string(part) + " of " + std::to_string(all) + " " + what;
 }
 
-/// Why the vector kernel does not take a request.
+/// Why a request is left to the plain kernel.
 std::string why_plain(const StackPower& stack, const Needs& needs, SimdLevel simd) {
     if (simd == SimdLevel::plain) return "IRIDO_SIMD=plain";
     if (needs.layers) return "A_layers";
-    if (!stack.chain()) return "spread thicknesses";
+    if (!stack.chain()) return "thickness distributions";
     return "groups of many absorbing layers, or phases beyond 1e12";
 }
 
 std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::size_t angles,
                                   const std::string& plain_reason) {
     std::vector<std::string> lines;
-    const std::string points = std::to_string(work.points) + " points of wavelength and angle, ";
+    const std::string points = std::to_string(work.points) + " points (wavelength, angle), ";
     if (work.kernel == SimdLevel::plain) {
         lines.push_back(points + "one at a time (" + plain_reason + ")");
     } else {
-        lines.push_back(points + "side by side (" + std::string(name_of(work.kernel)) + "), " +
+        lines.push_back(points + "vectorized (" + std::string(name_of(work.kernel)) + "), " +
                         std::to_string(work.layers) + " layers");
     }
     const auto skipped = [&](const std::string& what) { lines.push_back("skipped: " + what); };
     if (work.normal_angles > 0 && needs.s && needs.p)
         skipped("p at " + count_of(work.normal_angles, angles, "angles (s serves both at 0 deg)"));
-    if (!needs.s || !needs.p) skipped(std::string(needs.s ? "p" : "s") + " (not asked for)");
+    if (!needs.s || !needs.p) skipped(std::string(needs.s ? "p" : "s") + " (not requested)");
     if (work.kernel == SimdLevel::plain) return lines;
-    if (work.one_film) skipped("the recursion over layers (one film: Airy's sum)");
+    if (work.one_film) skipped("recursion over layers (one film: Airy's sum)");
     if (work.mirror)
-        skipped("the matrices of layers (a mirror in a host of one of its indices: Yeh's form)");
+        skipped("layer matrices (closed form for a mirror embedded in one of its own materials)");
     if (work.transparent_layers > 0)
         skipped("complex arithmetic in " +
                 count_of(work.transparent_layers, work.layers, "layers (transparent)"));
@@ -104,11 +106,11 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
         skipped("matrices of " + count_of(work.layers - work.distinct_layers, work.layers,
                                           "layers (equal to others)"));
     if (work.powers > 0)
-        skipped("the repetitions of " + std::to_string(work.powers) +
-                " groups (powers in closed form)");
+        skipped("repetitions of " + schemas::plural(work.powers, "group") +
+                " (matrix powers in closed form)");
     if (work.constant_media > 0)
-        skipped("angle terms of " + count_of(work.constant_media, work.media,
-                                             "media but once an angle (no dispersion)"));
+        lines.push_back("reused across wavelengths: angle terms of " +
+                        count_of(work.constant_media, work.media, "media (no dispersion)"));
     if (!work.absorbs) skipped("absorption (no layer absorbs)");
     if (work.passes > 1)
         lines.push_back(std::to_string(work.passes) +
@@ -116,9 +118,9 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
     return lines;
 }
 
-/// Numbers, more or less, that are computed and written at a time.
+/// Approximate count of numbers that are computed and written at a time.
 constexpr std::size_t kBlockNumbers = 1U << 20U;
-/// Of index tables: 64 MB.
+/// Cache of index tables: 64 MB.
 constexpr std::size_t kKeptIndices = 1U << 23U;
 
 template <class Value>
@@ -127,9 +129,9 @@ std::vector<Value> part_of(const std::vector<Value>& all, std::size_t begin, std
     return {first, first + static_cast<std::ptrdiff_t>(std::min(count, all.size() - begin))};
 }
 
-/// Wavelengths that make an IndexTable of themselves and any others of the request choose the same
-/// arithmetic as one of all: where a material first absorbs, amplifies or changes its index, those
-/// of the largest index, and the shortest.
+/// Wavelengths that, added to any part of a request, make an IndexTable choose the same arithmetic
+/// as for the whole request: those where a material first absorbs, amplifies or changes its index,
+/// those of the largest index, and the shortest.
 class Witnesses {
 public:
     void see(const IndexTable& table) {
@@ -179,7 +181,7 @@ private:
     std::optional<double> shortest_;
 };
 
-/// Leaves the first rows of each column.
+/// Cuts every column after its first `rows` rows.
 void cut(tables::Records& records, std::size_t rows) {
     for (tables::Column& column : records.columns)
         std::visit(
@@ -206,31 +208,32 @@ std::vector<IncidentAngle> incident_angles_of(std::span<const double> angles_deg
 
 }  // namespace
 
-class SpectrumAnswers : public Answers {
+class SpectrumResult : public QueryResult {
 public:
-    explicit SpectrumAnswers(const SpectrumQuestion& question)
-        : SpectrumAnswers(question, question.polarizations_) {}
-    SpectrumAnswers(const SpectrumQuestion& question, std::string polarizations)
-        : question_(question), polarizations_(std::move(polarizations)) {}
+    explicit SpectrumResult(const SpectrumQuery& query)
+        : SpectrumResult(query, query.polarizations_) {}
+    SpectrumResult(const SpectrumQuery& query, std::string polarizations)
+        : query_(query), polarizations_(std::move(polarizations)) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
         const StackPower power = stack_power(prepared.document, stack);
-        const Needs needs = spectrum_needs(polarizations_, question_.columns_, power);
+        const Needs needs = spectrum_needs(polarizations_, query_.columns_, power);
         const bool is_other = incidence.wavelength_nm.has_value();
         const IndexTable& table =
             is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
                      : static_cast<const SpectrumStack&>(prepared).table;
         try {
             spectra(power, table, incident_angles_of(incidence.angles_deg), needs,
-                    question_.execution_, spectra_);
+                    query_.execution_, spectra_);
         } catch (const DomainError& error) {
             throw schemas::InputError(prepared.document.file, "", error.what());
         }
         const std::size_t layers = needs.layers ? power.layer_count() : 0;
         if (numbers_.empty()) begin(layers);
         if (layers != layers_)
-            throw UsageError("--columns: A_layers needs as many layers in every stack");
+            throw UsageError(
+                "--columns: A_layers requires the same number of layers in every stack");
         return append(incidence, table.wavelength_nm());
     }
 
@@ -247,7 +250,7 @@ public:
 private:
     void begin(std::size_t layers) {
         layers_ = layers;
-        names_ = spectrum_number_names(question_.columns_, layers);
+        names_ = spectrum_number_names(query_.columns_, layers);
         numbers_.assign(names_.size(), {});
         wavelength_ = {};
         angle_ = {};
@@ -258,7 +261,7 @@ private:
     std::size_t append(const Incidence& incidence, const std::vector<double>& wavelengths_nm) {
         const SpectrumShape shape{incidence.angles_deg.size(), polarizations_,
                                   wavelengths_nm.size()};
-        append_spectrum_numbers(shape, question_.columns_, layers_, spectra_, numbers_);
+        append_spectrum_numbers(shape, query_.columns_, layers_, spectra_, numbers_);
         if (incidence.wavelength_nm || !shared_wavelengths_) {
             first_wavelength_ = static_cast<std::uint32_t>(wavelength_.values.size());
             wavelength_.values.insert(wavelength_.values.end(), wavelengths_nm.begin(),
@@ -279,7 +282,7 @@ private:
         return shape.rows();
     }
 
-    const SpectrumQuestion& question_;
+    const SpectrumQuery& query_;
     std::string polarizations_;
     Spectra spectra_;
     std::optional<IndexTable> other_;
@@ -288,12 +291,12 @@ private:
     std::vector<tables::Column::Numbers> numbers_;
     tables::Column::CodedNumbers wavelength_, angle_;
     tables::Column::CodedTexts polarization_;
-    bool shared_wavelengths_ = false;  ///< the last values are those of the question
+    bool shared_wavelengths_ = false;  ///< the last values are those of the query
     std::uint32_t first_wavelength_ = 0;
 };
 
-SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering)
-    : varies_wavelength_(answering.varies_wavelength),
+SpectrumQuery::SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run)
+    : varies_wavelength_(run.varies_wavelength),
       wavelengths_nm_(varies_wavelength_
                           ? std::vector<double>{}
                           : parse_list("--wavelengths", typed.wavelengths, kAllWavelengths.first_nm,
@@ -301,10 +304,10 @@ SpectrumQuestion::SpectrumQuestion(const SpectrumOptions& typed, const Answering
       angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
       columns_(parse_spectrum_columns(typed.columns)),
-      execution_(answering.execution),
-      note_(answering.note) {}
+      execution_(run.execution),
+      note_(run.note) {}
 
-tables::RecordLayout SpectrumQuestion::layout(const schemas::StackDocument& document) const {
+tables::RecordLayout SpectrumQuery::layout(const schemas::StackDocument& document) const {
     const StackPower power = stack_power(document, document.stack);
     const bool by_layer = spectrum_needs(polarizations_, columns_, power).layers;
     tables::RecordLayout layout{
@@ -314,7 +317,7 @@ tables::RecordLayout SpectrumQuestion::layout(const schemas::StackDocument& docu
     return layout;
 }
 
-tables::RowPlot SpectrumQuestion::plot(const tables::Records& rows, tables::GamutMapping) const {
+tables::RowPlot SpectrumQuery::plot(const tables::Records& rows, tables::GamutMapping) const {
     tables::RowPlot plot;
     for (const char* name : {"wavelength_nm", "angle_deg", "polarization"})
         plot.keys.push_back({name, tables::axis_of_column(name)});
@@ -328,20 +331,19 @@ tables::RowPlot SpectrumQuestion::plot(const tables::Records& rows, tables::Gamu
     return plot;
 }
 
-std::unique_ptr<const PreparedStack> SpectrumQuestion::prepare(
-    schemas::StackDocument document) const {
+std::unique_ptr<const PreparedStack> SpectrumQuery::prepare(schemas::StackDocument document) const {
     spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));
     auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
     note_incident(prepared->document, prepared->table, note_);
     return prepared;
 }
 
-std::unique_ptr<Answers> SpectrumQuestion::answers() const {
-    return std::make_unique<SpectrumAnswers>(*this);
+std::unique_ptr<QueryResult> SpectrumQuery::new_result() const {
+    return std::make_unique<SpectrumResult>(*this);
 }
 
-double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
-                                 double angle_deg, std::optional<double> wavelength_nm) const {
+double SpectrumQuery::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                              std::optional<double> wavelength_nm) const {
     constexpr double kStack = 2, kRow = 0.2, kOperation = 3e-5, kPlainPoint = 2;
     const StackPower power = stack_power(prepared.document, stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
@@ -357,40 +359,40 @@ double SpectrumQuestion::cost_us(const PreparedStack& prepared, const Stack& sta
            point * static_cast<double>(work.points);
 }
 
-std::uint64_t SpectrumQuestion::rows() const {
+std::uint64_t SpectrumQuery::rows() const {
     return std::uint64_t{rows_per_angle()} * angles_deg_.size();
 }
 
-double SpectrumQuestion::try_share(const schemas::StackDocument& document,
-                                   const Incidence& incidence, double share) const {
+double SpectrumQuery::try_share(const schemas::StackDocument& document, const Incidence& incidence,
+                                double share) const {
     const std::size_t all = wavelengths_nm_.size();
-    if (incidence.wavelength_nm || all == 0) return Question::try_share(document, incidence, share);
+    if (incidence.wavelength_nm || all == 0) return Query::try_share(document, incidence, share);
     const auto wanted = static_cast<std::size_t>(std::round(share * static_cast<double>(all)));
     const std::size_t count = std::clamp<std::size_t>(wanted, 1, std::min(all, kBlockNumbers));
     std::vector<double> some;
     for (std::size_t i = 0; i < count; ++i)
         some.push_back(wavelengths_nm_[(2 * i + 1) * all / (2 * count)]);
     const SpectrumStack prepared(document, some);
-    answers()->add(prepared, document.stack, incidence);
+    new_result()->add(prepared, document.stack, incidence);
     return static_cast<double>(count) / static_cast<double>(all);
 }
 
-void SpectrumQuestion::each_block(const schemas::StackDocument& document,
-                                  const std::function<void(const tables::Records&)>& take) const {
+void SpectrumQuery::each_block(const schemas::StackDocument& document,
+                               const std::function<void(const tables::Records&)>& take) const {
     const std::size_t most = std::max<std::size_t>(1, kBlockNumbers / layout(document).size());
     if (rows_per_angle() > most) return each_part_of_angle(document, most, take);
     const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
     const std::size_t count = (angles + blocks - 1) / blocks;
     const auto prepared = prepare(document);
-    const auto answers = this->answers();
+    const auto result = new_result();
     for (std::size_t a = 0; a < angles; a += count) {
         const std::vector<double> some = part_of(angles_deg_, a, count);
-        answers->add(*prepared, document.stack, {some});
-        take(answers->records());
+        result->add(*prepared, document.stack, {some});
+        take(result->records());
     }
 }
 
-void SpectrumQuestion::each_part_of_angle(
+void SpectrumQuery::each_part_of_angle(
     const schemas::StackDocument& document, std::size_t most,
     const std::function<void(const tables::Records&)>& take) const {
     const std::size_t all = wavelengths_nm_.size();
@@ -401,7 +403,7 @@ void SpectrumQuestion::each_part_of_angle(
         witnesses.see(table);
     }
     const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
-    // what all angles and polarizations have in common, as far as there is room for it
+    // shared by all angles and polarizations, and kept if it fits
     std::vector<std::unique_ptr<const SpectrumStack>> kept((all + most - 1) / most);
     const bool has_room = all * (2 * document.stack.materials.size() + 2) <= kKeptIndices;
     std::unique_ptr<const SpectrumStack> passing;
@@ -413,11 +415,11 @@ void SpectrumQuestion::each_part_of_angle(
         part = std::make_unique<const SpectrumStack>(document, some);
         return *part;
     };
-    std::vector<SpectrumAnswers> answers;
+    std::vector<SpectrumResult> results;
     for (const char polarization : polarizations_)
-        answers.emplace_back(*this, std::string{polarization});
+        results.emplace_back(*this, std::string{polarization});
     for (const double angle_deg : angles_deg_)
-        for (SpectrumAnswers& of_polarization : answers)
+        for (SpectrumResult& of_polarization : results)
             for (std::size_t w = 0; w < all; w += most) {
                 of_polarization.add(prepared(w), document.stack, {{&angle_deg, 1}});
                 tables::Records rows = of_polarization.records();
@@ -426,7 +428,7 @@ void SpectrumQuestion::each_part_of_angle(
             }
 }
 
-std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) const {
+std::vector<std::string> SpectrumQuery::stats(const PreparedStack& prepared) const {
     const StackPower power = stack_power(prepared.document, prepared.document.stack);
     const Needs needs = spectrum_needs(polarizations_, columns_, power);
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
@@ -434,7 +436,7 @@ std::vector<std::string> SpectrumQuestion::stats(const PreparedStack& prepared) 
     return lines_of(work, needs, angles_deg_.size(), why_plain(power, needs, execution_.simd));
 }
 
-std::unique_ptr<QuestionOptions> SpectrumOptions::add(CLI::App& command) {
+std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
     auto options = std::make_unique<SpectrumOptions>();
     command
         .add_option("-w,--wavelengths", options->wavelengths,
@@ -443,26 +445,27 @@ std::unique_ptr<QuestionOptions> SpectrumOptions::add(CLI::App& command) {
     add_angles_option(command, options->angles);
     command
         .add_option("-p,--polarization", options->polarization,
-                    "s, p, u (unpolarized: the mean of both), several with commas [u]")
+                    "s, p, u (unpolarized: the mean of both) or several: s,p [u]")
         ->type_name("LETTERS");
     command
         .add_option("--columns", options->columns,
-                    "more columns, several with commas, in that order:\n"
+                    "additional columns, in the order given:\n"
                     "r_re r_im t_re t_im  amplitudes of the tangential electric\n"
                     "    field, time factor exp(-i w t), so that r_p = r_s at 0 deg\n"
                     "psi_deg delta_deg  ellipsometric angles, r_p/r_s = tan(psi)\n"
-                    "    exp(i delta); delta = 0 at 0 deg (others have 180 there)\n"
-                    "A_layers  A_1 A_2 ..., absorbed in each layer, at most 1000\n"
+                    "    exp(i delta); delta = 0 at 0 deg (the other common\n"
+                    "    convention gives 180)\n"
+                    "A_layers  A_1 A_2 ..., absorptance of each layer, at most 1000\n"
                     "    (np.load needs max_header_size=100000 for more than 500)\n"
-                    "All but A_layers need -p s, p or s,p and coherent layers")
+                    "All but A_layers require -p s, p or s,p and coherent layers")
         ->type_name("NAMES");
     offer(command, "polarization", "s p u", OfferedWords::Use::several);
     offer(command, "columns", spectrum_column_names, OfferedWords::Use::several);
     return options;
 }
 
-std::unique_ptr<const Question> SpectrumOptions::parse(const Answering& answering) const {
-    return std::make_unique<SpectrumQuestion>(*this, answering);
+std::unique_ptr<const Query> SpectrumOptions::parse(const QueryRun& run) const {
+    return std::make_unique<SpectrumQuery>(*this, run);
 }
 
 nlohmann::json SpectrumOptions::typed() const {

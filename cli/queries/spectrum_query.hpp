@@ -3,27 +3,27 @@
 #include <string>
 #include <vector>
 
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 #include "cli/queries/spectrum_columns.hpp"
 
 namespace irido::cli {
 
-/// What irido spectrum is asked, as typed.
-struct SpectrumOptions : QuestionOptions {
+/// Options of irido spectrum, as typed.
+struct SpectrumOptions : QueryOptions {
     std::string wavelengths = "380:780:1";
     std::string angles = "0";
     std::string polarization = "u";
     std::string columns;
 
-    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
-    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    static std::unique_ptr<QueryOptions> add(CLI::App& command);
+    std::unique_ptr<const Query> parse(const QueryRun& run) const override;
     nlohmann::json typed() const override;
 };
 
-/// R, T, A and more over wavelengths and angles.
-class SpectrumQuestion : public Question {
+/// R, T, A and optional columns over wavelengths and angles.
+class SpectrumQuery : public Query {
 public:
-    SpectrumQuestion(const SpectrumOptions& typed, const Answering& answering);
+    SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run);
 
     std::span<const double> angles_deg() const override { return angles_deg_; }
     bool takes_wavelength() const override { return true; }
@@ -33,7 +33,7 @@ public:
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
-    std::unique_ptr<Answers> answers() const override;
+    std::unique_ptr<QueryResult> new_result() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
     double try_share(const schemas::StackDocument& document, const Incidence& incidence,
@@ -41,16 +41,16 @@ public:
 
     /// Rows of all wavelengths, angles and polarizations.
     std::uint64_t rows() const;
-    /// Gives all rows of a stack in their order, block after block, in memory that does not grow
-    /// with their number: the values of prepare() and answers(). Throws as these.
+    /// Passes all rows of a stack to `take`, in order, block by block and in constant memory; the
+    /// values are those of new_result(). Throws InputError or UsageError.
     void each_block(const schemas::StackDocument& document,
                     const std::function<void(const tables::Records&)>& take) const;
 
-    /// How a stack was computed, and what its physics spared, in lines.
+    /// Lines about how a stack was computed and which work its physics saved.
     std::vector<std::string> stats(const PreparedStack& prepared) const;
 
 private:
-    friend class SpectrumAnswers;
+    friend class SpectrumResult;
 
     void each_part_of_angle(const schemas::StackDocument& document, std::size_t most,
                             const std::function<void(const tables::Records&)>& take) const;

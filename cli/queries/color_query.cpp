@@ -1,4 +1,4 @@
-#include "cli/queries/color_question.hpp"
+#include "cli/queries/color_query.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,10 +23,10 @@ namespace irido::cli {
 
 namespace {
 
-/// Of all structures: 256 MB.
+/// Cache of all structures: 256 MB.
 constexpr std::size_t kKeptNumbers = 1U << 25;
 
-/// x, y of the colour, of the white where there is no light.
+/// x, y of the colour, or of the white where there is no light.
 std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
     const Triple& shown = xyz[0] + xyz[1] + xyz[2] > 0 ? xyz : white;
     const double sum = shown[0] + shown[1] + shown[2];
@@ -36,10 +36,10 @@ std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
 struct ColorStack : PreparedStack {
     using PreparedStack::PreparedStack;
 
-    std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one a lighting
+    std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one per illumination
 };
 
-/// Columns of rows that are filled one after another.
+/// Columns to which rows are appended.
 struct ColorRows {
     std::array<tables::Column::Numbers, 9> numbers;  ///< angle, X Y Z, x y, r g b
     tables::Column::CodedTexts side;
@@ -57,10 +57,10 @@ struct ColorRows {
         side.codes.reserve(rows);
     }
 
-    void add(const Illumination& lighting, const RgbSpace& space, double angle_deg,
+    void add(const Illumination& illumination, const RgbSpace& space, double angle_deg,
              const Triple& xyz) {
-        const auto [x, y] = chromaticity(xyz, lighting.white());
-        const Triple rgb = lighting.transform(xyz);
+        const auto [x, y] = chromaticity(xyz, illumination.white());
+        const Triple rgb = illumination.transform(xyz);
         const std::array row{angle_deg, xyz[0], xyz[1], xyz[2], x, y, rgb[0], rgb[1], rgb[2]};
         for (std::size_t c = 0; c < row.size(); ++c) numbers[c].push_back(row[c]);
         hexes.push_back(hex(space, rgb));
@@ -68,7 +68,7 @@ struct ColorRows {
     }
 };
 
-/// The incident medium's index at every nm that counts.
+/// The incident medium's index at every nm that contributes.
 IndexTable incident_table(const Stack& stack, WavelengthRange support) {
     Material medium = stack.materials[stack.incident];
     medium.outside = Outside::clamp;
@@ -83,8 +83,7 @@ RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptatio
     try {
         return {space, white, adaptation};
     } catch (const DomainError& error) {
-        throw UsageError("--illuminant: " + std::string(error.what()) +
-                         ", --adaptation none does without");
+        throw UsageError("--illuminant: " + std::string(error.what()) + "; use --adaptation none");
     }
 }
 
@@ -94,24 +93,24 @@ Illumination::Illumination(std::string named, Sensitivity sensitivity, const Rgb
       tables(std::move(sensitivity)),
       transform(rgb_transform(space, white(), adaptation)) {}
 
-class ColorAnswers : public Answers {
+class ColorResult : public QueryResult {
 public:
-    explicit ColorAnswers(const ColorQuestion& question) : question_(question) {}
+    explicit ColorResult(const ColorQuery& query) : query_(query) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
-        stacks_.push_back(question_.colors(prepared, stack, incidence.angles_deg));
-        return incidence.angles_deg.size() * question_.rows_per_angle();
+        stacks_.push_back(query_.colors(prepared, stack, incidence.angles_deg));
+        return incidence.angles_deg.size() * query_.rows_per_angle();
     }
 
-    tables::Records records() override { return question_.records(std::exchange(stacks_, {})); }
+    tables::Records records() override { return query_.records(std::exchange(stacks_, {})); }
 
 private:
-    const ColorQuestion& question_;
+    const ColorQuery& query_;
     std::vector<StackColors> stacks_;
 };
 
-ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering& answering)
+ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       illuminant_(parse_illuminant(typed.color.illuminant)),
       method_(parse_method(typed.color)),
@@ -120,30 +119,30 @@ ColorQuestion::ColorQuestion(const ColorQuestionOptions& typed, const Answering&
       space_(&parse_space(typed.color.space)),
       stats_(typed.stats),
       strict_(typed.strict),
-      answering_(answering) {
+      run_(run) {
     const Adaptation adaptation = parse_adaptation(typed.color.adaptation);
     request_.sides = parse_sides(typed.color.sides);
     request_.light = parse_light(typed.color.polarization);
     request_.tolerance = parse_tolerance(typed.color.tolerance);
     request_.colors = static_cast<std::size_t>(
-        std::min(1e15, answering.stacks * static_cast<double>(angles_deg_.size())));
-    request_.varied = answering.varied;
-    request_.kept_numbers = std::min(request_.kept_numbers,
-                                     kKeptNumbers / std::max<std::size_t>(1, answering.structures));
-    request_.simd = answering.execution.simd;
+        std::min(1e15, run.stacks * static_cast<double>(angles_deg_.size())));
+    request_.varied = run.varied;
+    request_.kept_numbers =
+        std::min(request_.kept_numbers, kKeptNumbers / std::max<std::size_t>(1, run.structures));
+    request_.simd = run.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
     const std::string first = schemas::well_formed(typed.color.illuminant);  // perhaps a file's
-    lightings_.push_back(
+    illuminations_.push_back(
         std::make_unique<Illumination>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
     if (!typed.compare) return;
     for (const std::string_view name : illuminant_names())
         if (name != first)
-            lightings_.push_back(std::make_unique<Illumination>(
+            illuminations_.push_back(std::make_unique<Illumination>(
                 std::string(name), Sensitivity(eye, illuminant(name)), *space_, adaptation));
 }
 
-tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const {
-    using enum RecordField::Type;
+tables::RecordLayout ColorQuery::layout(const schemas::StackDocument&) const {
+    using enum tables::RecordField::Type;
     constexpr std::size_t hex_width = 7, longest_method = 24;
     tables::RecordLayout layout{{"angle_deg"}, {"side", text, 1}};
     for (const char* name : {"X", "Y", "Z", "x", "y", "r", "g", "b"}) layout.push_back({name});
@@ -154,28 +153,30 @@ tables::RecordLayout ColorQuestion::layout(const schemas::StackDocument&) const 
         layout.push_back({"evaluations"});
         layout.push_back({"error_estimate"});
     }
-    if (lightings_.size() == 1) return layout;
+    if (illuminations_.size() == 1) return layout;
     std::size_t longest = 1;
-    for (const auto& lighting : lightings_) longest = std::max(longest, lighting->name.size());
+    for (const auto& illumination : illuminations_)
+        longest = std::max(longest, illumination->name.size());
     layout.push_back({"illuminant", text, longest});
     layout.push_back({"delta_e_2000"});
     return layout;
 }
 
-tables::RowPlot ColorQuestion::plot(const tables::Records& rows, tables::GamutMapping gamut) const {
+tables::RowPlot ColorQuery::plot(const tables::Records& rows, tables::GamutMapping gamut) const {
     tables::RowPlot plot;
     for (const char* name : {"angle_deg", "side", "illuminant"})
         if (std::ranges::find(rows.columns, name, &tables::Column::name) != rows.columns.end())
             plot.keys.push_back({name, tables::axis_of_column(name)});
     std::map<std::string, RgbTransform> transforms;
-    for (const auto& lighting : lightings_)
-        transforms.emplace(lighting->name, RgbTransform(rgb_space("srgb"), lighting->white(),
-                                                        Adaptation::bradford));
+    for (const auto& illumination : illuminations_)
+        transforms.emplace(
+            illumination->name,
+            RgbTransform(rgb_space("srgb"), illumination->white(), Adaptation::bradford));
     std::array<std::vector<double>, 3> xyz;
     for (std::size_t i = 0; i < 3; ++i)
         xyz[i] = tables::column_numbers(rows, std::string(1, "XYZ"[i]));
-    const std::vector<std::string> under = lightings_.size() == 1
-                                               ? std::vector(rows.rows(), lightings_.front()->name)
+    const std::vector<std::string> under = illuminations_.size() == 1
+                                               ? std::vector(rows.rows(), illuminations_.front()->name)
                                                : tables::column_texts(rows, "illuminant");
     tables::InkMixer mixer(gamut);
     for (std::size_t row = 0; row < rows.rows(); ++row)
@@ -185,59 +186,58 @@ tables::RowPlot ColorQuestion::plot(const tables::Records& rows, tables::GamutMa
     return plot;
 }
 
-nlohmann::json ColorQuestion::data() const {
+nlohmann::json ColorQuery::data() const {
     return {illuminant_.wavelength_nm, illuminant_.value};
 }
 
-std::unique_ptr<const PreparedStack> ColorQuestion::prepare(schemas::StackDocument document) const {
-    report_held_ranges(document, lightings_.front()->tables.sensitivity(), strict_,
-                       answering_.note);
+std::unique_ptr<const PreparedStack> ColorQuery::prepare(schemas::StackDocument document) const {
+    report_held_ranges(document, illuminations_.front()->tables.sensitivity(), strict_, run_.note);
     const std::string file = document.file;
     try {
-        const WavelengthRange support = lightings_.front()->tables.sensitivity().support();
-        note_incident(document, incident_table(document.stack, support), answering_.note);
+        const WavelengthRange support = illuminations_.front()->tables.sensitivity().support();
+        note_incident(document, incident_table(document.stack, support), run_.note);
         auto prepared = std::make_unique<ColorStack>(std::move(document));
-        for (const auto& lighting : lightings_)
+        for (const auto& illumination : illuminations_)
             prepared->algorithms.push_back(
-                base_color_ ? approximate_color(lighting->tables, prepared->document.stack, method_,
-                                                request_, base_color_)
-                            : color_algorithm(lighting->tables, prepared->document.stack, method_,
-                                              request_));
+                base_color_ ? approximate_color(illumination->tables, prepared->document.stack,
+                                                method_, request_, base_color_)
+                            : color_algorithm(illumination->tables, prepared->document.stack,
+                                              method_, request_));
         return prepared;
     } catch (const DomainError& error) {
         throw schemas::InputError(file, "", error.what());
     }
 }
 
-std::unique_ptr<Answers> ColorQuestion::answers() const {
-    return std::make_unique<ColorAnswers>(*this);
+std::unique_ptr<QueryResult> ColorQuery::new_result() const {
+    return std::make_unique<ColorResult>(*this);
 }
 
-double ColorQuestion::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
-                              std::optional<double>) const {
+double ColorQuery::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                           std::optional<double>) const {
     constexpr double kColor = 1, kLayer = 0.012, kPathWavelength_nm = 500;
-    const Sensitivity& sensitivity = lightings_.front()->tables.sensitivity();
+    const Sensitivity& sensitivity = illuminations_.front()->tables.sensitivity();
     const Stack& model = prepared.document.stack;
     const IndexTable indices(held_stack(model, sensitivity), {kPathWavelength_nm});
     const std::size_t pieces = smooth_pieces(model, sensitivity.support()).size() - 1;
-    return static_cast<double>(lightings_.size()) *
+    return static_cast<double>(illuminations_.size()) *
            (kColor + kLayer * quadrature_work(stack, indices, pieces, incident_angle(angle_deg)));
 }
 
-double ColorQuestion::try_share(const schemas::StackDocument& document, const Incidence& incidence,
-                                double share) const {
+double ColorQuery::try_share(const schemas::StackDocument& document, const Incidence& incidence,
+                             double share) const {
     constexpr double kUsualWavelengths = 1000;  // of a colour, as --stats says
-    const ColorTables& tables = lightings_.front()->tables;
-    const auto lightings = static_cast<double>(lightings_.size());
+    const ColorTables& tables = illuminations_.front()->tables;
+    const auto illuminations = static_cast<double>(illuminations_.size());
     const StackPower power(document.stack);
     if (power.spread_layers() == 0 && share < 1)
-        return std::numeric_limits<double>::infinity();  // costs as much as all
+        return std::numeric_limits<double>::infinity();  // a part costs as much as the whole
     if (share >= 1) {
         const auto algorithm =
             base_color_ ? approximate_color(tables, document.stack, method_, request_, base_color_)
                         : color_algorithm(tables, document.stack, method_, request_);
         stack_color(*algorithm, document.stack, sides().size(), incidence.angles_deg, 1);
-        return 1 / lightings;
+        return 1 / illuminations;
     }
     std::vector<IncidentAngle> angles;
     for (const double angle_deg : incidence.angles_deg) angles.push_back(incident_angle(angle_deg));
@@ -248,21 +248,21 @@ double ColorQuestion::try_share(const schemas::StackDocument& document, const In
         wavelengths_nm.push_back(all.first_nm + (i + 0.5) / count * (all.last_nm - all.first_nm));
     const IndexTable indices(held_stack(document.stack, tables.sensitivity()), wavelengths_nm);
     spectra(power, indices, angles, needs_of(request_), {1, request_.simd});
-    return count / kUsualWavelengths / lightings;
+    return count / kUsualWavelengths / illuminations;
 }
 
-StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& stack,
-                                  std::span<const double> angles_deg) const {
+StackColors ColorQuery::colors(const PreparedStack& prepared, const Stack& stack,
+                               std::span<const double> angles_deg) const {
     const auto& algorithms = static_cast<const ColorStack&>(prepared).algorithms;
-    const unsigned threads = answering_.execution.threads;
+    const unsigned threads = run_.execution.threads;
     StackColors result{{angles_deg.begin(), angles_deg.end()}, {}};
     bool approximate = method_.count > 0;
     try {
-        for (std::size_t i = 0; i < lightings_.size(); ++i) {
+        for (std::size_t i = 0; i < illuminations_.size(); ++i) {
             result.colors.push_back(
                 stack_color(*algorithms[i], stack, sides().size(), angles_deg, threads));
-            if (answering_.is_silent && !stats_ && !held_to_tolerance_) continue;
-            approximate |= measure_errors(lightings_[i]->tables, stack, request_, angles_deg,
+            if (run_.is_silent && !stats_ && !held_to_tolerance_) continue;
+            approximate |= measure_errors(illuminations_[i]->tables, stack, request_, angles_deg,
                                           threads, result.colors.back());
         }
     } catch (const DomainError& error) {
@@ -272,19 +272,19 @@ StackColors ColorQuestion::colors(const PreparedStack& prepared, const Stack& st
     return result;
 }
 
-/// Methods that are not exact are held to nothing by themselves: a note says how far they are off
-/// if it is more than the default tolerance.
-void ColorQuestion::check_errors(const schemas::StackDocument& document, const StackColors& colors,
-                                 bool approximate) const {
+/// Approximate methods have no tolerance unless one is given: a note reports an error above the
+/// default one.
+void ColorQuery::check_errors(const schemas::StackDocument& document, const StackColors& colors,
+                              bool approximate) const {
     for (const std::vector<StackColor>& lit : colors.colors) {
         const auto worst = std::ranges::max_element(lit, {}, &StackColor::error);
         if (worst->error <= request_.tolerance) continue;
         if (!held_to_tolerance_ && (approximate || !std::isfinite(worst->error))) {
-            if (answering_.is_silent) continue;
+            if (run_.is_silent) continue;
             std::array<char, 32> text{};
             std::snprintf(text.data(), text.size(), "%.2g", worst->error);
-            answering_.note(document.file + ": " + name_of(method_) + " is off by up to " +
-                            text.data() + " in X, Y, Z here");
+            run_.note(document.file + ": " + name_of(method_) + ": error up to " + text.data() +
+                      " in X, Y, Z for this stack");
             continue;
         }
         const auto i = static_cast<std::size_t>(worst - lit.begin());
@@ -298,30 +298,31 @@ void ColorQuestion::check_errors(const schemas::StackDocument& document, const S
     }
 }
 
-tables::Records ColorQuestion::records(const std::vector<StackColors>& stacks) const {
+tables::Records ColorQuery::records(const std::vector<StackColors>& stacks) const {
     ColorRows rows;
     for (const Side side : sides()) rows.side.values.emplace_back(letter(side));
-    for (const auto& lighting : lightings_) rows.illuminant.values.push_back(lighting->name);
+    for (const auto& illumination : illuminations_)
+        rows.illuminant.values.push_back(illumination->name);
     std::size_t count = 0;
     for (const StackColors& stack : stacks) count += stack.angles_deg.size() * rows_per_angle();
     rows.reserve(count);
     for (const StackColors& stack : stacks) {
-        for (std::uint32_t l = 0; l < lightings_.size(); ++l) {
-            const Illumination& lighting = *lightings_[l];
+        for (std::uint32_t l = 0; l < illuminations_.size(); ++l) {
+            const Illumination& illumination = *illuminations_[l];
             for (std::size_t i = 0; i < stack.colors[l].size(); ++i) {
                 const StackColor& color = stack.colors[l][i];
-                rows.add(lighting, *space_, stack.angles_deg[i / sides().size()], color.xyz);
+                rows.add(illumination, *space_, stack.angles_deg[i / sides().size()], color.xyz);
                 rows.side.codes.push_back(static_cast<std::uint32_t>(i % sides().size()));
                 if (stats_) {
                     rows.method.push_back(name_of(ColorMethod{color.method, method_.count}));
                     rows.evaluations.push_back(static_cast<double>(color.evaluations));
                     rows.error.push_back(color.error);
                 }
-                if (lightings_.size() == 1) continue;
+                if (illuminations_.size() == 1) continue;
                 rows.illuminant.codes.push_back(l);
                 rows.delta_e.push_back(
-                    ciede2000(lab(color.xyz, lighting.white()),
-                              lab(stack.colors[0][i].xyz, lightings_[0]->white())));
+                    ciede2000(lab(color.xyz, illumination.white()),
+                              lab(stack.colors[0][i].xyz, illuminations_[0]->white())));
             }
         }
     }
@@ -337,32 +338,32 @@ tables::Records ColorQuestion::records(const std::vector<StackColors>& stacks) c
         records.columns.push_back({"evaluations", std::move(rows.evaluations)});
         records.columns.push_back({"error_estimate", std::move(rows.error)});
     }
-    if (lightings_.size() == 1) return records;
+    if (illuminations_.size() == 1) return records;
     records.columns.push_back({"illuminant", std::move(rows.illuminant)});
     records.columns.push_back({"delta_e_2000", std::move(rows.delta_e)});
     return records;
 }
 
-std::unique_ptr<QuestionOptions> ColorQuestionOptions::add(CLI::App& command) {
-    auto options = std::make_unique<ColorQuestionOptions>();
+std::unique_ptr<QueryOptions> ColorQueryOptions::add(CLI::App& command) {
+    auto options = std::make_unique<ColorQueryOptions>();
     add_angles_option(command, options->angles);
     add_color_options(command, options->color);
     command.add_flag("--compare-illuminants", options->compare,
-                     "the same under every other named illuminant too; adds\n"
+                     "also compute every other named illuminant; adds columns\n"
                      "illuminant,delta_e_2000 (CIEDE2000 to the first one)");
     command.add_flag("--stats", options->stats,
-                     "adds method,evaluations,error_estimate; the error of methods\n"
-                     "that are not exact is measured against quadrature");
+                     "add columns method,evaluations,error_estimate; the error of\n"
+                     "approximate methods is measured against quadrature");
     command.add_flag("--strict", options->strict,
-                     "a material not known from 360 to 830 nm is an error");
+                     "refuse materials whose data do not cover 360 to 830 nm");
     return options;
 }
 
-std::unique_ptr<const Question> ColorQuestionOptions::parse(const Answering& answering) const {
-    return std::make_unique<ColorQuestion>(*this, answering);
+std::unique_ptr<const Query> ColorQueryOptions::parse(const QueryRun& run) const {
+    return std::make_unique<ColorQuery>(*this, run);
 }
 
-nlohmann::json ColorQuestionOptions::typed() const {
+nlohmann::json ColorQueryOptions::typed() const {
     return {{"angles", angles},
             {"side", color.sides},
             {"polarization", color.polarization},

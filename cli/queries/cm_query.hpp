@@ -3,27 +3,27 @@
 #include <string>
 #include <vector>
 
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 
 namespace irido::cli {
 
-/// What irido cm is asked, as typed.
-struct CmOptions : QuestionOptions {
+/// Options of irido cm, as typed.
+struct CmOptions : QueryOptions {
     std::string angles = "0";
     std::string polarization = "s,p";
     std::string orders = "0:5:1";
     std::string sides = "R";
     std::string at = "550";
 
-    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
-    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    static std::unique_ptr<QueryOptions> add(CLI::App& command);
+    std::unique_ptr<const Query> parse(const QueryRun& run) const override;
     nlohmann::json typed() const override;
 };
 
 /// The Fourier series of one film's fringes.
-class CmQuestion : public Question {
+class CmQuery : public Query {
 public:
-    explicit CmQuestion(const CmOptions& typed);
+    explicit CmQuery(const CmOptions& typed);
 
     std::span<const double> angles_deg() const override { return angles_deg_; }
     std::size_t rows_per_angle() const override {
@@ -32,12 +32,12 @@ public:
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
-    std::unique_ptr<Answers> answers() const override;
+    std::unique_ptr<QueryResult> new_result() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
 
 private:
-    friend class CmAnswers;
+    friend class CmResult;
 
     std::vector<double> angles_deg_;
     std::vector<char> polarizations_;  ///< s or p

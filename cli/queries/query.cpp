@@ -1,4 +1,4 @@
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,28 +6,28 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options/long_work.hpp"
-#include "cli/queries/bands_question.hpp"
-#include "cli/queries/cm_question.hpp"
-#include "cli/queries/color_question.hpp"
-#include "cli/queries/spectrum_question.hpp"
+#include "cli/queries/bands_query.hpp"
+#include "cli/queries/cm_query.hpp"
+#include "cli/queries/color_query.hpp"
+#include "cli/queries/spectrum_query.hpp"
 
 namespace irido::cli {
 
 namespace {
 
-/// A row, as text.
+/// Seconds to write one row as text.
 constexpr double kWriting_s = 1e-6;
 
 }  // namespace
 
-nlohmann::json Question::data() const {
+nlohmann::json Query::data() const {
     return nullptr;
 }
 
-double Question::try_share(const schemas::StackDocument& document, const Incidence& incidence,
-                           double) const {
+double Query::try_share(const schemas::StackDocument& document, const Incidence& incidence,
+                        double) const {
     const std::unique_ptr<const PreparedStack> prepared = prepare(document);
-    answers()->add(*prepared, document.stack, incidence);
+    new_result()->add(*prepared, document.stack, incidence);
     return 1;
 }
 
@@ -39,17 +39,17 @@ void note_incident(const schemas::StackDocument& document, const IndexTable& tab
     if (largest > 0) say(document.file + ": /incident: " + schemas::incident_note(largest));
 }
 
-tables::Records records_of(const Question& question, const PreparedStack& prepared) {
-    const std::unique_ptr<Answers> answers = question.answers();
-    answers->add(prepared, prepared.document.stack, {question.angles_deg()});
-    return answers->records();
+tables::Records records_of(const Query& query, const PreparedStack& prepared) {
+    const std::unique_ptr<QueryResult> result = query.new_result();
+    result->add(prepared, prepared.document.stack, {query.angles_deg()});
+    return result->records();
 }
 
-tables::Figure figure_of_rows(const Question& question, const tables::Records& rows,
+tables::Figure figure_of_rows(const Query& query, const tables::Records& rows,
                               const std::vector<std::string>& varied, const std::string& title,
                               tables::GamutMapping gamut,
                               const std::function<void(const std::string&)>& say) {
-    tables::RowPlot plot = question.plot(rows, gamut);
+    tables::RowPlot plot = query.plot(rows, gamut);
     plot.title = title;
     auto place = plot.keys.begin();
     if (place->column == "wavelength_nm") ++place;  // along x, whatever else varies
@@ -59,9 +59,9 @@ tables::Figure figure_of_rows(const Question& question, const tables::Records& r
     return tables::figure_of(rows, plot);
 }
 
-double seconds_of_rows(const Question& question, const schemas::StackDocument& document,
+double seconds_of_rows(const Query& query, const schemas::StackDocument& document,
                        unsigned threads) {
-    const std::span<const double> all = question.angles_deg();
+    const std::span<const double> all = query.angles_deg();
     const auto seconds_of = [&](double angles) {
         const auto count = static_cast<std::size_t>(std::max(1.0, std::round(angles)));
         std::vector<double> some;
@@ -69,27 +69,27 @@ double seconds_of_rows(const Question& question, const schemas::StackDocument& d
             some.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
         double share = 1;
         const double seconds = processor_seconds(
-            [&] { share = question.try_share(document, {some}, std::min(1.0, angles)); });
+            [&] { share = query.try_share(document, {some}, std::min(1.0, angles)); });
         return seconds * angles / (share * static_cast<double>(count)) / threads_used(threads);
     };
-    const auto rows = static_cast<double>(question.rows_per_angle() * all.size());
+    const auto rows = static_cast<double>(query.rows_per_angle() * all.size());
     return kWriting_s * rows +
            tried_seconds(static_cast<double>(all.size()), kFirstShare, seconds_of);
 }
 
-std::span<const QuestionKind> question_kinds() {
+std::span<const QueryKind> query_kinds() {
     static constexpr std::array kinds{
-        QuestionKind{"spectrum", SpectrumOptions::add},
-        QuestionKind{"color", ColorQuestionOptions::add},
-        QuestionKind{"bands", BandsOptions::add},
-        QuestionKind{"cm", CmOptions::add},
+        QueryKind{"spectrum", SpectrumOptions::add},
+        QueryKind{"color", ColorQueryOptions::add},
+        QueryKind{"bands", BandsOptions::add},
+        QueryKind{"cm", CmOptions::add},
     };
     return kinds;
 }
 
-std::vector<std::string_view> question_names() {
+std::vector<std::string_view> query_names() {
     std::vector<std::string_view> names;
-    for (const QuestionKind& kind : question_kinds()) names.push_back(kind.name);
+    for (const QueryKind& kind : query_kinds()) names.push_back(kind.name);
     return names;
 }
 

@@ -5,29 +5,29 @@
 #include <vector>
 
 #include "cli/options/color_options.hpp"
-#include "cli/queries/question.hpp"
+#include "cli/queries/query.hpp"
 #include "core/color/color_tables.hpp"
 #include "core/color/stack_color.hpp"
 
 namespace irido::cli {
 
-/// What irido color is asked, as typed.
-struct ColorQuestionOptions : QuestionOptions {
+/// Options of irido color, as typed.
+struct ColorQueryOptions : QueryOptions {
     std::string angles = "0";
     ColorOptions color;
     bool compare = false;
     bool stats = false;
     bool strict = false;
 
-    static std::unique_ptr<QuestionOptions> add(CLI::App& command);
-    std::unique_ptr<const Question> parse(const Answering& answering) const override;
+    static std::unique_ptr<QueryOptions> add(CLI::App& command);
+    std::unique_ptr<const Query> parse(const QueryRun& run) const override;
     nlohmann::json typed() const override;
 };
 
-/// Throws UsageError that names --illuminant.
+/// The transform from XYZ. Throws UsageError, which names --illuminant.
 RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptation adaptation);
 
-/// An illuminant, and what all colours under it have in common.
+/// An illuminant, with all that is shared by the colours under it.
 struct Illumination {
     Illumination(std::string name, Sensitivity sensitivity, const RgbSpace& space,
                  Adaptation adaptation);
@@ -39,34 +39,34 @@ struct Illumination {
     RgbTransform transform;
 };
 
-/// Colours of one stack, [angle][side] under each lighting.
+/// Colours of one stack: for each illumination, [angle][side].
 struct StackColors {
     std::vector<double> angles_deg;
     std::vector<std::vector<StackColor>> colors;
 };
 
 /// X, Y, Z and RGB of what a stack reflects or transmits.
-class ColorQuestion : public Question {
+class ColorQuery : public Query {
 public:
-    ColorQuestion(const ColorQuestionOptions& typed, const Answering& answering);
+    ColorQuery(const ColorQueryOptions& typed, const QueryRun& run);
 
     std::span<const double> angles_deg() const override { return angles_deg_; }
-    bool splits_angles() const override { return lightings_.size() == 1; }
-    std::size_t rows_per_angle() const override { return lightings_.size() * sides().size(); }
+    bool splits_angles() const override { return illuminations_.size() == 1; }
+    std::size_t rows_per_angle() const override { return illuminations_.size() * sides().size(); }
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const override;
     nlohmann::json data() const override;
     std::unique_ptr<const PreparedStack> prepare(schemas::StackDocument document) const override;
-    std::unique_ptr<Answers> answers() const override;
+    std::unique_ptr<QueryResult> new_result() const override;
     double cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                    std::optional<double> wavelength_nm) const override;
     double try_share(const schemas::StackDocument& document, const Incidence& incidence,
                      double share) const override;
 
     std::span<const Side> sides() const { return request_.sides; }
-    /// The one asked for, and all others to be compared with it.
-    std::span<const std::unique_ptr<Illumination>> lightings() const { return lightings_; }
-    /// Throws InputError, or ToleranceError if a colour is not as exact as asked.
+    /// The one requested, followed by those to compare with it.
+    std::span<const std::unique_ptr<Illumination>> illuminations() const { return illuminations_; }
+    /// Throws InputError, or ToleranceError if a colour misses the tolerance.
     StackColors colors(const PreparedStack& prepared, const Stack& stack,
                        std::span<const double> angles_deg) const;
     tables::Records records(const std::vector<StackColors>& stacks) const;
@@ -76,15 +76,15 @@ private:
                       bool approximate) const;
 
     std::vector<double> angles_deg_;
-    Table illuminant_;  ///< asked for
-    std::vector<std::unique_ptr<Illumination>> lightings_;
+    Table illuminant_;  ///< the one requested
+    std::vector<std::unique_ptr<Illumination>> illuminations_;
     ColorMethod method_;
-    std::optional<Triple> base_color_;  ///< of gltf
+    std::optional<Triple> base_color_;  ///< for --method gltf
     ColorRequest request_;
-    bool held_to_tolerance_;  ///< one was given
+    bool held_to_tolerance_;  ///< a tolerance was given
     const RgbSpace* space_;
     bool stats_, strict_;
-    Answering answering_;
+    QueryRun run_;
 };
 
 }  // namespace irido::cli

@@ -1,4 +1,4 @@
-#include "cli/queries/bands_question.hpp"
+#include "cli/queries/bands_query.hpp"
 
 #include <array>
 #include <map>
@@ -19,8 +19,7 @@ std::vector<Polarization> band_polarizations(const std::string& text) {
     std::vector<Polarization> polarizations;
     for (const std::string_view item : comma_separated(text)) {
         if (item != "s" && item != "p")
-            throw UsageError("--polarization: must be s, p or both with a comma (got '" + text +
-                             "')");
+            throw UsageError("--polarization: must be s, p or s,p (got '" + text + "')");
         polarizations.push_back(item == "s" ? Polarization::s : Polarization::p);
     }
     return polarizations;
@@ -62,15 +61,15 @@ std::string name_of(LandmarkKind kind) {
 
 }  // namespace
 
-/// Rows one by one, those of a stack that fails taken back.
+/// Collects rows; a stack that fails adds none.
 template <class Rows>
-class BandsAnswers : public Answers {
+class BandsResult : public QueryResult {
 public:
-    explicit BandsAnswers(const BandsQuestion& question) : question_(question) {}
+    explicit BandsResult(const BandsQuery& query) : query_(query) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
-        const BraggMirror mirror = question_.mirror(prepared.document, stack);
+        const BraggMirror mirror = query_.mirror(prepared.document, stack);
         Rows rows;
         try {
             append(mirror, incidence, rows);
@@ -92,7 +91,7 @@ protected:
                         Rows& rows) const = 0;
     virtual tables::Records to_records(Rows rows) const = 0;
 
-    const BandsQuestion& question_;
+    const BandsQuery& query_;
 
 private:
     tables::Records all_;
@@ -103,19 +102,19 @@ struct LandmarkRows {
     tables::Column::Texts polarization, kind;
 };
 
-class LandmarkAnswers : public BandsAnswers<LandmarkRows> {
+class LandmarkResult : public BandsResult<LandmarkRows> {
 public:
-    using BandsAnswers::BandsAnswers;
+    using BandsResult::BandsResult;
 
 private:
     void append(const BraggMirror& mirror, const Incidence& incidence,
                 LandmarkRows& rows) const override {
         for (const double angle_deg : incidence.angles_deg) {
-            for (const Polarization p : question_.polarizations_) {
+            for (const Polarization p : query_.polarizations_) {
                 for (const Landmark& mark :
-                     landmarks(mirror.period_at(angle_deg, p), question_.omega())) {
+                     landmarks(mirror.period_at(angle_deg, p), query_.omega())) {
                     const double wavelength_nm = kTwoPi / mark.omega_per_nm;
-                    if (wavelength_nm < question_.first_nm() || wavelength_nm > question_.last_nm())
+                    if (wavelength_nm < query_.first_nm() || wavelength_nm > query_.last_nm())
                         continue;
                     rows.angle.push_back(angle_deg);
                     rows.polarization.push_back(letter(p));
@@ -145,21 +144,21 @@ struct GapRows {
     tables::Column::Flags omnidirectional;
 };
 
-class GapAnswers : public BandsAnswers<GapRows> {
+class GapResult : public BandsResult<GapRows> {
 public:
-    using BandsAnswers::BandsAnswers;
+    using BandsResult::BandsResult;
 
 private:
     void append(const BraggMirror& mirror, const Incidence& incidence,
                 GapRows& rows) const override {
         std::map<double, bool> known;
         for (const double angle_deg : incidence.angles_deg) {
-            for (const Polarization p : question_.polarizations_) {
+            for (const Polarization p : query_.polarizations_) {
                 for (const BandGap& gap :
-                     band_gaps(mirror.period_at(angle_deg, p), question_.omega())) {
+                     band_gaps(mirror.period_at(angle_deg, p), query_.omega())) {
                     const double short_nm = kTwoPi / gap.high_per_nm;
                     const double long_nm = kTwoPi / gap.low_per_nm;
-                    if (long_nm < question_.first_nm() || short_nm > question_.last_nm()) continue;
+                    if (long_nm < query_.first_nm() || short_nm > query_.last_nm()) continue;
                     if (!known.contains(gap.order))
                         known[gap.order] = mirror.is_omnidirectional(gap.order);
                     rows.angle.push_back(angle_deg);
@@ -201,20 +200,19 @@ private:
     }
 };
 
-BandsQuestion::BandsQuestion(const BandsOptions& typed, const Answering& answering)
+BandsQuery::BandsQuery(const BandsOptions& typed, const QueryRun& run)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(band_polarizations(typed.polarization)),
       gaps_(typed.gaps),
-      answering_(answering) {
+      run_(run) {
     std::tie(first_nm_, last_nm_) = parse_range(typed.range);
 }
 
-OmegaRange BandsQuestion::omega() const {
+OmegaRange BandsQuery::omega() const {
     return {kTwoPi / last_nm_ * (1 - 1e-15), kTwoPi / first_nm_ * (1 + 1e-15)};
 }
 
-BraggMirror BandsQuestion::mirror(const schemas::StackDocument& document,
-                                  const Stack& stack) const {
+BraggMirror BandsQuery::mirror(const schemas::StackDocument& document, const Stack& stack) const {
     try {
         return {stack, first_nm_, last_nm_};
     } catch (const DomainError& error) {
@@ -222,7 +220,7 @@ BraggMirror BandsQuestion::mirror(const schemas::StackDocument& document,
     }
 }
 
-tables::RecordLayout BandsQuestion::layout(const schemas::StackDocument&) const {
+tables::RecordLayout BandsQuery::layout(const schemas::StackDocument&) const {
     using enum tables::RecordField::Type;
     constexpr std::size_t longest_kind = 4;
     if (!gaps_)
@@ -236,7 +234,7 @@ tables::RecordLayout BandsQuestion::layout(const schemas::StackDocument&) const 
             {"N_999"},     {"omnidirectional", flag}};
 }
 
-tables::RowPlot BandsQuestion::plot(const tables::Records&, tables::GamutMapping) const {
+tables::RowPlot BandsQuery::plot(const tables::Records&, tables::GamutMapping) const {
     tables::RowPlot plot;
     plot.form = tables::Series::Form::points;
     plot.keys.push_back({"angle_deg", tables::axis_of_column("angle_deg")});
@@ -251,21 +249,21 @@ tables::RowPlot BandsQuestion::plot(const tables::Records&, tables::GamutMapping
     return plot;
 }
 
-std::unique_ptr<const PreparedStack> BandsQuestion::prepare(schemas::StackDocument document) const {
+std::unique_ptr<const PreparedStack> BandsQuery::prepare(schemas::StackDocument document) const {
     const double k = mirror(document, document.stack).left_out_k();
     if (k > 0)
-        answering_.note("the absorption of the two layers (k up to " + to_text(k) +
-                        ") is left out of landmarks and gaps");
+        run_.note("landmarks and gaps ignore the absorption of the two layers (k up to " +
+                  to_text(k) + ")");
     return std::make_unique<PreparedStack>(std::move(document));
 }
 
-std::unique_ptr<Answers> BandsQuestion::answers() const {
-    if (gaps_) return std::make_unique<GapAnswers>(*this);
-    return std::make_unique<LandmarkAnswers>(*this);
+std::unique_ptr<QueryResult> BandsQuery::new_result() const {
+    if (gaps_) return std::make_unique<GapResult>(*this);
+    return std::make_unique<LandmarkResult>(*this);
 }
 
-double BandsQuestion::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
-                              std::optional<double>) const {
+double BandsQuery::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
+                           std::optional<double>) const {
     constexpr double kStack = 3, kMode = 4, kGap = 30;
     const PeriodAt period = mirror(prepared.document, stack).period_at(angle_deg, Polarization::s);
     const OmegaRange range = omega();
@@ -276,27 +274,26 @@ double BandsQuestion::cost_us(const PreparedStack& prepared, const Stack& stack,
            (1 + 2 * modes) * (gaps_ ? kGap : kMode) * static_cast<double>(polarizations_.size());
 }
 
-std::unique_ptr<QuestionOptions> BandsOptions::add(CLI::App& command) {
+std::unique_ptr<QueryOptions> BandsOptions::add(CLI::App& command) {
     auto options = std::make_unique<BandsOptions>();
     add_angles_option(command, options->angles);
-    command
-        .add_option("-p,--polarization", options->polarization, "s, p or both with a comma [s,p]")
+    command.add_option("-p,--polarization", options->polarization, "s, p or s,p [s,p]")
         ->type_name("LETTERS");
     offer(command, "polarization", "s p", OfferedWords::Use::several);
     command
         .add_option("--range", options->range,
-                    "vacuum wavelengths that are looked at, nm, in [1, 1e7] [360:830]")
+                    "range of vacuum wavelengths, nm, in [1, 1e7] [360:830]")
         ->type_name("FIRST:LAST");
     command.add_flag("--gaps", options->gaps,
-                     "the gaps instead: ends, width, R of the whole stack in the middle\n"
-                     "(of 1/wavelength), N_95, N_99 and N_999 periods needed there for\n"
-                     "R of 0.95, 0.99 and 0.999 (0: none up to 1e9), and whether some\n"
-                     "wavelength lies in the gap at all angles in s and p");
+                     "list gaps instead: edges, width, R of the whole stack at mid-gap (in\n"
+                     "1/wavelength), the numbers of periods N_95, N_99, N_999 that reach\n"
+                     "an R of 0.95, 0.99, 0.999 there (0: none up to 1e9), and whether\n"
+                     "some wavelength lies in the gap at all angles in s and p");
     return options;
 }
 
-std::unique_ptr<const Question> BandsOptions::parse(const Answering& answering) const {
-    return std::make_unique<BandsQuestion>(*this, answering);
+std::unique_ptr<const Query> BandsOptions::parse(const QueryRun& run) const {
+    return std::make_unique<BandsQuery>(*this, run);
 }
 
 nlohmann::json BandsOptions::typed() const {
