@@ -194,7 +194,7 @@ TEST_CASE("what bands cannot answer is refused", "[cli][bands]") {
     refused({"1 | (1.5@0 | 1@0)^5 | 1"}, "must have a thickness");
     refused({"1 | (1.5@1e9 | 1@100)^5 | 1"}, "orders of landmarks");
     refused({"air | (ZnS@60 | SiO2@90)^5 | 1"}, "ZnS");
-    refused({kMirror, "-p", "u"}, "--polarization: must be s, p or both");
+    refused({kMirror, "-p", "u"}, "--polarization: must be s, p or s,p");
     for (const char* range : {"500", "800:400", "400:400", "400:500:1", "0:500", "a:b"})
         refused({kMirror, "--range", range}, "--range");
     refused({kMirror, "-a", "91"}, "--angles");

@@ -103,8 +103,8 @@ TEST_CASE("what cm cannot answer is refused", "[cli][cm]") {
     check_refused(run_irido({"cm", "1 | 1.5+0.1i@100 | 1"}), "one coherent film");
     check_refused(run_irido({"cm", "1 | 1.5"}), "one coherent film");
     check_refused(run_irido({"cm", "1.5 | 1.2@100 | 2", "-a", "0,70"}), "at 70 degrees");
-    check_refused(run_irido({"cm", kFilm, "-p", "u"}), "--polarization: must be s, p or both");
-    check_refused(run_irido({"cm", kFilm, "--side", "A"}), "--side: must be R, T or both");
+    check_refused(run_irido({"cm", kFilm, "-p", "u"}), "--polarization: must be s, p or s,p");
+    check_refused(run_irido({"cm", kFilm, "--side", "A"}), "--side: must be R, T or R,T");
     check_refused(run_irido({"cm", kFilm, "--orders", "0:1:0.5"}), "--orders: must be whole");
     check_refused(run_irido({"cm", kFilm, "--orders", "-1"}), "--orders");
     check_refused(run_irido({"cm", kFilm, "--orders", "0:1000000:1", "-a", "0:90:1"}), "1e+07");

@@ -129,7 +129,7 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
         {{"--illuminant", "none.csv"}, "none.csv: cannot be read"},
         {{"--observer", "4"}, "--observer: must be 2 or 10 (got '4')"},
         {{"--space", "lab"}, "--space: must be one of srgb"},
-        {{"--side", "R,R"}, "--side: must be R, T or both"},
+        {{"--side", "R,R"}, "--side: must be R, T or R,T"},
         {{"--method", "guess"}, "--method: must be one of auto, quadrature, fourier"},
         {{"--method", "naive/3"}, "--method: naive takes no number (got naive/3)"},
         {{"--method", "equal/1"}, "--method: the number of equal: must be in [2, 1e+06] (got 1)"},
