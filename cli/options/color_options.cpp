@@ -118,7 +118,8 @@ ColorMethod parse_method(const ColorOptions& options) {
             throw UsageError(flag + ": requires --method " + name_of(ColorMethod{kind}) + " (got " +
                              options.method + ")");
         if (has_number)
-            throw UsageError(flag + ": conflicts with the number in --method (got " + options.method + ")");
+            throw UsageError(flag + ": conflicts with the number in --method (got " +
+                             options.method + ")");
         return static_cast<std::size_t>(parse_whole_number(flag, typed, fewest, most));
     };
     if (!options.subdivide.empty())
@@ -185,9 +186,11 @@ void report_held_ranges(const schemas::StackDocument& document, const Sensitivit
     for (const HeldRange& held : held_ranges(document.stack, sensitivity)) {
         const std::string& pointer = document.material_pointers[held.material];
         if (!held.usable)
-            throw schemas::InputError(document.file, pointer,
-                                      in_words(held, document) + "; a colour needs data from 400 to 700 nm");
-        const std::string text = in_words(held, document) + "; clamped to its end values beyond, where " +
+            throw schemas::InputError(
+                document.file, pointer,
+                in_words(held, document) + "; a colour needs data from 400 to 700 nm");
+        const std::string text = in_words(held, document) +
+                                 "; clamped to its end values beyond, where " +
                                  percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
                                  percent(held.weight[2]) + " of the X, Y, Z weight lies";
         if (strict) throw schemas::InputError(document.file, pointer, text);

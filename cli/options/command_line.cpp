@@ -105,7 +105,8 @@ private:
                 fail(name_of(*found) + ": takes no value (got '" + std::string(attached) + "')");
             return;
         }
-        if (counts_[found] > 1 && !may_repeat(*found)) fail(name_of(*found) + ": given more than once");
+        if (counts_[found] > 1 && !may_repeat(*found))
+            fail(name_of(*found) + ": given more than once");
         if (attached.empty()) value_of(*found);
         while (takes_many(*found) && at_ < words_.size() && !is_option_word(words_[at_]))
             if (std::string_view(words_[at_++]).empty()) empty(*found);
@@ -191,8 +192,8 @@ void check(const CLI::App& parent, const std::string& path, std::span<char* cons
                      words.subspan(1));
     if (parent.get_option_no_throw(typed)) return;  // --help, --version
     if (typed.starts_with('-'))
-        throw UsageError("a command is required after " + path + ", before " + typed + " (see " + help +
-                         ")");
+        throw UsageError("a command is required after " + path + ", before " + typed + " (see " +
+                         help + ")");
     throw UsageError("unknown command '" + typed + "'" + schemas::did_you_mean(typed, names) +
                      " (see " + help + ")");
 }
@@ -237,8 +238,8 @@ void note_fallbacks(const CLI::App& program) {
              is_quiet);
     const std::optional<SimdLevel> asked = asked_simd_level();
     if (asked && !is_available(*asked))
-        note("IRIDO_SIMD: this machine does not support " + std::string(name_of(*asked)) + ", using " +
-                 std::string(name_of(available_or_less(*asked))),
+        note("IRIDO_SIMD: this machine does not support " + std::string(name_of(*asked)) +
+                 ", using " + std::string(name_of(available_or_less(*asked))),
              is_quiet);
 }
 

@@ -67,7 +67,8 @@ private:
         if (count != std::floor(count) || count < 1 || count > static_cast<double>(kMostValues))
             fail("the count after '/' must be a whole number in [1, 10000000] (got '" +
                  std::string(text) + "')");
-        if (count == 1 && start != stop) fail("the count after '/' must be at least 2 unless start equals stop (got 1)");
+        if (count == 1 && start != stop)
+            fail("the count after '/' must be at least 2 unless start equals stop (got 1)");
         const auto last = static_cast<std::size_t>(count) - 1;
         for (std::size_t i = 0; i <= last; ++i)
             push(i == last
@@ -86,8 +87,7 @@ private:
                    std::string_view step_text) {
         const double start = number(start_text), stop = number(stop_text), step = number(step_text);
         if (step == 0 || (stop - start) / step < 0)
-            fail("the step must lead from start to stop (got '" + std::string(step_text) +
-                 "')");
+            fail("the step must lead from start to stop (got '" + std::string(step_text) + "')");
         const double count = std::floor((stop - start) / step + 1e-9);
         if (count >= static_cast<double>(kMostValues))
             fail("must have at most " + std::to_string(kMostValues) + " values");
@@ -131,8 +131,8 @@ double parse_one_number(std::string_view option, std::string_view text, double l
                         double highest) {
     const std::vector<double> values = parse_list(option, text, lowest, highest);
     if (values.size() != 1)
-        throw UsageError(std::string(option) + ": must be a single number (got '" + std::string(text) +
-                         "')");
+        throw UsageError(std::string(option) + ": must be a single number (got '" +
+                         std::string(text) + "')");
     return values.front();
 }
 

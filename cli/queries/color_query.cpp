@@ -175,9 +175,9 @@ tables::RowPlot ColorQuery::plot(const tables::Records& rows, tables::GamutMappi
     std::array<std::vector<double>, 3> xyz;
     for (std::size_t i = 0; i < 3; ++i)
         xyz[i] = tables::column_numbers(rows, std::string(1, "XYZ"[i]));
-    const std::vector<std::string> under = illuminations_.size() == 1
-                                               ? std::vector(rows.rows(), illuminations_.front()->name)
-                                               : tables::column_texts(rows, "illuminant");
+    const std::vector<std::string> under =
+        illuminations_.size() == 1 ? std::vector(rows.rows(), illuminations_.front()->name)
+                                   : tables::column_texts(rows, "illuminant");
     tables::InkMixer mixer(gamut);
     for (std::size_t row = 0; row < rows.rows(); ++row)
         plot.inks.push_back(
