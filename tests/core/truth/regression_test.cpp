@@ -10,9 +10,6 @@
 #include "tests/support/simd_levels.hpp"
 
 using namespace irido;
-using namespace irido::schemas;
-using namespace irido::tables;
-using namespace irido::cli;
 
 namespace {
 
