@@ -3,6 +3,7 @@
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/options/picture_options.hpp"
+#include "cli/options/words.hpp"
 #include "cli/queries/color_query.hpp"
 #include "tables/pictures/chromaticity_figure.hpp"
 
@@ -53,7 +54,7 @@ int run_color(const ColorCommand& command) {
     if (command.plot != "strip" && command.plot != "chromaticity")
         throw UsageError("--plot: must be strip or chromaticity (got '" + command.plot + "')");
     if (command.plot == "chromaticity" && !picture)
-        throw UsageError("--plot: needs a picture, such as --output FILE.svg");
+        throw UsageError("--plot: requires a picture, such as --output FILE.svg");
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     const ColorQuery query(
         static_cast<const ColorQueryOptions&>(*command.typed),
@@ -92,6 +93,7 @@ void add_color_command(CLI::App& program, Run& run) {
                      "what a picture shows: a strip of the colours, or their path in the\n"
                      "chromaticity diagrams x, y and u', v': chromaticity [strip]")
         ->type_name("KIND");
+    offer(*command, "plot", "chromaticity");
     add_picture_options(*command, options->picture);
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");

@@ -1,5 +1,7 @@
 #include "cli/options/picture_options.hpp"
 
+#include "cli/options/words.hpp"
+
 namespace irido::cli {
 
 void add_picture_options(CLI::App& command, PictureOptions& options) {
@@ -10,6 +12,8 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
                     "colours outside sRGB in a picture: clip each component, or compress:\n"
                     "mix with the grey of the same luminance until it fits [clip]")
         ->type_name("NAME");
+    offer(command, "bits", "8 16");
+    offer(command, "gamut", "clip compress");
 }
 
 const tables::PictureFormat* asked_picture(const OutputOptions& output,
@@ -17,9 +21,9 @@ const tables::PictureFormat* asked_picture(const OutputOptions& output,
     const tables::PictureFormat* const format =
         tables::find_picture_format(resolved_format(output));
     if (!options.bits.empty() && (!format || format->name != "png"))
-        throw UsageError("--bits: needs a picture as .png");
+        throw UsageError("--bits: requires a picture as .png");
     if (!options.gamut.empty() && !format)
-        throw UsageError("--gamut: needs a picture, such as --output FILE.svg");
+        throw UsageError("--gamut: requires a picture, such as --output FILE.svg");
     if (format) {
         parse_gamut(options);
         if (!options.bits.empty() && options.bits != "8" && options.bits != "16")

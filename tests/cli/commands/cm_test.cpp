@@ -111,7 +111,7 @@ TEST_CASE("what cm cannot answer is refused", "[cli][cm]") {
     check_refused(run_irido({"cm", kFilm, "--at", "0"}), "--at");
     check_refused(run_irido({"cm", kFilm, "-a", "91"}), "--angles");
     check_refused(run_irido({"cm", "air | SiO2@300 | Si", "--at", "100000"}), "SiO2");
-    check_refused(run_irido({"cm", "1+0.1i | 1.5@100 | 2"}), "/incident: must neither absorb");
+    check_refused(run_irido({"cm", "1+0.1i | 1.5@100 | 2"}), "/incident: must be transparent");
     check_refused(run_irido({"cm", kFilm, "-f", "gif"}), "--format");
 }
 

@@ -125,7 +125,7 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
     };
     const std::vector<Case> cases{
         {{"--illuminant", "D66"},
-         "--illuminant: must be one of D65, D50, A, E, FL2, FL11 (got D66), or a file"},
+         "--illuminant: must be one of D65, D50, A, E, FL2, FL11, a CSV file (got D66)"},
         {{"--illuminant", "none.csv"}, "none.csv: cannot be read"},
         {{"--observer", "4"}, "--observer: must be 2 or 10 (got '4')"},
         {{"--space", "lab"}, "--space: must be one of srgb"},

@@ -185,7 +185,8 @@ TEST_CASE("fringes that are gone end a table early, and it says so", "[cli][lut]
         run_irido({"lut", "color", "1 | 1.5@400 | 1.9+1.5i", "--theta", "0:60/8", "--vary",
                    "layers.0.thickness_nm=0:100000/8", "--tolerance", "1", "-o", folder / "t.npy"});
     REQUIRE(outcome.status == 0);
-    CHECK_THAT(outcome.err, Contains("layers.0.thickness_nm: no fringes are left, constant from "));
+    CHECK_THAT(outcome.err,
+               Contains("layers.0.thickness_nm: no fringes are left, constant beyond "));
     const json axis = info(folder / "t.npy")["axes"][1];
     CHECK(axis["last"].get<double>() < 30000);
     // the same of the thickness itself, once all of it is so thick
@@ -326,10 +327,11 @@ TEST_CASE("tables that cannot be are refused", "[cli][lut]") {
                   "--output: the extension must be one of");
     check_refused(run_irido({"lut", "cumulative", "--dtype", "f64", "-o", folder / "x.ktx2"}),
                   "f64");
-    check_refused(run_irido({"lut", "sensitivity", "--real", "--carrier"}), "--real or --carrier");
+    check_refused(run_irido({"lut", "sensitivity", "--real", "--carrier"}),
+                  "--real cannot be combined with --carrier");
     check_refused(run_irido({"lut", "shader", "colour"}), "must be one of");
     check_refused(run_irido({"lut", "falpha", "-f", "exr", "-o", folder / "x.ktx2"}),
-                  "exr into a file named .ktx2");
+                  "exr contradicts the extension .ktx2");
     check_refused(run_irido({"lut", "falpha", "--any-size"}), "--any-size: ");
     check_refused(run_irido({"lut", "color", kFilm, "--cos", "0,1", "--theta", "0,9"}),
                   "--theta: cannot be combined with --cos");

@@ -112,11 +112,11 @@ TEST_CASE("what cannot be drawn leaves nothing behind", "[cli][pictures][refused
             "x.svg: there are no rows to draw");
     refused({"spectrum", kFilm, "-a", "0:80:1", "-w", "500", "-o", folder / "x.gif"},
             "--output: the extension must be one of csv, json, npy, pdf, png, svg");
-    refused({"color", kFilm, "-o", file, "--bits", "16"}, "--bits: needs a picture as .png");
+    refused({"color", kFilm, "-o", file, "--bits", "16"}, "--bits: requires a picture as .png");
     refused({"color", kFilm, "-o", png, "--bits", "12"}, "--bits: must be 8 or 16 (got '12')");
     refused({"color", kFilm, "-o", png, "--gamut", "x"}, "--gamut: must be clip or compress");
-    refused({"color", kFilm, "--gamut", "clip"}, "--gamut: needs a picture");
-    refused({"color", kFilm, "--plot", "chromaticity"}, "--plot: needs a picture");
+    refused({"color", kFilm, "--gamut", "clip"}, "--gamut: requires a picture");
+    refused({"color", kFilm, "--plot", "chromaticity"}, "--plot: requires a picture");
     refused({"color", kFilm, "--plot", "x", "-o", file}, "--plot: must be strip or chromaticity");
     const Words sweep{"sweep", kFilm, "--vary", "layers.0.thickness_nm=0:100:1", "-o", file};
     refused(sweep + Words{"--compute", "color", "--resume"}, "--resume: a picture is drawn in one");
@@ -136,14 +136,12 @@ TEST_CASE("help lists the formats of pictures", "[cli][pictures]") {
     CHECK_THAT(run_irido({"lut", "color", "--help"}).out, Contains("pdf, png, svg"));
 }
 
-TEST_CASE("the README's pictures are drawn", "[cli][pictures][slow]") {
+TEST_CASE("the commands of docs/pictures.md draw", "[cli][pictures][slow]") {
     const TemporaryFolder folder;
-    std::istringstream lines(read_file(IRIDO_SOURCE_DIR "/README.md"));
+    std::istringstream lines(read_file(IRIDO_SOURCE_DIR "/docs/pictures.md"));
     std::size_t drawn = 0;
-    bool inside = false;
     for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("## ")) inside = line == "## Pictures";
-        if (!inside || !line.starts_with("    irido ")) continue;
+        if (!line.starts_with("    irido ")) continue;
         const std::size_t file = line.rfind(" -o ");
         REQUIRE(file != std::string::npos);
         const std::string words =

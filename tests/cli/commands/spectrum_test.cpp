@@ -236,9 +236,10 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
         {{"spectrum", stack, "-w", "nan"}, "--wavelengths: must be a number (got 'nan')"},
         {{"spectrum", stack, "-w", ""}, "--wavelengths: must not be empty"},
         {{"spectrum", stack, "-w", "400:500"}, "--wavelengths: must be start:stop:step or"},
-        {{"spectrum", stack, "-w", "400:500:0"}, "--wavelengths: must have a step that leads"},
-        {{"spectrum", stack, "-w", "400:500:-1"}, "--wavelengths: must have a step that leads"},
-        {{"spectrum", stack, "-w", "400:500/0"}, "--wavelengths: must have a whole number"},
+        {{"spectrum", stack, "-w", "400:500:0"}, "--wavelengths: the step must lead"},
+        {{"spectrum", stack, "-w", "400:500:-1"}, "--wavelengths: the step must lead"},
+        {{"spectrum", stack, "-w", "400:500/0"},
+         "--wavelengths: the count after '/' must be a whole number"},
         {{"spectrum", stack, "-w", "1:1e7:1e-3"}, "--wavelengths: must have at most 10000000"},
         {{"spectrum", stack, "-a", "90.0001"}, "--angles: must be in [0, 90] (got 90.0001)"},
         {{"spectrum", stack, "-a", "-1"}, "--angles: must be in [0, 90] (got -1)"},
@@ -260,7 +261,7 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
         {{"spectrum", stack, "--columns", "A_layers,A_layers"}, "A_layers twice"},
         {{"spectrum", stack, "--columns", "A_layers,"}, "--columns: must be one of"},
         {{"spectrum", "1 | (1.5@1 | 2@1)^501 | 1", "--columns", "A_layers"},
-         "--columns: A_layers needs a stack of at most 1000 layers (got 1002"},
+         "--columns: A_layers requires a stack of at most 1000 layers (got 1002"},
         {{"spectrum", stack, "--what"}, "--what"},
         {{"spectrum"}, "STACK"},
         {{"spectra", stack}, "unknown command 'spectra' (did you mean \"spectrum\"?)"},
@@ -287,9 +288,8 @@ TEST_CASE("amplitudes of averaged powers are refused", "[cli][refused]") {
                       R"({"incident": 1, "layers": [{"material": 1.5, "thickness_nm": 9, )" +
                           layer + R"(}], "substrate": 1})");
         CHECK(outcome.status == 2);
-        CHECK_THAT(
-            outcome.err,
-            StartsWith("irido: error: --columns: delta_deg needs a stack of coherent layers"));
+        CHECK_THAT(outcome.err,
+                   StartsWith("irido: error: --columns: delta_deg requires coherent layers"));
     }
 }
 
@@ -338,7 +338,7 @@ TEST_CASE("the incident medium is judged at the wavelengths asked for", "[spectr
     CHECK(taken.status == 0);
     CHECK(taken.err ==
           "irido: note: \"Si | air@100 | Si\": /incident: the incident medium is taken as "
-          "transparent, its k of up to 4.0768e-05 left out\n");
+          "transparent: its k of up to 4.0768e-05 is ignored\n");
     check_refused(run_irido({"spectrum", "Si | air@100 | Si", "-w", "550"}),
                   "k = 0.027968 at 550 nm");
 }

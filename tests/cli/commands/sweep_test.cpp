@@ -408,7 +408,7 @@ TEST_CASE("a job array of one, an edited digit, another SIMD level", "[cli][swee
     const std::string plain =
         "IRIDO_SIMD=plain \"$IRIDO\"" + in_quotes(sweep + Words{"--shard", "2/2", "-o", two});
     REQUIRE(run_shell(plain, folder.path()).status == 0);
-    check_refused(run_irido(merge), "is of SIMD level plain");
+    check_refused(run_irido(merge), "was computed at SIMD level plain");
 }
 
 TEST_CASE("a value inside of another that varies is refused", "[cli][sweep][refused]") {
@@ -520,7 +520,7 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
     refused(color + Words{"--points", points}, "combination 2: ");
     refused({"--compute", "spectrum", "--columns", "A_layers", "--vary",
              R"(layers=[{"material":1.5,"thickness_nm":9}],[])"},
-            "as many layers");
+            "the same number of layers");
     check_refused(run_irido(Words{"sweep"} + color + some), "STACK is required");
     check_refused(run_irido({"sweep", "--merge", "README.md", "-o", "/tmp/never.csv"}),
                   "README.md");

@@ -39,7 +39,7 @@ TEST_CASE("the first wrong word of a command line is named", "[cli][refused]") {
          "unknown command 'lst' (did you mean \"list\"?) (see irido "
          "materials --help)"},
         {{"sweep", kFilm, "-w", "633"},
-         "--compute: is required before -w is known: spectrum, "
+         "--compute: is required for -w: spectrum, "
          "color, bands or cm (see irido sweep --help)"},
         {{"sweep", kFilm, "--vray", "a=1"}, "(did you mean \"--vary\"?)"},
         {{"sweep", kFilm, "-w", "633", "--compute", "color"}, "sweep has no option -w"},

@@ -95,7 +95,7 @@ TEST_CASE("A path that leads nowhere is refused") {
     CHECK(set_error_of("layers.x=5") ==
           "layers.x: the index must be 0, the array has one element (got \"x\")");
     CHECK(set_error_of("layer.0.thickness_nm=5") ==
-          "layer.0.thickness_nm: there is no \"layer\" (did you mean \"layers\"?)");
+          "layer.0.thickness_nm: unknown key \"layer\" (did you mean \"layers\"?)");
     CHECK(set_error_of("substrate.n=5") == "substrate.n: the value before \"n\" has no members");
     CHECK(set_error_of("substrate") ==
           "must be PATH=VALUE, as in layers.0.thickness_nm=400 (got 'substrate')");
@@ -107,7 +107,7 @@ TEST_CASE("A path that leads nowhere is refused") {
     CHECK(set_error_of((deep + "=1").c_str()) == deep + ": must be at most 64 levels deep");
     json empty{{"layers", json::array()}};
     CHECK(error_of([&] { set_value(empty, "layers.0", 1); }) ==
-          "layers.0: the array before \"0\" is empty");
+          "layers.0: names an element of an empty array (got \"0\")");
 }
 
 TEST_CASE("A text stands for JSON, for an index where a material is, or for itself") {

@@ -215,8 +215,8 @@ TEST_CASE("The incident medium is lossless, indices do not vanish, layers are bo
     json nearly = film(1.5);
     nearly["incident"] = {{"n", 1.5}, {"k", 5e-4}};
     CHECK(read(nearly).notes ==
-          std::vector<std::string>{"f: /incident: the incident medium is taken as transparent, its "
-                                   "k of up to 5e-04 left out"});
+          std::vector<std::string>{"f: /incident: the incident medium is taken as transparent: its "
+                                   "k of up to 5e-04 is ignored"});
     nearly["incident"] = "Ag";  // judged at the wavelengths asked for
     CHECK(error_of(nearly) == "accepted");
     CHECK(error_of(film({{"n", 1e-7}, {"k", 0}})) ==

@@ -189,6 +189,6 @@ TEST_CASE("Names of files and names in quotes are media") {
     CHECK(parse_stack_expression("1 | \"a (1)|b.csv\"@2 | 1") ==
           stack(1, json::array({layer("a (1)|b.csv", 2)}), 1));
     CHECK(error_of("1 | \"a@2 | 1") ==
-          "column 5: expected a second \" at the end of the name, found \"\"a\"");
+          "column 5: expected a closing \" after the name, found \"\"a\"");
     CHECK(error_of("1 | \"\"@2 | 1") == "column 5: a name must not be empty");
 }

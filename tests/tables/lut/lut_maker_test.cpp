@@ -128,7 +128,7 @@ TEST_CASE("a range ends where the function is constant", "[lut]") {
     // 2 exp(-x) falls below a quarter of the tolerance at x = 6.7
     CHECK(lut.axes[0].values.back() > 6.6);
     CHECK(lut.axes[0].values.back() < 7);
-    CHECK(lut.facts["notes"][0].get<std::string>().find("x: constant from 6.") == 0);
+    CHECK(lut.facts["notes"][0].get<std::string>().find("x: constant beyond 6.") == 0);
     plan.axes[0].may_end_early = false;
     CHECK(make_lut(kKind, plan, with_tolerance(1e-2)).axes[0].values.back() == 100);
 }

@@ -113,7 +113,8 @@ TEST_CASE("a merging replaces a file and writes to a device", "[tables][stream]"
     CHECK_THROWS_WITH(merge_streams(shards.paths, "/dev/full", shards.format),
                       Equals("/dev/full: cannot be written: No space left on device"));
     const Shards h5(*find_record_format("h5"));
-    CHECK_THROWS_WITH(merge_streams(h5.paths, "/dev/null", h5.format), Contains("not a file"));
+    CHECK_THROWS_WITH(merge_streams(h5.paths, "/dev/null", h5.format),
+                      Contains("must be a regular file"));
 }
 
 TEST_CASE("shards of different numbers are refused", "[tables][stream][refused]") {
@@ -122,9 +123,9 @@ TEST_CASE("shards of different numbers are refused", "[tables][stream][refused]"
     StreamIdentity identity = identity_of(47, 2, 3);
     identity.simd = "baseline";
     write_shard(second, shards.format, identity);
-    CHECK_THAT(shards.refused(),
-               StartsWith(second + ": is of SIMD level baseline, " + first + " of avx2") &&
-                   Contains("IRIDO_SIMD"));
+    CHECK_THAT(shards.refused(), StartsWith(second + ": was computed at SIMD level baseline, " +
+                                            first + " at avx2") &&
+                                     Contains("IRIDO_SIMD"));
     for (const Build& build :
          {Build{"0.0.9", this_build().commit}, Build{this_build().version, "0123456789ab"},
           Build{this_build().version, "0123456789ab-dirty-01234567"}}) {
@@ -132,9 +133,9 @@ TEST_CASE("shards of different numbers are refused", "[tables][stream][refused]"
         identity.build = build;
         write_shard(second, shards.format, identity);
         CHECK_THAT(shards.refused(),
-                   Equals(second + ": is of irido " + version_text(build) + ", " + first + " of " +
-                          version_text(this_build()) +
-                          ", whose numbers may differ: run all shards with one of them"));
+                   Equals(second + ": was written by irido " + version_text(build) + ", " + first +
+                          " by " + version_text(this_build()) +
+                          ", whose numbers may differ: run all shards with the same build"));
     }
 }
 
@@ -215,8 +216,8 @@ TEST_CASE("shards that are not one whole are refused", "[tables][stream]") {
         for (const RecordFormat* const another : record_formats())
             if (another != format)
                 CHECK_THROWS_WITH(merge_streams(all, shards.folder / "merged", *another),
-                                  Equals(path(1) + ": is " + std::string(format->name) + ", not " +
-                                         std::string(another->name) + " as the output"));
+                                  Equals(path(1) + ": must be " + std::string(another->name) +
+                                         " as the output (got " + std::string(format->name) + ")"));
         for (const std::string& target :
              {all[1], shards.folder / "." + "/" + fs::path(all[2]).filename().string()})
             CHECK_THROWS_WITH(merge_streams(all, target, *format),
@@ -249,7 +250,7 @@ TEST_CASE("shards that are not finished or not their own are refused", "[tables]
         write_text(path + ".sweep", "chimney");
         CHECK_THAT(shards.refused(), Contains("is not a journal of irido sweep"));
         write_text(path + ".sweep", journal);
-        const std::string not_itself = path + ": is not the ";
+        const std::string not_itself = path + ": does not match its journal";
         for (const std::string& other :
              {bytes + "x", bytes.substr(1), std::string(bytes.size(), 'x')}) {
             write_text(path, other);

@@ -224,10 +224,10 @@ TEST_CASE("places that cannot be written are refused", "[tables][stream]") {
     CHECK_THAT(refused(folder / "file/out"), StartsWith(folder / "file/out: cannot be written: "));
     CHECK_THAT(refused("/proc/irido.csv"), StartsWith("/proc/irido.csv: cannot be written: "));
     CHECK_THAT(refused(folder / "folder"), Contains("Is a directory"));
-    CHECK_THAT(refused("/dev/null", true), Contains("is not a file: --resume"));
+    CHECK_THAT(refused("/dev/null", true), Contains("must be a regular file for --resume"));
     CHECK_THAT(
         refusal([&] { open_stream("/dev/null", *find_record_format("h5"), identity_of(9)); }),
-        Contains("is not a file, as h5 needs"));
+        Contains("must be a regular file for h5"));
     fs::create_directory(folder / "folder.part");
     fs::remove(folder / "folder");
     CHECK(!refused(folder / "folder").empty());
@@ -316,7 +316,7 @@ TEST_CASE("devices and pipes are written to directly", "[tables][stream]") {
         CHECK(got == whole(*format, 3000));
     }
     CHECK_THAT(refusal([&] { write_stream("/dev/null", *find_record_format("npy"), identity); }),
-               Contains("its head says another number of rows"));
+               Contains("its header announces a different number of rows"));
     write_stream("/dev/null", *find_record_format("csv"), identity);
 }
 
@@ -344,7 +344,7 @@ TEST_CASE("standard output gets the same bytes", "[tables][stream]") {
         dup2(open(ptsname(master), O_RDWR | O_NOCTTY), STDOUT_FILENO);
         const std::string said =
             refusal([&] { record_output(*find_record_format("npy"), sample_layout(), 0); });
-        return said.find("does not go to a terminal") == std::string::npos ? 2 : 0;
+        return said.find("must not go to a terminal") == std::string::npos ? 2 : 0;
     });
     CHECK(terminal == 0);
     const int closed = in_child([&] {

@@ -117,7 +117,7 @@ TEST_CASE("plan: a thickness ends where no fringes are left, and the reason says
                                      "vary": {"layers.0.thickness_nm": [100, )";
     const json settings = {{"tolerance", {{"delta_e", 3}}}};
     const json thick = planned(material + "60000]}}", settings).entry("reflection");
-    CHECK(has_note(thick, kThickness + ": no fringes are left, constant from "));
+    CHECK(has_note(thick, kThickness + ": no fringes are left, constant beyond "));
     CHECK(thick["axes"][1]["last"].get<double>() < 30000);
     const json thin = planned(material + "600]}}", settings).entry("reflection");
     CHECK(!has_note(thin, "no fringes"));
@@ -291,7 +291,7 @@ TEST_CASE("plan: what a shading has no use for is said", "[scene][plan]") {
               .empty());
     CHECK(planned(R"({"stack": "1.5 | 1.2@400 | 1.5", "shading": "fourier"})")
               .reason("light past the film's critical angle") ==
-          "the series has none: the shader gives white, the shading color what tunnels too");
+          "the series cannot represent it: the shader gives white (the shading color is exact)");
     CHECK(planned(R"({"stack": "1.5 | 1.2@400 | 1.5", "shading": "fourier",
                       "angles_deg": [0, 40]})")
               .reason("light past the film's critical angle")

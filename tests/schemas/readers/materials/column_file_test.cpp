@@ -99,8 +99,8 @@ TEST_CASE("CSV spectrum", "[csv]") {
     CHECK(read_spectrum_csv("um,value\n0.5,2.5\n0.4,1\n", "s.csv") == Table{{400, 500}, {1, 2.5}});
     CHECK(read_spectrum_csv("Wavelength (A);W/m2\n4000;2,5\n5000;1,5\n", "s.csv") ==
           Table{{400, 500}, {2.5, 1.5}});
-    CHECK(spectrum_error("value,nm\n1,400\n1,500\n").find("names other columns") != npos);
-    CHECK(spectrum_error("energy_eV,value\n2,1\n3,1\n").find("names other columns") != npos);
+    CHECK(spectrum_error("value,nm\n1,400\n1,500\n").find("must name known columns") != npos);
+    CHECK(spectrum_error("energy_eV,value\n2,1\n3,1\n").find("must name known columns") != npos);
     CHECK(spectrum_error("0.4,1\n0.5,1\n").find("looks like um") != npos);
     CHECK(spectrum_error("400,1\n400,2\n") ==
           "s.csv: must have one row per wavelength (got two at 400 nm)");
@@ -167,8 +167,8 @@ TEST_CASE("what was done to rows is told", "[csv]") {
     CHECK(notes("nm,n,k\n400,1,-0.5\n500,1,0\n") ==
           Notes{"k is nowhere positive: read as n - ik, which absorbs"});
     CHECK(notes("1500,1\n5000,1\n") ==
-          Notes{"no header: wavelengths taken as 1500 to 5000 nm (if they are angstroms, a header "
-                "angstrom,n,k says so)"});
+          Notes{"no header: wavelengths taken as 1500 to 5000 nm (if they are in angstroms, add a "
+                "header angstrom,n,k)"});
     CHECK(notes("nm,n\n1500,1\n5000,1\n").empty());
 }
 
@@ -177,18 +177,18 @@ TEST_CASE("tables that could be misread are refused by name", "[csv]") {
         {"0.4,1.5\n0.8,1.4\n", "0.4 to 0.8 looks like um or eV"},
         {"wavelength,n\n0.4,1.5\n0.8,1.4\n", "looks like um or eV"},
         {"nm,R\n400,0.5\n500,0.5\n", "1:1: must name known columns"},
-        {"nm,k\n400,0.5\n500,0.5\n", "names other columns"},
-        {"nm,n,n\n400,1,1\n500,1,1\n", "names other columns"},
-        {"nm,eV,n\n400,3,1\n500,2,1\n", "names other columns"},
-        {"nm,n,eps2\n400,1,1\n500,1,1\n", "names other columns"},
-        {"nm,-n\n400,1\n500,1\n", "names other columns"},
-        {"THz,n\n400,1\n500,1\n", "names other columns"},
-        {"energy,n\n2,1\n3,1\n", "names other columns"},
-        {"nm,n\n400,1,0\n500,1,0\n", "names other columns"},
-        {"gold\n400,1,0\n500,1,0\n", "a line that is no header begins with #"},
+        {"nm,k\n400,0.5\n500,0.5\n", "must name known columns"},
+        {"nm,n,n\n400,1,1\n500,1,1\n", "must name known columns"},
+        {"nm,eV,n\n400,3,1\n500,2,1\n", "must name known columns"},
+        {"nm,n,eps2\n400,1,1\n500,1,1\n", "must name known columns"},
+        {"nm,-n\n400,1\n500,1\n", "must name known columns"},
+        {"THz,n\n400,1\n500,1\n", "must name known columns"},
+        {"energy,n\n2,1\n3,1\n", "must name known columns"},
+        {"nm,n\n400,1,0\n500,1,0\n", "must name known columns"},
+        {"gold\n400,1,0\n500,1,0\n", "other lines must begin with #"},
         {"nm,n,k\n400,1,0.5\n500,1,-0.5\n", "k must have one sign (got 0.5 at 400 nm and -0.5 at"},
         {"400;1,5\n500.5;1,25\n", "decimal points or decimal commas, not both"},
-        {"; gold\n4000 1.5 0\n5000 1.5 0\n", "angstrom,n,k must say so"},
+        {"; gold\n4000 1.5 0\n5000 1.5 0\n", "add a header such as angstrom,n,k"},
         {"400,1.5\nthe end\n", "2:1: must be a number (got 'the end')"},
         {"nm,n\n1e8,1.5\n2e8,1.5\n", "must be known somewhere from 1 to 1e7 nm"},
     }));

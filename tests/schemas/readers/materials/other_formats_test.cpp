@@ -82,7 +82,7 @@ TEST_CASE("the CSV of the refractiveindex.info site has a block of n and one of 
     REQUIRE(part.notes.size() == 1);
     CHECK(part.notes[0] ==
           "k is known from 400 to 500 nm only, n from 400 to 600 nm: k = 5e-04 is not small, so "
-          "the material not known above 500 nm");
+          "the material is not known above 500 nm");
     CHECK(read_material_file("wl,n\n0.4,1.5\n", "m.csv").notes ==
           std::vector<std::string>{"no k in the file: k = 0"});
     CHECK(error_of("wl,k\n0.4,1.5\n") == "m.txt: must give n (got k only)");

@@ -103,7 +103,7 @@ TEST_CASE("n given twice must agree, k comes from the table", "[rii]") {
     bool told = false;
     for (const std::string& note : read(both(0.001)).notes)
         told |= note.starts_with("DATA/1: n given twice, at most 0.001") &&
-                note.ends_with(" apart: the first counts");
+                note.ends_with(" apart: the first is used");
     CHECK(told);
     CHECK(error_of(both(0.01)) == "m.yml: DATA/1: n is given twice with different values");
     CHECK(error_of("DATA:\n" + kFormulaN + kFormulaN) ==
@@ -160,7 +160,7 @@ TEST_CASE("where k is not known the material is not, unless k is very small", "[
     CHECK(
         has_note(shorter,
                  "k is known from 400 to 600 nm only, n from 380 to 780 nm: k = 0.1 is not small, "
-                 "and the material not known above 600 nm"));
+                 "so the material is not known above 600 nm"));
     CHECK(error_of("DATA:\n" + kFormulaN + table("k", "        0.9 0.1\n        1.1 0.1\n")) ==
           "m.yml: n is known from 380 to 780 nm and k from 900 to 1100 nm: they do not overlap");
 }

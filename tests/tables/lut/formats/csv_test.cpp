@@ -42,7 +42,8 @@ TEST_CASE("csv says in which line it is not the table", "[tables][lut]") {
     CHECK_THAT(words(last, last + last), Contains("line 5: is after the last row of the table"));
     CHECK_THAT(words("0.1,-0", "0.2,-0"), Contains("line 2: the value of a"));
     CHECK_THAT(words("0.1,-0", "0.1,nan"), Contains("line 2: 'nan' is not a finite number"));
-    CHECK_THAT(words("0.1,-0", "0.1,0.1"), Contains("line 2: the value of v0 is no f16"));
+    CHECK_THAT(words("0.1,-0", "0.1,0.1"),
+               Contains("line 2: the value of v0 is not an f16 number"));
     CHECK_THAT(words("0.1,-0", "0.1"), Contains("line 2: has too few numbers"));
     CHECK_THAT(words("0.1,-0", "0.1,-0,1"), Contains("line 2: has too many numbers"));
 }
