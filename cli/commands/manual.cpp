@@ -85,7 +85,7 @@ void add_manual_command(CLI::App& program, Run& run) {
         ->type_name("DIR");
     set_examples(*command,
                  {"irido manual spectrum | man -l -", "irido manual -o ~/.local/share/man/man1"},
-                 "Pages are for troff's macros man, which man -l prints.");
+                 "Pages are troff (man macros); view them with man -l.");
     command->callback([&program, typed, &run] {
         run = [&program, typed] { return run_manual(program, *typed); };
     });
@@ -93,7 +93,7 @@ void add_manual_command(CLI::App& program, Run& run) {
 
 void add_completion_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "completion", "What lets a shell complete commands, options and their values.");
+        "completion", "Shell completion of commands, options and their values.");
     struct Typed {
         std::string shell, file;
     };

@@ -134,14 +134,14 @@ std::string options_of(const CommandPage& page) {
         if (!entries.empty()) out += ".SS " + name + "\n" + entries;
     };
     add("Arguments", arguments);
-    add("Of the command", own);
+    add("Command options", own);
     for (const OptionGroup& group : page.groups) {
         std::string entries;
         for (const OptionPage& option : group.options) entries += option_entry(option);
         add("With \\-\\-compute " + group.value, entries);
     }
-    add("Of the stack", stack);
-    add("Output and running", common);
+    add("Stack options", stack);
+    add("Output and execution", common);
     if (page.takes_list) add("Lists", paragraphs("A LIST is " + std::string(kListHelp)));
     return section("OPTIONS") + out;
 }

@@ -251,7 +251,7 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
                     "[1, 1000], truncates it at order M; fourier-constant(/M) replaces\n"
                     "dispersive media by constant indices\n"
                     "bloch: Bloch waves; one group of two layers, all media of constant real\n"
-                    "index; exact, and faster the more periods there are, from 100 on\n"
+                    "index; exact, and faster than quadrature from about 100 periods on;\n"
                     "approximate baselines, for comparison:\n"
                     "landmarks: boxes between the landmarks of such a group (see bands);\n"
                     "equal/N: N equally spaced wavelengths, [2, 1e6] [32]; naive: 650, 510,\n"

@@ -245,7 +245,7 @@ tables::RowPlot BandsQuery::plot(const tables::Records&, tables::GamutMapping) c
         return plot;
     }
     for (const char* name : {"short_nm", "long_nm"})
-        plot.values.push_back({name, tables::axis_of_column(name), "ends of gaps"});
+        plot.values.push_back({name, tables::axis_of_column(name), "band-gap edges"});
     return plot;
 }
 

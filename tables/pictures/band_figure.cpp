@@ -19,7 +19,7 @@ Panel side_panel(const BandDiagram& diagram, bool is_s) {
     Panel panel{is_s ? "s polarization" : "p polarization", angle, wavelength};
     for (const BandDiagram::Gap& gap : diagram.gaps) {
         const std::string order = tick_text(gap.order, 1);
-        Area area{.name = is_s ? "gaps of s" : "gaps of p",
+        Area area{.name = is_s ? "band gaps, s" : "band gaps, p",
                   .style = is_s ? 0U : 1U,
                   .title = std::string(is_s ? "s" : "p") + ", gap of order " + order,
                   .label = order,
@@ -37,7 +37,7 @@ Panel side_panel(const BandDiagram& diagram, bool is_s) {
 
 Figure band_figure(const BandDiagram& diagram) {
     Figure figure{.title = diagram.title,
-                  .subtitle = "photonic gaps, numbered by their order",
+                  .subtitle = "photonic band gaps, labelled by order",
                   .panels = {side_panel(diagram, true), side_panel(diagram, false)}};
     figure.columns = 2;
     figure.panel_height = 420;

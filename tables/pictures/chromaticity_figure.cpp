@@ -41,8 +41,10 @@ void add_diagram(Panel& panel, const Observer& eye, const Triple& white, Place p
         triangle.points.push_back(place({at.x, at.y, 1 - at.x - at.y}));
     }
     panel.series.push_back(std::move(triangle));
-    panel.series.push_back(
-        {.name = "white", .style = 4, .points = {place(white)}, .form = Series::Form::points});
+    panel.series.push_back({.name = "white point",
+                            .style = 4,
+                            .points = {place(white)},
+                            .form = Series::Form::points});
     Series marks{.form = Series::Form::points};
     for (const double nm : {460.0, 480.0, 500.0, 520.0, 540.0, 560.0, 580.0, 600.0, 620.0}) {
         marks.points.push_back(place(seen(eye, nm)));

@@ -365,7 +365,7 @@ const std::vector<KnownColumn>& known_columns() {
         {"side", {.quantity = "side"}},
         {"kind", {.quantity = "landmark"}},
         {"illuminant", {.quantity = "illuminant"}},
-        {"order", {.quantity = "order"}},
+        {"order", {.quantity = "order", .step = 1}},
         {"R", {.quantity = "reflectance R", .from_zero = true}},
         {"T", {.quantity = "transmittance T", .from_zero = true}},
         {"A", {.quantity = "absorptance A", .from_zero = true}},
@@ -375,9 +375,9 @@ const std::vector<KnownColumn>& known_columns() {
         {"t_im", {.quantity = "Im t"}},
         {"psi_deg", {.quantity = "\u03c8", .unit = "\u00b0"}},
         {"delta_deg", {.quantity = "\u0394", .unit = "\u00b0", .period = 360}},
-        {"C", {.quantity = "coefficient C"}},
-        {"short_nm", {.quantity = "short end", .unit = "nm"}},
-        {"long_nm", {.quantity = "long end", .unit = "nm"}},
+        {"C", {.quantity = "coefficient C_m"}},
+        {"short_nm", {.quantity = "short-wavelength edge", .unit = "nm"}},
+        {"long_nm", {.quantity = "long-wavelength edge", .unit = "nm"}},
     };
     return known;
 }

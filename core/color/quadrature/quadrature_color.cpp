@@ -139,6 +139,14 @@ bool is_surveyed(const Material& material) {
     return index != nullptr && !std::holds_alternative<Formula>(index->k);
 }
 
+/// Incoherent layers are outside groups.
+bool has_incoherent_layers(std::span<const Element> elements) {
+    return std::ranges::any_of(elements, [](const Element& element) {
+        const auto* layer = std::get_if<Layer>(&element.value);
+        return layer && !layer->coherent;
+    });
+}
+
 /// The elements that hold varied layers, ascending.
 std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const LayerPlace> varied) {
     std::vector<std::size_t> elements;
@@ -159,7 +167,8 @@ public:
           sensitivity_(tables.sensitivity()),
           request_(request),
           held_(held_stack(stack, sensitivity_)),
-          pieces_(smooth_pieces(held_, sensitivity_.support(), false)),
+          keeps_rows_(has_incoherent_layers(held_.elements)),
+          pieces_(smooth_pieces(held_, sensitivity_.support(), keeps_rows_)),
           constant_(std::ranges::all_of(held_.materials,
                                         [](const Material& m) { return is_constant(m); })),
           on_path_(held_, path_wavelengths(constant_, sensitivity_.support())),
@@ -177,7 +186,7 @@ public:
                   points.indices = std::move(indices);
                   return points;
               },
-              &smooth_) {
+              keeps_rows_ ? nullptr : &smooth_) {
         const IndexTable survey(held_, smooth_pieces(held_, sensitivity_.support()));
         absorbs_ = survey.absorbs();
         amplifies_ = survey.amplifies();
@@ -505,6 +514,9 @@ private:
     const Sensitivity& sensitivity_;
     ColorRequest request_;
     Stack held_;
+    /// Rows of tables end panels: what an incoherent layer absorbs follows k however fast it
+    /// changes, and no slope of the coherent denominators tells how much a fit of k would lose.
+    bool keeps_rows_;
     std::vector<double> pieces_;  ///< ends of what is smooth
     bool constant_;               ///< all indices
     IndexTable on_path_;          ///< at the wavelengths that tell how long the path is

@@ -162,6 +162,34 @@ TEST_CASE("absorbing stacks have their colour within the error", "[slow]") {
     }
 }
 
+TEST_CASE("an incoherent layer follows every row of its k") {
+    Table n, k;
+    for (int row = 0; row <= 250; ++row) {
+        for (Table* const table : {&n, &k}) table->wavelength_nm.push_back(350 + 2 * row);
+        n.value.push_back(1.5);
+        k.value.push_back(row % 5 == 0 ? 0 : 1e-3);
+    }
+    // equal wavelengths that hold every row and resolve the windows between them
+    const ColorMethod equal{ColorMethod::Kind::equal, 470001};
+    for (const double thickness_nm : {1e4, 1e5}) {
+        StackBuilder b;
+        b.add(StackBuilder::layer_of(b.material({"rows", RefractiveIndex{n, k}, Outside::clamp}),
+                                     thickness_nm));
+        Stack stack = b.over({1, 0});
+        std::get<Layer>(stack.elements[0].value).coherent = false;
+        for (const Side side : {Side::reflected, Side::transmitted}) {
+            const Triple exact = color(stack, 20, {.sides = {side}}, tables_of("D65"), equal).xyz;
+            for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6}) {
+                const StackColor result =
+                    color(stack, 20, {.sides = {side}, .tolerance = tolerance});
+                CAPTURE(thickness_nm, tolerance);
+                CHECK(result.error <= tolerance);
+                CHECK(largest_difference(result.xyz, exact) <= result.error + 1e-6);
+            }
+        }
+    }
+}
+
 TEST_CASE("a table costs what the question needs, not what its rows are") {
     StackBuilder b;
     b.add(StackBuilder::layer_of(b.material(find_material("TiO2")->material), 35));
