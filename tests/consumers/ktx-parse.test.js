@@ -137,7 +137,7 @@ describe('ktx-parse reads tables as irido computes them', () => {
     it('says what three.js does with array layers', () => {
         const { status, stderr } = run('lut', ...requests['color-two'], '--layers', '-o', `${folder}/layers.ktx2`);
         assert.equal(status, 0);
-        assert.match(stderr, /three\.js reads the first of a file's array layers only/);
+        assert.match(stderr, /three\.js reads only the first array layer of a file/);
     });
 
     /** The values from CSV files; of mip levels, each from a table of its own. */
