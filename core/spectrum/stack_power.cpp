@@ -15,13 +15,17 @@ bool any_layer(std::span<const Element> elements, bool (*is_one)(const Layer&)) 
     });
 }
 
-bool is_incoherent(const Layer& layer) {
-    return !layer.coherent;
-}
-
 bool needs_expansion(const Layer& layer) {
     return !layer.coherent || layer.thickness_sigma_nm != 0;
 }
+
+}  // namespace
+
+bool has_incoherent_layers(std::span<const Element> elements) {
+    return any_layer(elements, [](const Layer& layer) { return !layer.coherent; });
+}
+
+namespace {
 
 /// A stack with its groups of incoherent layers written out.
 class Expansion {
@@ -34,7 +38,7 @@ public:
     void add(const std::vector<Element>& more, std::size_t& spread) {
         for (const Element& element : more) {
             const Group* group = std::get_if<Group>(&element.value);
-            if (group && any_layer(group->elements, is_incoherent)) {
+            if (group && has_incoherent_layers(group->elements)) {
                 add_repeated(*group, spread);
             } else {
                 elements.push_back(element);

@@ -9,6 +9,9 @@
 
 namespace irido {
 
+/// Whether any layer is incoherent, those of groups included.
+bool has_incoherent_layers(std::span<const Element> elements);
+
 /// Power of any stack: coherent layers, incoherent layers between them, spread thicknesses.
 ///
 /// Across an incoherent layer powers add instead of amplitudes: the layers between two incoherent

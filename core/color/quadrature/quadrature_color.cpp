@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/math/pool.hpp"
 #include "core/spectrum/spectrum.hpp"
+#include "core/spectrum/stack_power.hpp"
 
 namespace irido {
 
@@ -137,14 +138,6 @@ std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
 bool is_surveyed(const Material& material) {
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     return index != nullptr && !std::holds_alternative<Formula>(index->k);
-}
-
-/// Incoherent layers are outside groups.
-bool has_incoherent_layers(std::span<const Element> elements) {
-    return std::ranges::any_of(elements, [](const Element& element) {
-        const auto* layer = std::get_if<Layer>(&element.value);
-        return layer && !layer->coherent;
-    });
 }
 
 /// The elements that hold varied layers, ascending.
