@@ -60,7 +60,7 @@ std::shared_ptr<const QuadratureRule> ColorTables::rule(WavelengthRange panel,
     }
     auto rule = std::make_shared<const QuadratureRule>(sensitivity_, panel, degree);
     const std::scoped_lock guard(lock_);
-    const std::size_t numbers = 2 * rule->rows.size();
+    const std::size_t numbers = 4 * rule->weights.size();
     if (numbers_ + numbers <= kMostNumbers && rules_.emplace(key, rule).second) numbers_ += numbers;
     return rule;
 }

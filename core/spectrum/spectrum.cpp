@@ -319,7 +319,7 @@ void SpectrumKernel::update() {
         throw DomainError("amplitudes exist for coherent layers of fixed thicknesses only");
     const Chain* chain = stack_.chain();
     is_vectorized_ = chain && !needs_.layers && simd_ != SimdLevel::plain &&
-                     compile(*chain, absorbs_, amplifies_, fixed_, program_);
+                     compile(*chain, absorbs_, amplifies_, needs_.A, fixed_, program_);
     if (is_vectorized_) program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
 }
 
@@ -433,7 +433,10 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const IncidentAngle
             if (!block.media[block.layers[layer].medium].absorbs) ++work.transparent_layers;
         work.distinct_layers += block.shares_layers ? block.layers.size() : block.order.size();
         work.powers += static_cast<std::size_t>(
-            std::ranges::count(block.steps, Program::Kind::group, &Program::Step::kind));
+            std::ranges::count_if(block.steps, [](const Program::Step& step) {
+                return step.kind == Program::Kind::group ||
+                       step.kind == Program::Kind::absorbing_group;
+            }));
         for (const Program::UsedMedium& medium : block.media) {
             media.insert(medium.material);
             if (incident_is_constant && table.is_constant(medium.material))

@@ -8,15 +8,15 @@
 #define IRIDO_CHAIN_INL
 #endif
 
-#include "core/vector/groups-inl.hpp"
+#include "core/vector/absorbing_groups-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace irido::HWY_NAMESPACE {
 namespace {
 
 /// All steps, from the substrate up.
-struct ChainRun : GroupsRun {
-    using GroupsRun::GroupsRun;
+struct ChainRun : AbsorbingGroupsRun {
+    using AbsorbingGroupsRun::AbsorbingGroupsRun;
 
     template <bool kS, bool kP, bool kFlux>
     HWY_INLINE void climb(V k0, Fields& s, Fields& p, V& dying, Mask& bad) const {
@@ -34,6 +34,9 @@ struct ChainRun : GroupsRun {
                     break;
                 case Program::Kind::group:
                     group_step<kS, kP>(step, k0, s, p, bad);
+                    break;
+                case Program::Kind::absorbing_group:
+                    absorbing_group_step<kS, kP>(step, k0, s, p, dying, bad);
                     break;
                 default:
                     fixed_step<kS, kP>(step, s, p, dying);

@@ -112,7 +112,8 @@ std::vector<Attenuation> attenuations(const Layer& gap, const PointRun& run,
 }  // namespace
 
 bool compile(const Chain& chain, const std::vector<bool>& absorbs,
-             const std::vector<bool>& amplifies, const FixedRuns& fixed, ChainProgram& program) {
+             const std::vector<bool>& amplifies, bool needs_A, const FixedRuns& fixed,
+             ChainProgram& program) {
     program.gaps = chain.gaps;
     program.down.resize(chain.blocks.size());
     program.up.resize(chain.gaps.size());
@@ -120,11 +121,13 @@ bool compile(const Chain& chain, const std::vector<bool>& absorbs,
         const bool last = i == chain.gaps.size();
         const std::size_t below = last ? chain.substrate : chain.gaps[i].material;
         if (!last && amplifies[below]) return false;
-        if (!compile(chain.blocks[i].down, below, absorbs, fixed, program.down[i])) return false;
+        if (!compile(chain.blocks[i].down, below, absorbs, needs_A, fixed, program.down[i]))
+            return false;
         if (last) break;
         // above the first block is the incident medium, which does not absorb
         const std::size_t above = i == 0 ? Program::kIncident : chain.gaps[i - 1].material;
-        if (!compile(chain.blocks[i].up, above, absorbs, fixed, program.up[i])) return false;
+        if (!compile(chain.blocks[i].up, above, absorbs, needs_A, fixed, program.up[i]))
+            return false;
     }
     return true;
 }

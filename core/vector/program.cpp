@@ -26,19 +26,22 @@ constexpr std::uint64_t kMostWrittenOut = 200;
 /// storing as a whole.
 constexpr double kFewestFixedOperations = 120;
 
+/// More layers of groups that absorb are cheaper in closed form than written out.
+constexpr std::uint64_t kFewAbsorbingLayers = 12;
+
 /// Layers of a period that is raised to its power in closed form.
 constexpr std::size_t kLongestPeriod = 64;
 
 /// The steps of a stack, collected from the substrate up.
 class Compiler {
 public:
-    Compiler(Program& program, const std::vector<bool>& absorbs)
-        : program_(program), absorbs_(absorbs) {
+    Compiler(Program& program, const std::vector<bool>& absorbs, bool needs_A)
+        : program_(program), absorbs_(absorbs), needs_A_(needs_A) {
         program_.media.clear();
         program_.layers.clear();
         program_.order.clear();
         program_.steps.clear();
-        program_.shares_layers = program_.absorbs = false;
+        program_.shares_layers = program_.absorbs = program_.has_absorbing_groups = false;
         program_.largest_thickness_nm = 0;
         program_.mirror.reset();
     }
@@ -59,6 +62,7 @@ public:
     void add(const FixedRun& run) {
         program_.steps.push_back(run.step);
         program_.absorbs |= run.program.absorbs;
+        program_.has_absorbing_groups |= run.program.has_absorbing_groups;
         program_.largest_thickness_nm =
             std::max(program_.largest_thickness_nm, run.program.largest_thickness_nm);
     }
@@ -103,10 +107,16 @@ private:
         const bool transparent = std::ranges::none_of(
             period, [&](const Layer& layer) { return absorbs_[layer.material]; });
         const std::uint64_t all = group.repeat * period.size();
-        if (transparent && group.repeat > 1 && all > kFewLayers &&
-            period.size() <= kLongestPeriod) {
-            add_period(period, static_cast<std::uint32_t>(group.repeat));
-            return true;
+        if (group.repeat > 1 && period.size() <= kLongestPeriod) {
+            if (transparent && all > kFewLayers) {
+                add_period(Program::Kind::group, period, group.repeat);
+                return true;
+            }
+            if (!transparent && all > (needs_A_ ? kMostWrittenOut : kFewAbsorbingLayers)) {
+                add_period(Program::Kind::absorbing_group, period, group.repeat);
+                program_.has_absorbing_groups = true;
+                return true;
+            }
         }
         if (all > kMostWrittenOut) return false;
         for (std::uint64_t n = 0; n < group.repeat; ++n)
@@ -115,9 +125,10 @@ private:
         return true;
     }
 
-    void add_period(const std::vector<Layer>& period, std::uint32_t repeat) {
-        Program::Step step{Program::Kind::group, static_cast<std::uint32_t>(program_.order.size()),
-                           static_cast<std::uint32_t>(period.size()), repeat};
+    void add_period(Program::Kind kind, const std::vector<Layer>& period, std::uint64_t repeat) {
+        Program::Step step{kind, static_cast<std::uint32_t>(program_.order.size()),
+                           static_cast<std::uint32_t>(period.size()),
+                           static_cast<std::uint32_t>(repeat)};
         for (std::size_t i = period.size(); i-- > 0;)
             program_.order.push_back(shared_layer(period[i].material, period[i].thickness_nm));
         program_.steps.push_back(step);
@@ -140,6 +151,7 @@ private:
 
     Program& program_;
     const std::vector<bool>& absorbs_;
+    const bool needs_A_;
     std::array<std::byte, 4096> room_;
     std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
     std::pmr::map<std::size_t, std::uint32_t> media_{&memory_};
@@ -154,7 +166,7 @@ bool make_run(std::span<const Element> elements, std::size_t first, std::size_t 
     run.first = first;
     run.count = count;
     if (!compile(elements.subspan(first, count), lowest ? substrate : Program::kIncident, absorbs,
-                 {}, run.program))
+                 false, {}, run.program))
         return false;
     using enum Program::Kind;
     run.step.kind = lowest ? fixed_fields : run.program.absorbs ? fixed_complex : fixed_real;
@@ -173,6 +185,7 @@ constexpr Operations kTravellingLayer{kTurn + 2, 10}, kSharedTravellingLayer{0, 
 constexpr Operations kAbsorbingLayer{kTurn + 33, 25}, kSharedAbsorbingLayer{0, 17},
     kAbsorbingMatrix{kTurn + 49, 0};
 constexpr Operations kLayerOfPeriod{kTurn + 2, 30}, kPowerOfPeriod{0, 92};
+constexpr Operations kLossyLayerOfPeriod{kTurn + 40, 80}, kPowerOfLossyPeriod{0, kTurn + 280};
 constexpr Operations kFixedReal{0, 9}, kFixedComplex{0, 17};
 constexpr Operations kFilm{kTurn + 1, 18}, kEnds{3, 20};
 constexpr Operations kMirror{2 * kTurn + 7, kTurn + 46}, kMirrorMedia{39, 0};
@@ -210,6 +223,10 @@ double operations_per_point(const Program& program, int polarizations, bool cons
             case Program::Kind::group:
                 add(kLayerOfPeriod, step.count);
                 add(kPowerOfPeriod, 1);
+                break;
+            case Program::Kind::absorbing_group:
+                add(kLossyLayerOfPeriod, step.count);
+                add(kPowerOfLossyPeriod, 1);
                 break;
             case Program::Kind::fixed_fields:
                 break;
@@ -255,8 +272,9 @@ FixedRuns fixed_runs(std::span<const Element> elements, std::size_t substrate,
 }
 
 bool compile(std::span<const Element> elements, std::size_t substrate,
-             const std::vector<bool>& absorbs, const FixedRuns& fixed, Program& program) {
-    Compiler compiler(program, absorbs);
+             const std::vector<bool>& absorbs, bool needs_A, const FixedRuns& fixed,
+             Program& program) {
+    Compiler compiler(program, absorbs, needs_A);
     std::size_t end = elements.size();
     for (const FixedRun& run : fixed.runs) {
         const std::size_t above = run.first + run.count;

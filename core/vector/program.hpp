@@ -13,12 +13,13 @@ namespace irido {
 /// Coherent layers as steps of the vector kernel, from the substrate up.
 struct Program {
     enum class Kind {
-        transparent,   ///< layers in real arithmetic
-        absorbing,     ///< layers in complex arithmetic
-        group,         ///< a transparent period, raised to its power in closed form
-        fixed_fields,  ///< fields above the lowest layers, which are stored
-        fixed_real,    ///< the stored matrix of transparent layers
-        fixed_complex  ///< the stored matrix of layers some of which absorb
+        transparent,      ///< layers in real arithmetic
+        absorbing,        ///< layers in complex arithmetic
+        group,            ///< a transparent period, raised to its power in closed form
+        absorbing_group,  ///< a period some of whose layers absorb, likewise; A from 1 - R - T only
+        fixed_fields,     ///< fields above the lowest layers, which are stored
+        fixed_real,       ///< the stored matrix of transparent layers
+        fixed_complex     ///< the stored matrix of layers some of which absorb
     };
     struct Step {
         Kind kind;
@@ -41,6 +42,7 @@ struct Program {
     std::vector<Step> steps;
     bool shares_layers = false;  ///< layers occur often: their matrices are computed once a point
     bool absorbs = false;        ///< any layer
+    bool has_absorbing_groups = false;
     double largest_thickness_nm = 0;
     std::optional<HostedMirror> mirror;  ///< where its closed form is the faster one
 
@@ -76,12 +78,13 @@ FixedRuns fixed_runs(std::span<const Element> elements, std::size_t substrate,
                      const std::vector<bool>& absorbs, std::span<const std::size_t> varied);
 
 /// The program of coherent elements, into memory that is used again; false if they are better left
-/// to the plain kernel: groups of absorbing layers of many periods and nested groups of many
-/// layers.
+/// to the plain kernel: nested groups of many layers.
 ///   absorbs  as above
+///   needs_A  groups of a few absorbing layers are written out for their absorption
 ///   fixed    of these elements
 bool compile(std::span<const Element> elements, std::size_t substrate,
-             const std::vector<bool>& absorbs, const FixedRuns& fixed, Program& program);
+             const std::vector<bool>& absorbs, bool needs_A, const FixedRuns& fixed,
+             Program& program);
 
 /// The mirror if its closed form is faster than its program.
 ///   absorbs  as above

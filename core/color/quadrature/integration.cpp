@@ -87,7 +87,7 @@ bool is_smaller(Complex a, Complex b, double factor) {
 void mark_hidden_zeros(const QuadratureRule& rule, std::span<const double> slope_rows,
                        const Denominator& d, SimdLevel simd, IntegrationMemory::Zeros& memory,
                        std::vector<bool>& marked) {
-    const std::vector<double>& x = rule.panel.x;
+    const std::vector<double>& x = rule.x;
     const std::size_t degree = x.size() - 1;
     const double first = d.log_scale.front(), last = d.log_scale.back();
     auto& [parts, slopes] = memory;
@@ -127,7 +127,7 @@ double hidden_share(double foot, double value) {
     return std::min(1.0, std::numbers::pi * width);
 }
 
-/// Size of the last coefficients among the sums over a rule's rows.
+/// Size of the last coefficients among a rule's sums.
 double last_coefficient(const QuadratureRule& rule, std::span<const double> sums) {
     double largest = 0;
     for (const double value : sums.subspan(3 + rule.middle, rule.tail))
@@ -289,13 +289,12 @@ private:
         const Poles poles = poles_of(job, samples, first);
         const Triple lost = lost_by_fit(job, poles);
         if (!must_end && !is_below(lost, scaled(allowed, kMostLost))) return Outcome::halves;
-        const std::size_t width = rule.row_count();
+        const std::size_t width = rule.sum_count();
         memory_.sums.resize(integrals_.size() * width);
         std::vector<Triple>& panel_errors = memory_.panel_errors;
         for (std::size_t k = 0; k < integrals_.size(); ++k) {
             double* sums = memory_.sums.data() + k * width;
-            row_sums(rule.rows.data(), width, rule.stride, samples.row(k) + first, reference_[k],
-                     sums, limits_.simd);
+            rule.sum(samples.row(k) + first, reference_[k], sums, limits_.simd);
             panel_errors[k] = rule.error({sums, width}, poles.rate);
             for (std::size_t c = 0; c < 3; ++c) panel_errors[k][c] += lost[c];
             if (must_end || is_below(panel_errors[k], allowed)) continue;
@@ -417,7 +416,7 @@ private:
             if (!memory_.marked[j]) continue;
             const double share = hidden_share(foot, values[j]);
             for (std::size_t c = 0; c < 3; ++c)
-                weight[c] += share * std::abs(rule.panel.weight[c][j]);
+                weight[c] += share * std::abs(rule.weights[c * rule.stride + j]);
         }
         return weight;
     }
@@ -455,14 +454,14 @@ const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
 }
 
 const SpectralPoints& PanelTree::Node::all_points(std::size_t degree) {
-    const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    const std::vector<double>& every = rule(degree).wavelength_nm;
     const IndexFit* indices = fit();
     return all_[degree].get(
         lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points(every, indices)); });
 }
 
 const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
-    const std::vector<double>& every = rule(degree).panel.wavelength_nm;
+    const std::vector<double>& every = rule(degree).wavelength_nm;
     const IndexFit* indices = fit();
     return added_[degree].get(lock_, [&] {
         std::vector<double> odd;
@@ -581,7 +580,7 @@ void PanelTree::begin_with(Node& node, double half_turn, double largest_half_tur
         first = before.first + kDegrees[before.degree];
     }
     start.panels.push_back({&node, degree, half_turn, first});
-    const std::vector<double>& points = node.rule(degree).panel.wavelength_nm;
+    const std::vector<double>& points = node.rule(degree).wavelength_nm;
     parts.push_back(
         make_points_({points.begin() + (parts.empty() ? 0 : 1), points.end()}, node.fit()));
 }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <numbers>
 
-#include "core/math/simd_level.hpp"
+#include "core/color/quadrature/panel_sums.hpp"
+#include "core/math/lazy.hpp"
 
 namespace irido {
 
@@ -31,29 +34,64 @@ double steepest_of(double rate, double degree) {
     return 1 / (2 * std::sinh(rate / degree));
 }
 
-QuadratureRule::QuadratureRule(const Sensitivity& sensitivity, WavelengthRange range,
-                               std::size_t degree)
-    : panel(panel_rule(sensitivity, range, degree)),
-      points(degree + 1),
-      stride(whole_vectors(points)),
-      middle(degree < 16 ? 0 : std::max<std::size_t>(3, degree / 16)),
-      tail(std::max<std::size_t>(3, degree / 8)),
-      rows(row_count() * stride),
-      inverse_spacing(stride) {
-    for (std::size_t c = 0; c < 3; ++c)
-        std::ranges::copy(panel.weight[c], rows.begin() + static_cast<std::ptrdiff_t>(c * stride));
+namespace {
+
+std::size_t middle_of(std::size_t degree) {
+    return degree < 16 ? 0 : std::max<std::size_t>(3, degree / 16);
+}
+std::size_t tail_of(std::size_t degree) {
+    return std::max<std::size_t>(3, degree / 8);
+}
+
+/// What makes the middle and the last coefficients of a degree from values at its points.
+std::vector<double> coefficient_rows(std::size_t degree) {
+    const std::size_t middle = middle_of(degree), tail = tail_of(degree);
+    const std::size_t stride = whole_vectors(degree + 1);
     const auto n = static_cast<double>(degree);
+    std::vector<double> rows((middle + tail) * stride);
     for (std::size_t t = 0; t < middle + tail; ++t) {
         const std::size_t k =
             t < middle ? degree / 2 + 1 - middle + t : degree + 1 - tail + (t - middle);
-        double* row = rows.data() + (3 + t) * stride;
-        for (std::size_t j = 0; j < points; ++j) {
+        double* row = rows.data() + t * stride;
+        for (std::size_t j = 0; j <= degree; ++j) {
             const double ends = (j == 0 || j == degree ? 0.5 : 1) * (k == degree ? 0.5 : 1);
             row[j] = 2 / n * ends *
                      std::cos(std::numbers::pi * static_cast<double>(j * k % (2 * degree)) / n);
         }
     }
-    for (std::size_t j = 0; j < degree; ++j) inverse_spacing[j] = 1 / (panel.x[j] - panel.x[j + 1]);
+    return rows;
+}
+
+/// The same of one of kDegrees, which all rules share.
+std::span<const double> shared_coefficient_rows(std::size_t degree) {
+    static std::array<Lazy<const std::vector<double>>, kDegrees.size()> shared;
+    static std::mutex lock;
+    const auto which =
+        static_cast<std::size_t>(std::ranges::find(kDegrees, degree) - kDegrees.begin());
+    return shared.at(which).get(lock, [&] {
+        return std::make_unique<const std::vector<double>>(coefficient_rows(degree));
+    });
+}
+
+}  // namespace
+
+QuadratureRule::QuadratureRule(const Sensitivity& sensitivity, WavelengthRange range,
+                               std::size_t degree)
+    : points(degree + 1),
+      stride(whole_vectors(points)),
+      middle(middle_of(degree)),
+      tail(tail_of(degree)),
+      weights(3 * stride),
+      coefficients(shared_coefficient_rows(degree)),
+      inverse_spacing(stride) {
+    PanelRule panel = panel_rule(sensitivity, range, degree);
+    for (std::size_t c = 0; c < 3; ++c)
+        std::ranges::copy(panel.weight[c],
+                          weights.begin() + static_cast<std::ptrdiff_t>(c * stride));
+    x = std::move(panel.x);
+    wavelength_nm = std::move(panel.wavelength_nm);
+    const auto n = static_cast<double>(degree);
+    for (std::size_t j = 0; j < degree; ++j) inverse_spacing[j] = 1 / (x[j] - x[j + 1]);
     for (std::size_t rate = 0; rate < kFallRates.size(); ++rate) {
         step[rate] = std::exp(-kFallRates[rate] / n);
         steepest[rate] = steepest_of(kFallRates[rate], n);
@@ -73,6 +111,12 @@ double largest_of(std::span<const double> values) {
 }
 
 }  // namespace
+
+void QuadratureRule::sum(const double* values, double reference, double* sums,
+                         SimdLevel simd) const {
+    row_sums(weights.data(), 3, stride, values, reference, sums, simd);
+    row_sums(coefficients.data(), middle + tail, stride, values, reference, sums + 3, simd);
+}
 
 double QuadratureRule::fall_seen(std::span<const double> sums) const {
     const double last = largest_of(sums.subspan(3 + middle, tail));

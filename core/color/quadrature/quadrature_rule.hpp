@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/colorimetry/sensitivity.hpp"
+#include "core/math/simd_level.hpp"
 
 namespace irido {
 
@@ -24,25 +25,28 @@ double steepest_of(double rate, double degree);
 struct QuadratureRule {
     QuadratureRule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree);
 
-    PanelRule panel;
-    std::size_t points;  ///< degree + 1
-    std::size_t stride;  ///< of rows: points, rounded up to kMostLanes
-    std::size_t middle;  ///< number of coefficients up to the one of half the degree,
-    std::size_t tail;    ///< and of the last ones, that tell how large those left out are
-    /// Weights for X, Y, Z, then what makes the middle and the last Chebyshev coefficients; zero
-    /// past the points.
-    std::vector<double> rows;
-    std::vector<double> inverse_spacing;  ///< of each point to the next in x; 0 from the last on
+    std::vector<double> x, wavelength_nm;  ///< of the points, see PanelRule
+    std::size_t points;                    ///< degree + 1
+    std::size_t stride;                    ///< of rows: points, rounded up to kMostLanes
+    std::size_t middle;           ///< number of coefficients up to the one of half the degree,
+    std::size_t tail;             ///< and of the last ones, that tell how large those left out are
+    std::vector<double> weights;  ///< rows for X, Y, Z; zero past the points
+    std::span<const double> coefficients;  ///< rows that make these coefficients, of the degree
+    std::vector<double> inverse_spacing;   ///< of each point to the next in x; 0 from the last on
     /// Error of the integrals per unit of the last coefficient, for each of kFallRates.
     std::array<Triple, kFallRates.size()> per_coefficient;
     std::array<double, kFallRates.size()> step;      ///< from one coefficient to the next
     std::array<double, kFallRates.size()> steepest;  ///< steepest_of() each rate
     Triple light;                                    ///< part of the white that is in the panel
 
-    std::size_t row_count() const { return 3 + middle + tail; }
+    std::size_t sum_count() const { return 3 + middle + tail; }
+    /// X, Y, Z, then the middle and the last Chebyshev coefficients of values - reference.
+    ///   values  at the points; as many are read as the stride
+    ///   sums    room for sum_count() numbers
+    void sum(const double* values, double reference, double* sums, SimdLevel simd) const;
     /// Size of the middle coefficients over that of the last ones; for degrees from 16 on.
     double fall_seen(std::span<const double> sums) const;
-    /// Of the integrals, `sums` being those over all rows. `rate` is an index into kFallRates that
+    /// Of the integrals, `sums` being those of sum(). `rate` is an index into kFallRates that
     /// is known to hold; half of the fall from the middle to the last coefficients counts as well.
     Triple error(std::span<const double> sums, std::size_t rate) const;
 };
