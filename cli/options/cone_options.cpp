@@ -1,5 +1,6 @@
 #include "cli/options/cone_options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "cli/options/list.hpp"
@@ -13,7 +14,7 @@ void add_cone_options(CLI::App& command, ConeOptions& options) {
                     "mean over a cone of uniform radiance about each angle, its half-angle\n"
                     "in degrees in the incident medium; it must end at 90 degrees or\n"
                     "before. -p is the polarization before the lens that makes the cone")
-        ->type_name("DEGREES");
+        ->type_name("DEG");
     command
         .add_option("--f-number", options.f_number,
                     "the same for an aplanatic lens of f-number N, n sin(half-angle) =\n"

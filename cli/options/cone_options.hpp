@@ -1,10 +1,13 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <span>
 #include <string>
 
 #include "core/spectrum/cone.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace irido::cli {
 

@@ -1,5 +1,6 @@
 #include "cli/options/wavelength_unit.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -68,7 +68,7 @@ TEST_CASE("a pane's back depolarizes", "[cli][spectrum]") {
 
 TEST_CASE("what s and p have together is printed once", "[cli][spectrum]") {
     const auto rows = rows_of({"spectrum", kOxide, "-w", "600,632.8", "-a", "70", "-p", "p,s",
-                               "--columns", "psi_deg,delta_deg,N"});
+                               "--columns", "psi_deg,delta_deg,N,r_re"});
     REQUIRE(rows.size() == 4);
     for (const std::string column : {"psi_deg", "delta_deg", "N"}) {
         CHECK_FALSE(rows[0].at(column).empty());
