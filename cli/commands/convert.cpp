@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -59,12 +60,35 @@ std::string as_expression(const schemas::StackDocument& document, bool quiet) {
     return expression.text + "\n";
 }
 
+/// The layers from the other side. Throws InputError for layers that are not the same from there.
+void reverse_layers(nlohmann::json& layers, const std::string& file) {
+    if (!layers.is_array()) return;
+    std::reverse(layers.begin(), layers.end());
+    for (nlohmann::json& element : layers) {
+        for (const char* key : {"graded", "roughness_nm"})
+            if (element.contains(key))
+                throw schemas::InputError(
+                    file, "", std::string(key) + " cannot be written with --reverse as JSON");
+        if (element.contains("layers")) reverse_layers(element["layers"], file);
+    }
+}
+
+/// The document with its stack from the other side.
+void reverse(schemas::StackSource& source) {
+    nlohmann::json& document = source.document;
+    if (document.contains("substrate_roughness_nm"))
+        throw schemas::InputError(
+            source.file, "", "substrate_roughness_nm cannot be written with --reverse as JSON");
+    std::swap(document["incident"], document["substrate"]);
+    if (document.contains("layers")) reverse_layers(document["layers"], source.file);
+}
+
 int run_convert(const ConvertCommand& command) {
     const StackFormat format = resolved_stack_format(command.output);
     schemas::StackSource source = schemas::load_stack(command.stack);
-    const schemas::StackDocument document =
-        schemas::read_stack(source.document, source.file, source.folder);
+    const schemas::StackDocument document = schemas::read_source(source);
     for (const std::string& text : document.notes) note(text, command.quiet);
+    if (source.reverse && format == StackFormat::document) reverse(source);
     const std::string text = format == StackFormat::document
                                  ? as_json(std::move(source), command.output.file)
                                  : as_expression(document, command.quiet);

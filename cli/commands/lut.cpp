@@ -165,8 +165,7 @@ tables::LutRequest parse(const tables::LutKind& kind, const LutCommand& command)
     request.source = schemas::load_stack(command.stack);
     for (const tables::VariedValue& vary : request.vary)
         schemas::set_value(request.source.document, vary.path, vary.values.front());
-    request.document =
-        schemas::read_stack(request.source.document, request.source.file, request.source.folder);
+    request.document = schemas::read_source(request.source);
     for (const std::string& text : request.document.notes) note(text, command.quiet);
     if (kind.light)
         report_held_ranges(request.document, *request.sensitivity, false,

@@ -311,13 +311,14 @@ int run_sweep(const SweepCommand& command) {
     const SweepSpace space(command.vary, command.points);
     require_once(command, space);
     const Execution machine{1, execution_of(command.threads).simd};
-    const auto query = command.typed->parse({.execution = machine,
-                                             .note = [&](const std::string& text) { notes(text); },
-                                             .stacks = stacks_of_structure(space),
-                                             .varied = varied_layers(space),
-                                             .structures = structures_together(space),
-                                             .varies_wavelength = varies_wavelength(space),
-                                             .is_silent = true});
+    const auto query = command.typed->parse(
+        {.execution = machine,
+         .note = [&](const std::string& text) { notes(text); },
+         .stacks = stacks_of_structure(space),
+         .varied = command.stack.reverse ? std::vector<LayerPlace>{} : varied_layers(space),
+         .structures = structures_together(space),
+         .varies_wavelength = varies_wavelength(space),
+         .is_silent = true});
     const schemas::StackSource source = schemas::load_stack(command.stack);
     SweptStacks stacks(source, space, *query);
     SweepEngine engine(stacks, space, *query, command.keep_going);

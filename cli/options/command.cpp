@@ -39,6 +39,9 @@ void add_stack_options(CLI::App& command, schemas::StackRequest& request) {
                     "--material H=2.35 --material L=SiO2")
         ->type_name("NAME=MATERIAL")
         ->allow_extra_args(false);
+    command.add_flag("--reverse", request.reverse,
+                     "light from the substrate's side, angles in the substrate, which must\n"
+                     "be transparent; paths are those of the stack as it is written");
 }
 
 schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bool quiet) {

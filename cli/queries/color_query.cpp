@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cli/queries/color_cone.hpp"
 #include "core/coherent/coherent.hpp"
 #include "core/color/baselines/approximation.hpp"
 #include "core/color/held_stack.hpp"
@@ -36,7 +37,14 @@ std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
 struct ColorStack : PreparedStack {
     using PreparedStack::PreparedStack;
 
-    std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one per illumination
+    std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one per illumination, or, for a
+                                                              ///< cone, per cone_requests()
+
+    std::vector<const ColorAlgorithm*> of_illumination(std::size_t i, std::size_t count) const {
+        std::vector<const ColorAlgorithm*> some;
+        for (std::size_t a = 0; a < count; ++a) some.push_back(algorithms[i * count + a].get());
+        return some;
+    }
 };
 
 /// Columns to which rows are appended.
@@ -67,6 +75,12 @@ struct ColorRows {
         gamut.push_back(in_gamut(rgb));
     }
 };
+
+/// Whether a method's colours have an error that it knows.
+bool is_exact(ColorMethod::Kind kind) {
+    using enum ColorMethod::Kind;
+    return kind == automatic || kind == quadrature || kind == fourier || kind == bloch;
+}
 
 /// The incident medium's index at every nm that contributes.
 IndexTable incident_table(const Stack& stack, WavelengthRange support) {
@@ -122,6 +136,9 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
       run_(run) {
     const Adaptation adaptation = parse_adaptation(typed.color.adaptation);
     request_.sides = parse_sides(typed.color.sides);
+    cone_ = parse_cone(typed.cone, angles_deg_);
+    if (!cone_.is_none() && !is_exact(method_.kind))
+        throw UsageError("--cone and --f-number require an exact --method");
     request_.light = parse_light(typed.color.polarization);
     request_.tolerance = parse_tolerance(typed.color.tolerance);
     request_.colors = static_cast<std::size_t>(
@@ -197,12 +214,19 @@ std::unique_ptr<const PreparedStack> ColorQuery::prepare(schemas::StackDocument 
         const WavelengthRange support = illuminations_.front()->tables.sensitivity().support();
         note_incident(document, incident_table(document.stack, support), run_.note);
         auto prepared = std::make_unique<ColorStack>(std::move(document));
-        for (const auto& illumination : illuminations_)
+        for (const auto& illumination : illuminations_) {
+            if (!cone_.is_none()) {
+                for (const ColorRequest& request : cone_requests(request_))
+                    prepared->algorithms.push_back(color_algorithm(
+                        illumination->tables, prepared->document.stack, method_, request));
+                continue;
+            }
             prepared->algorithms.push_back(
                 base_color_ ? approximate_color(illumination->tables, prepared->document.stack,
                                                 method_, request_, base_color_)
                             : color_algorithm(illumination->tables, prepared->document.stack,
                                               method_, request_));
+        }
         return prepared;
     } catch (const DomainError& error) {
         throw schemas::InputError(file, "", error.what());
@@ -215,12 +239,12 @@ std::unique_ptr<QueryResult> ColorQuery::new_result() const {
 
 double ColorQuery::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                            std::optional<double>) const {
-    constexpr double kColor = 1, kLayer = 0.012, kPathWavelength_nm = 500;
+    constexpr double kColor = 1, kLayer = 0.012, kPathWavelength_nm = 500, kConeAngles = 48;
     const Sensitivity& sensitivity = illuminations_.front()->tables.sensitivity();
     const Stack& model = prepared.document.stack;
     const IndexTable indices(held_stack(model, sensitivity), {kPathWavelength_nm});
     const std::size_t pieces = smooth_pieces(model, sensitivity.support()).size() - 1;
-    return static_cast<double>(illuminations_.size()) *
+    return static_cast<double>(illuminations_.size()) * (cone_.is_none() ? 1 : kConeAngles) *
            (kColor + kLayer * quadrature_work(stack, indices, pieces, incident_angle(angle_deg)));
 }
 
@@ -253,12 +277,19 @@ double ColorQuery::try_share(const schemas::StackDocument& document, const Incid
 
 StackColors ColorQuery::colors(const PreparedStack& prepared, const Stack& stack,
                                std::span<const double> angles_deg) const {
-    const auto& algorithms = static_cast<const ColorStack&>(prepared).algorithms;
+    const auto& ready = static_cast<const ColorStack&>(prepared);
+    const auto& algorithms = ready.algorithms;
     const unsigned threads = run_.execution.threads;
     StackColors result{{angles_deg.begin(), angles_deg.end()}, {}};
     bool approximate = method_.count > 0;
     try {
         for (std::size_t i = 0; i < illuminations_.size(); ++i) {
+            if (!cone_.is_none()) {
+                result.colors.push_back(
+                    cone_colors(ready.of_illumination(i, algorithms.size() / illuminations_.size()),
+                                stack, request_, angles_deg, cone_, threads));
+                continue;
+            }
             result.colors.push_back(
                 stack_color(*algorithms[i], stack, sides().size(), angles_deg, threads));
             if (run_.is_silent && !stats_ && !held_to_tolerance_) continue;
@@ -348,6 +379,7 @@ std::unique_ptr<QueryOptions> ColorQueryOptions::add(CLI::App& command) {
     auto options = std::make_unique<ColorQueryOptions>();
     add_angles_option(command, options->angles);
     add_color_options(command, options->color);
+    add_cone_options(command, options->cone);
     command.add_flag("--compare-illuminants", options->compare,
                      "also compute every other named illuminant; adds columns\n"
                      "illuminant,delta_e_2000 (CIEDE2000 to the first one)");
@@ -376,6 +408,8 @@ nlohmann::json ColorQueryOptions::typed() const {
             {"harmonics", color.harmonics},
             {"base_color", color.base_color},
             {"tolerance", color.tolerance},
+            {"cone", cone.half_angle},
+            {"f_number", cone.f_number},
             {"compare", compare},
             {"stats", stats},
             {"strict", strict}};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/options/color_options.hpp"
+#include "cli/options/cone_options.hpp"
 #include "cli/queries/query.hpp"
 #include "core/color/color_tables.hpp"
 #include "core/color/stack_color.hpp"
@@ -15,6 +16,7 @@ namespace irido::cli {
 struct ColorQueryOptions : QueryOptions {
     std::string angles = "0";
     ColorOptions color;
+    ConeOptions cone;
     bool compare = false;
     bool stats = false;
     bool strict = false;
@@ -81,6 +83,7 @@ private:
     ColorMethod method_;
     std::optional<Triple> base_color_;  ///< for --method gltf
     ColorRequest request_;
+    ConeSize cone_;
     bool held_to_tolerance_;  ///< a tolerance was given
     const RgbSpace* space_;
     bool stats_, strict_;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options/long_work.hpp"
+#include "cli/options/wavelength_unit.hpp"
 #include "cli/queries/bands_query.hpp"
 #include "cli/queries/cm_query.hpp"
 #include "cli/queries/color_query.hpp"
@@ -33,10 +34,13 @@ double Query::try_share(const schemas::StackDocument& document, const Incidence&
 
 void note_incident(const schemas::StackDocument& document, const IndexTable& table,
                    const std::function<void(const std::string&)>& say) {
-    if (is_constant(document.stack.materials[document.stack.incident])) return;  // said when read
+    const std::size_t incident = document.stack.incident;
+    if (is_constant(document.stack.materials[incident])) return;  // said when read
     double largest = 0;
     for (const double k : table.k(table.incident())) largest = std::max(largest, std::abs(k));
-    if (largest > 0) say(document.file + ": /incident: " + schemas::incident_note(largest));
+    if (largest > 0)
+        say(document.file + ": " + document.material_pointers[incident] + ": " +
+            schemas::incident_note(largest));
 }
 
 tables::Records records_of(const Query& query, const PreparedStack& prepared) {
@@ -52,7 +56,7 @@ tables::Figure figure_of_rows(const Query& query, const tables::Records& rows,
     tables::RowPlot plot = query.plot(rows, gamut);
     plot.title = title;
     auto place = plot.keys.begin();
-    if (place->column == "wavelength_nm") ++place;  // along x, whatever else varies
+    if (is_wavelength_column(place->column)) ++place;  // along x, whatever else varies
     for (const std::string& path : varied)
         place = plot.keys.insert(place, {path, tables::axis_of_column(path)}) + 1;
     for (const std::string& text : plot.notes) say(text);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "cli/options/list.hpp"
 #include "core/error.hpp"
-#include "core/spectrum/ellipsometry.hpp"
 #include "schemas/readers/nearest.hpp"
 
 namespace irido::cli {
@@ -13,8 +13,23 @@ namespace irido::cli {
 namespace {
 
 /// As typed, in the order of SpectrumColumn.
-constexpr std::array<std::string_view, 7> kNames{"r_re",    "r_im",      "t_re",    "t_im",
-                                                 "psi_deg", "delta_deg", "A_layers"};
+constexpr std::array<std::string_view, 20> kNames{
+    "r_re",        "r_im",        "t_re",      "t_im",
+    "psi_deg",     "delta_deg",   "A_layers",  "delta_nebraska_deg",
+    "N",           "C",           "S",         "depolarization",
+    "phase_r_deg", "phase_t_deg", "gd_r_fs",   "gd_t_fs",
+    "gdd_r_fs2",   "gdd_t_fs2",   "tod_r_fs3", "tod_t_fs3"};
+
+/// What a column is made of.
+enum class Source { amplitude, ellipsometric_angle, layers, ellipsometry, delay };
+
+Source source_of(SpectrumColumn column) {
+    using enum SpectrumColumn;
+    if (column <= t_im) return Source::amplitude;
+    if (column == delta_deg) return Source::ellipsometric_angle;
+    if (column == A_layers) return Source::layers;
+    return column == psi_deg || column <= depolarization ? Source::ellipsometry : Source::delay;
+}
 
 std::string name_of(SpectrumColumn column) {
     return std::string(kNames[static_cast<std::size_t>(column)]);
@@ -27,15 +42,12 @@ SpectrumColumn column_of(std::string_view name) {
                      schemas::did_you_mean(name, {kNames.begin(), kNames.end()}));
 }
 
-bool is_ellipsometric(SpectrumColumn column) {
-    return column == SpectrumColumn::psi_deg || column == SpectrumColumn::delta_deg;
-}
-
 /// Appends the values of rows to a column, in order.
 class RowValues {
 public:
-    RowValues(const SpectrumShape& shape, const Spectra& spectra, tables::Column::Numbers& to)
-        : shape_(shape), spectra_(spectra), to_(to) {}
+    RowValues(const SpectrumShape& shape, const SpectrumAnswers& answers,
+              tables::Column::Numbers& to)
+        : shape_(shape), answers_(answers), spectra_(answers.spectra), to_(to) {}
 
     /// value(polarization, point), points being [angle][wavelength].
     template <class Value>
@@ -65,14 +77,36 @@ public:
         });
     }
 
-    void ellipsometric(double EllipsometricAngles::*angle) const {
-        append([&](char, std::size_t point) {
-            return ellipsometric_angles(spectra_.s.r[point], spectra_.p.r[point]).*angle;
+    /// Values that s and p have together, in the rows of the first polarization only.
+    template <class Value>
+    void append_once(const Value& value) const {
+        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        const char first = shape_.polarizations.front();
+        append([&](char polarization, std::size_t point) {
+            return shape_.has_ellipsometry && polarization == first ? value(point) : kNone;
+        });
+    }
+
+    void delta() const {
+        append_once([&](std::size_t point) {
+            return ellipsometric_angles(spectra_.s.r[point], spectra_.p.r[point]).delta_deg;
+        });
+    }
+
+    void ellipsometric(double Ellipsometry::*quantity) const {
+        append_once([&](std::size_t point) { return answers_.ellipsometry[point].*quantity; });
+    }
+
+    void delay(Delay Delays::*amplitude, double Delay::*quantity) const {
+        append([&](char polarization, std::size_t point) {
+            const auto& all = polarization == 's' ? answers_.delays_s : answers_.delays_p;
+            return (all[point].*amplitude).*quantity;
         });
     }
 
 private:
     const SpectrumShape& shape_;
+    const SpectrumAnswers& answers_;
     const Spectra& spectra_;
     tables::Column::Numbers& to_;
 };
@@ -94,10 +128,36 @@ void append_values(SpectrumColumn column, const RowValues& values) {
             return values.amplitude(&Spectrum::t, real_part);
         case SpectrumColumn::t_im:
             return values.amplitude(&Spectrum::t, imaginary_part);
-        case SpectrumColumn::psi_deg:
-            return values.ellipsometric(&EllipsometricAngles::psi_deg);
         case SpectrumColumn::delta_deg:
-            return values.ellipsometric(&EllipsometricAngles::delta_deg);
+            return values.delta();
+        case SpectrumColumn::psi_deg:
+            return values.ellipsometric(&Ellipsometry::psi_deg);
+        case SpectrumColumn::delta_nebraska_deg:
+            return values.ellipsometric(&Ellipsometry::delta_nebraska_deg);
+        case SpectrumColumn::N:
+            return values.ellipsometric(&Ellipsometry::N);
+        case SpectrumColumn::C:
+            return values.ellipsometric(&Ellipsometry::C);
+        case SpectrumColumn::S:
+            return values.ellipsometric(&Ellipsometry::S);
+        case SpectrumColumn::depolarization:
+            return values.ellipsometric(&Ellipsometry::depolarization);
+        case SpectrumColumn::phase_r_deg:
+            return values.delay(&Delays::r, &Delay::phase_deg);
+        case SpectrumColumn::phase_t_deg:
+            return values.delay(&Delays::t, &Delay::phase_deg);
+        case SpectrumColumn::gd_r_fs:
+            return values.delay(&Delays::r, &Delay::gd_fs);
+        case SpectrumColumn::gd_t_fs:
+            return values.delay(&Delays::t, &Delay::gd_fs);
+        case SpectrumColumn::gdd_r_fs2:
+            return values.delay(&Delays::r, &Delay::gdd_fs2);
+        case SpectrumColumn::gdd_t_fs2:
+            return values.delay(&Delays::t, &Delay::gdd_fs2);
+        case SpectrumColumn::tod_r_fs3:
+            return values.delay(&Delays::r, &Delay::tod_fs3);
+        case SpectrumColumn::tod_t_fs3:
+            return values.delay(&Delays::t, &Delay::tod_fs3);
         case SpectrumColumn::A_layers:
             return;
     }
@@ -122,19 +182,30 @@ std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text) {
     return columns;
 }
 
-Needs spectrum_needs(const std::string& polarizations, const std::vector<SpectrumColumn>& columns,
-                     const StackPower& stack) {
+SpectrumNeeds spectrum_needs(const std::string& polarizations,
+                             const std::vector<SpectrumColumn>& columns, const StackPower& stack) {
     const auto asked_for = [&](char letter) {
         return polarizations.find(letter) != std::string::npos;
     };
-    Needs needs{asked_for('s') || asked_for('u'), asked_for('p') || asked_for('u')};
+    SpectrumNeeds all{{asked_for('s') || asked_for('u'), asked_for('p') || asked_for('u')}};
+    Needs& needs = all.power;
     for (const SpectrumColumn column : columns) {
-        if (column == SpectrumColumn::A_layers) {
+        const Source source = source_of(column);
+        if (source == Source::layers) {
             if (stack.layer_count() > StackPower::kLargestLayerList)
                 throw UsageError("--columns: A_layers requires a stack of at most " +
                                  std::to_string(StackPower::kLargestLayerList) + " layers (got " +
                                  std::to_string(stack.layer_count()) + ", repetitions included)");
             needs.layers = stack.layer_count() > 0;
+            continue;
+        }
+        if (source == Source::ellipsometry) {
+            if (!stack.chain())
+                throw UsageError("--columns: " + name_of(column) +
+                                 " requires layers without thickness_sigma_nm");
+            all.ellipsometry = true;
+            needs.s = needs.p = true;
+            needs.amplitudes = needs.amplitudes || stack.has_amplitudes();
             continue;
         }
         if (asked_for('u'))
@@ -144,10 +215,15 @@ Needs spectrum_needs(const std::string& polarizations, const std::vector<Spectru
             throw UsageError("--columns: " + name_of(column) +
                              " requires coherent layers without thickness_sigma_nm: incoherent "
                              "or averaged stacks have no amplitudes");
+        if (source == Source::delay) {
+            all.delays = true;
+            if (column > SpectrumColumn::phase_t_deg) all.derivatives = true;
+            continue;
+        }
         needs.amplitudes = true;
-        if (is_ellipsometric(column)) needs.s = needs.p = true;
+        if (source == Source::ellipsometric_angle) needs.s = needs.p = true;
     }
-    return needs;
+    return all;
 }
 
 std::vector<std::string> spectrum_number_names(const std::vector<SpectrumColumn>& columns,
@@ -165,10 +241,10 @@ std::vector<std::string> spectrum_number_names(const std::vector<SpectrumColumn>
 }
 
 void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<SpectrumColumn>& columns,
-                             std::size_t layers, const Spectra& spectra,
+                             std::size_t layers, const SpectrumAnswers& answers,
                              std::vector<tables::Column::Numbers>& to) {
     auto next = to.begin();
-    const auto values = [&] { return RowValues(shape, spectra, *next++); };
+    const auto values = [&] { return RowValues(shape, answers, *next++); };
     for (const auto quantity : {&Spectrum::R, &Spectrum::T, &Spectrum::A}) values().power(quantity);
     for (const SpectrumColumn column : columns) {
         if (column != SpectrumColumn::A_layers) {

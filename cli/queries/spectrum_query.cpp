@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/options/command.hpp"
+#include "cli/queries/stack_tables.hpp"
 #include "core/coherent/coherent.hpp"
 #include "core/error.hpp"
+#include "core/material/index_series.hpp"
 #include "core/spectrum/stack_power.hpp"
 #include "core/stack/index_table.hpp"
 #include "schemas/input_error.hpp"
@@ -15,52 +17,6 @@
 namespace irido::cli {
 
 namespace {
-
-/// The letters of "s,p,u" in the order typed.
-std::string parse_polarizations(std::string_view text) {
-    std::string letters;
-    for (const std::string_view item : comma_separated(text)) {
-        if (item != "s" && item != "p" && item != "u")
-            throw UsageError("--polarization: must be s, p, u or several with commas (got '" +
-                             std::string(text) + "')");
-        letters += item;
-    }
-    return letters;
-}
-
-/// Throws the error of the first material without an index at one of the wavelengths, with its
-/// JSON pointer.
-[[noreturn]] void throw_material_error(const schemas::StackDocument& document,
-                                       const std::vector<double>& wavelengths_nm,
-                                       const DomainError& fallback) {
-    for (std::size_t m = 0; m < document.stack.materials.size(); ++m) {
-        try {
-            for (const double wavelength : wavelengths_nm)
-                index_at(document.stack.materials[m], wavelength);
-        } catch (const DomainError& error) {
-            throw schemas::InputError(document.file, document.material_pointers[m], error.what());
-        }
-    }
-    throw schemas::InputError(document.file, document.material_pointers[document.stack.incident],
-                              fallback.what());
-}
-
-IndexTable index_table(const schemas::StackDocument& document,
-                       const std::vector<double>& wavelengths_nm) {
-    try {
-        return {document.stack, wavelengths_nm};
-    } catch (const DomainError& error) {
-        throw_material_error(document, wavelengths_nm, error);
-    }
-}
-
-StackPower stack_power(const schemas::StackDocument& document, const Stack& stack) {
-    try {
-        return StackPower(stack);
-    } catch (const DomainError& error) {
-        throw schemas::InputError(document.file, "", error.what());
-    }
-}
 
 struct SpectrumStack : PreparedStack {
     SpectrumStack(schemas::StackDocument read, const std::vector<double>& wavelengths_nm)
@@ -200,12 +156,6 @@ std::vector<std::string> letters_of(const std::string& polarizations) {
     return result;
 }
 
-std::vector<IncidentAngle> incident_angles_of(std::span<const double> angles_deg) {
-    std::vector<IncidentAngle> incident_angles;
-    for (const double angle_deg : angles_deg) incident_angles.push_back(incident_angle(angle_deg));
-    return incident_angles;
-}
-
 }  // namespace
 
 class SpectrumResult : public QueryResult {
@@ -213,23 +163,25 @@ public:
     explicit SpectrumResult(const SpectrumQuery& query)
         : SpectrumResult(query, query.polarizations_) {}
     SpectrumResult(const SpectrumQuery& query, std::string polarizations)
-        : query_(query), polarizations_(std::move(polarizations)) {}
+        : query_(query),
+          polarizations_(std::move(polarizations)),
+          has_ellipsometry_(polarizations_.front() == query.polarizations_.front()) {}
 
     std::size_t add(const PreparedStack& prepared, const Stack& stack,
                     const Incidence& incidence) override {
         const StackPower power = stack_power(prepared.document, stack);
-        const Needs needs = spectrum_needs(polarizations_, query_.columns_, power);
+        const SpectrumNeeds needs = spectrum_needs(polarizations_, query_.columns_, power);
         const bool is_other = incidence.wavelength_nm.has_value();
         const IndexTable& table =
             is_other ? other_.emplace(index_table(prepared.document, {*incidence.wavelength_nm}))
                      : static_cast<const SpectrumStack&>(prepared).table;
         try {
-            spectra(power, table, incident_angles_of(incidence.angles_deg), needs,
-                    query_.execution_, spectra_);
+            answer(stack, power, table, incidence.angles_deg, query_.cone_, needs,
+                   query_.execution_, answers_);
         } catch (const DomainError& error) {
             throw schemas::InputError(prepared.document.file, "", error.what());
         }
-        const std::size_t layers = needs.layers ? power.layer_count() : 0;
+        const std::size_t layers = needs.power.layers ? power.layer_count() : 0;
         if (numbers_.empty()) begin(layers);
         if (layers != layers_)
             throw UsageError(
@@ -238,7 +190,7 @@ public:
     }
 
     tables::Records records() override {
-        tables::Records records{{{"wavelength_nm", std::move(wavelength_)},
+        tables::Records records{{{std::string(query_.typed_.unit().column), std::move(wavelength_)},
                                  {"angle_deg", std::move(angle_)},
                                  {"polarization", std::move(polarization_)}}};
         for (std::size_t c = 0; c < names_.size(); ++c)
@@ -260,12 +212,12 @@ private:
 
     std::size_t append(const Incidence& incidence, const std::vector<double>& wavelengths_nm) {
         const SpectrumShape shape{incidence.angles_deg.size(), polarizations_,
-                                  wavelengths_nm.size()};
-        append_spectrum_numbers(shape, query_.columns_, layers_, spectra_, numbers_);
+                                  wavelengths_nm.size(), has_ellipsometry_};
+        append_spectrum_numbers(shape, query_.columns_, layers_, answers_, numbers_);
         if (incidence.wavelength_nm || !shared_wavelengths_) {
             first_wavelength_ = static_cast<std::uint32_t>(wavelength_.values.size());
-            wavelength_.values.insert(wavelength_.values.end(), wavelengths_nm.begin(),
-                                      wavelengths_nm.end());
+            for (const double nm : wavelengths_nm)
+                wavelength_.values.push_back(query_.typed_.printed(nm));
             shared_wavelengths_ = !incidence.wavelength_nm;
         }
         for (const double angle_deg : incidence.angles_deg) {
@@ -284,7 +236,8 @@ private:
 
     const SpectrumQuery& query_;
     std::string polarizations_;
-    Spectra spectra_;
+    bool has_ellipsometry_;
+    SpectrumAnswers answers_;
     std::optional<IndexTable> other_;
     std::size_t layers_ = 0;
     std::vector<std::string> names_;
@@ -295,23 +248,106 @@ private:
     std::uint32_t first_wavelength_ = 0;
 };
 
+/// Rows of averages: one for each angle and polarization.
+class AverageResult : public QueryResult {
+public:
+    explicit AverageResult(const SpectrumQuery& query) : query_(query) {}
+
+    std::size_t add(const PreparedStack& prepared, const Stack& stack,
+                    const Incidence& incidence) override {
+        const WavelengthRange range{query_.wavelengths_nm_.front(), query_.wavelengths_nm_.back()};
+        SpectrumAnswers answers;
+        try {
+            answers.spectra = average_power(prepared.document, stack, range, *query_.average_,
+                                            incidence.angles_deg, query_.cone_, query_.execution_);
+        } catch (const DomainError& error) {
+            throw schemas::InputError(prepared.document.file, "", error.what());
+        }
+        const SpectrumShape shape{incidence.angles_deg.size(), query_.polarizations_, 1};
+        append_spectrum_numbers(shape, {}, 0, answers, numbers_);
+        for (const double angle_deg : incidence.angles_deg)
+            for (const char letter : query_.polarizations_) {
+                angle_.push_back(angle_deg);
+                polarization_.emplace_back(1, letter);
+                weight_.push_back(query_.average_->name);
+            }
+        return shape.rows();
+    }
+
+    tables::Records records() override {
+        tables::Records records{{{"angle_deg", std::exchange(angle_, {})},
+                                 {"polarization", std::exchange(polarization_, {})},
+                                 {"weight", std::exchange(weight_, {})}}};
+        for (std::size_t c = 0; c < numbers_.size(); ++c)
+            records.columns.push_back({std::string(1, "RTA"[c]), std::exchange(numbers_[c], {})});
+        return records;
+    }
+
+private:
+    const SpectrumQuery& query_;
+    tables::Column::Numbers angle_;
+    tables::Column::Texts polarization_, weight_;
+    std::vector<tables::Column::Numbers> numbers_ = std::vector<tables::Column::Numbers>(3);
+};
+
+namespace {
+
+void require_power_columns(const std::string& option, const std::vector<SpectrumColumn>& columns,
+                           bool takes_layers) {
+    for (const SpectrumColumn column : columns)
+        if (!takes_layers || column != SpectrumColumn::A_layers)
+            throw UsageError(option + ": takes no --columns" +
+                             (takes_layers ? " but A_layers" : ""));
+}
+
+std::vector<double> both_ends(const std::vector<double>& wavelengths_nm) {
+    const auto [first, last] = std::ranges::minmax(wavelengths_nm);
+    if (first == last)
+        throw UsageError("--average: --wavelengths must be a range, such as 400:700:1 (got " +
+                         to_text(first) + " nm alone)");
+    return {first, last};
+}
+
+}  // namespace
+
 SpectrumQuery::SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run)
     : varies_wavelength_(run.varies_wavelength),
-      wavelengths_nm_(varies_wavelength_
-                          ? std::vector<double>{}
-                          : parse_list("--wavelengths", typed.wavelengths, kAllWavelengths.first_nm,
-                                       kAllWavelengths.last_nm)),
+      typed_(varies_wavelength_ ? TypedWavelengths()
+                                : TypedWavelengths(typed.wavelengths, typed.unit)),
+      wavelengths_nm_(typed_.nm()),
       angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
       columns_(parse_spectrum_columns(typed.columns)),
+      cone_(parse_cone(typed.cone, angles_deg_)),
       execution_(run.execution),
-      note_(run.note) {}
+      note_(run.note) {
+    if (varies_wavelength_ && typed.unit != "nm")
+        throw UsageError("--unit: cannot be combined with a varied wavelength_nm");
+    if (!cone_.is_none())
+        require_power_columns(cone_.f_number != 0 ? "--f-number" : "--cone", columns_, true);
+    if (typed.average.empty()) return;
+    average_ = parse_average(typed.average);
+    require_power_columns("--average", columns_, false);
+    wavelengths_nm_ = both_ends(wavelengths_nm_);
+}
+
+nlohmann::json SpectrumQuery::data() const {
+    if (!average_) return nullptr;
+    nlohmann::json rows = nlohmann::json::array();
+    for (const Table& factor : average_->factors)
+        rows.push_back({factor.wavelength_nm, factor.value});
+    return rows;
+}
 
 tables::RecordLayout SpectrumQuery::layout(const schemas::StackDocument& document) const {
     const StackPower power = stack_power(document, document.stack);
-    const bool by_layer = spectrum_needs(polarizations_, columns_, power).layers;
-    tables::RecordLayout layout{
-        {"wavelength_nm"}, {"angle_deg"}, {"polarization", tables::RecordField::Type::text, 1}};
+    const bool by_layer = spectrum_needs(polarizations_, columns_, power).power.layers;
+    using enum tables::RecordField::Type;
+    tables::RecordLayout layout;
+    if (!average_) layout.push_back({std::string(typed_.unit().column)});
+    layout.push_back({"angle_deg"});
+    layout.push_back({"polarization", text, 1});
+    if (average_) layout.push_back({"weight", text, average_->name.size()});
     for (std::string& name : spectrum_number_names(columns_, by_layer ? power.layer_count() : 0))
         layout.push_back({std::move(name)});
     return layout;
@@ -319,13 +355,15 @@ tables::RecordLayout SpectrumQuery::layout(const schemas::StackDocument& documen
 
 tables::RowPlot SpectrumQuery::plot(const tables::Records& rows, tables::GamutMapping) const {
     tables::RowPlot plot;
-    for (const char* name : {"wavelength_nm", "angle_deg", "polarization"})
-        plot.keys.push_back({name, tables::axis_of_column(name)});
+    std::vector<std::string> keys{"angle_deg", "polarization"};
+    keys.insert(keys.begin(), std::string(average_ ? "weight" : typed_.unit().column));
+    for (const std::string& name : keys) plot.keys.push_back({name, tables::axis_of_column(name)});
     std::size_t layers = 0;
     for (const tables::Column& column : rows.columns)
         if (column.name == "A_" + std::to_string(layers + 1)) ++layers;
     for (std::string& name : spectrum_number_names(columns_, layers)) {
-        const tables::FigureAxis axis = tables::axis_of_column(name);
+        tables::FigureAxis axis = tables::axis_of_column(name);
+        if (name == "C") axis.quantity = name;  // of ellipsometry, not of a series
         plot.values.push_back({name, axis, name.starts_with("A_") ? "absorbed in layers" : ""});
     }
     return plot;
@@ -334,27 +372,47 @@ tables::RowPlot SpectrumQuery::plot(const tables::Records& rows, tables::GamutMa
 std::unique_ptr<const PreparedStack> SpectrumQuery::prepare(schemas::StackDocument document) const {
     spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));
     auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
-    note_incident(prepared->document, prepared->table, note_);
+    note_stack(prepared->document, prepared->table);
     return prepared;
 }
 
+void SpectrumQuery::note_stack(const schemas::StackDocument& document,
+                               const IndexTable& table) const {
+    note_incident(document, table, note_);
+    const StackPower power = stack_power(document, document.stack);
+    if (!spectrum_needs(polarizations_, columns_, power).derivatives) return;
+    std::string names;
+    for (const Material& material : document.stack.materials)
+        if (has_rows(material))
+            names +=
+                (names.empty() ? "" : ", ") + (material.name.empty() ? "a table" : material.name);
+    if (!names.empty())
+        note_(document.file + ": gd, gdd and tod take tabulated indices (" + names +
+              ") as straight lines between their rows: they jump at rows");
+}
+
 std::unique_ptr<QueryResult> SpectrumQuery::new_result() const {
+    if (average_) return std::make_unique<AverageResult>(*this);
     return std::make_unique<SpectrumResult>(*this);
 }
 
 double SpectrumQuery::cost_us(const PreparedStack& prepared, const Stack& stack, double angle_deg,
                               std::optional<double> wavelength_nm) const {
     constexpr double kStack = 2, kRow = 0.2, kOperation = 3e-5, kPlainPoint = 2;
+    constexpr double kDelay = 4, kConePoints = 48, kAveragePoints = 10000;
     const StackPower power = stack_power(prepared.document, stack);
-    const Needs needs = spectrum_needs(polarizations_, columns_, power);
+    const SpectrumNeeds needs = spectrum_needs(polarizations_, columns_, power);
     const IncidentAngle at = incident_angle(angle_deg);
     std::optional<IndexTable> other;
     const IndexTable& table = wavelength_nm
                                   ? other.emplace(index_table(prepared.document, {*wavelength_nm}))
                                   : static_cast<const SpectrumStack&>(prepared).table;
-    const Work work = work_of(power, table, {&at, 1}, needs, execution_);
+    const Work work = work_of(power, table, {&at, 1}, needs.power, execution_);
     const bool is_plain = work.kernel == SimdLevel::plain;
-    const double point = is_plain ? kPlainPoint : kOperation * work.operations_per_point;
+    double point = is_plain ? kPlainPoint : kOperation * work.operations_per_point;
+    if (needs.delays) point += kDelay * static_cast<double>(power.chain()->blocks[0].down.size());
+    if (!cone_.is_none()) point *= kConePoints;
+    if (average_) point *= kAveragePoints;
     return kStack + kRow * static_cast<double>(rows_per_angle()) +
            point * static_cast<double>(work.points);
 }
@@ -366,7 +424,8 @@ std::uint64_t SpectrumQuery::rows() const {
 double SpectrumQuery::try_share(const schemas::StackDocument& document, const Incidence& incidence,
                                 double share) const {
     const std::size_t all = wavelengths_nm_.size();
-    if (incidence.wavelength_nm || all == 0) return Query::try_share(document, incidence, share);
+    if (incidence.wavelength_nm || all == 0 || average_)
+        return Query::try_share(document, incidence, share);
     const auto wanted = static_cast<std::size_t>(std::round(share * static_cast<double>(all)));
     const std::size_t count = std::clamp<std::size_t>(wanted, 1, std::min(all, kBlockNumbers));
     std::vector<double> some;
@@ -379,8 +438,10 @@ double SpectrumQuery::try_share(const schemas::StackDocument& document, const In
 
 void SpectrumQuery::each_block(const schemas::StackDocument& document,
                                const std::function<void(const tables::Records&)>& take) const {
-    const std::size_t most = std::max<std::size_t>(1, kBlockNumbers / layout(document).size());
-    if (rows_per_angle() > most) return each_part_of_angle(document, most, take);
+    constexpr std::size_t kOfCone = 64;  // points of a cone are many
+    const std::size_t numbers = cone_.is_none() ? kBlockNumbers : kBlockNumbers / kOfCone;
+    const std::size_t most = std::max<std::size_t>(1, numbers / layout(document).size());
+    if (!average_ && rows_per_angle() > most) return each_part_of_angle(document, most, take);
     const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
     const std::size_t count = (angles + blocks - 1) / blocks;
     const auto prepared = prepare(document);
@@ -399,7 +460,7 @@ void SpectrumQuery::each_part_of_angle(
     Witnesses witnesses;
     for (std::size_t w = 0; w < all; w += most) {
         const IndexTable table = index_table(document, part_of(wavelengths_nm_, w, most));
-        if (w == 0) note_incident(document, table, note_);
+        if (w == 0) note_stack(document, table);
         witnesses.see(table);
     }
     const std::vector<double> others = witnesses.wavelengths_nm(wavelengths_nm_.front());
@@ -430,7 +491,7 @@ void SpectrumQuery::each_part_of_angle(
 
 std::vector<std::string> SpectrumQuery::stats(const PreparedStack& prepared) const {
     const StackPower power = stack_power(prepared.document, prepared.document.stack);
-    const Needs needs = spectrum_needs(polarizations_, columns_, power);
+    const Needs needs = spectrum_needs(polarizations_, columns_, power).power;
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
                               incident_angles_of(angles_deg_), needs, execution_);
     return lines_of(work, needs, angles_deg_.size(), why_plain(power, needs, execution_.simd));
@@ -440,8 +501,9 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
     auto options = std::make_unique<SpectrumOptions>();
     command
         .add_option("-w,--wavelengths", options->wavelengths,
-                    "vacuum wavelengths, nm, [1, 1e7] [380:780:1]")
+                    "vacuum wavelengths, nm or as --unit says, [1, 1e7] nm [380:780:1]")
         ->type_name("LIST");
+    add_unit_option(command, options->unit);
     add_angles_option(command, options->angles);
     command
         .add_option("-p,--polarization", options->polarization,
@@ -453,12 +515,30 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
                     "r_re r_im t_re t_im  amplitudes of the tangential electric\n"
                     "    field, time factor exp(-i w t), so that r_p = r_s at 0 deg\n"
                     "psi_deg delta_deg  ellipsometric angles, r_p/r_s = tan(psi)\n"
-                    "    exp(i delta); delta = 0 at 0 deg (the other common\n"
-                    "    convention gives 180)\n"
+                    "    exp(i delta); delta = 0 at 0 deg\n"
+                    "delta_nebraska_deg  what instruments print, in [0, 360):\n"
+                    "    180 - delta, so that 57.628 is 122.372\n"
+                    "N C S depolarization  cos 2psi, sin 2psi cos Delta, sin 2psi\n"
+                    "    sin Delta of that Delta; 1 - N^2 - C^2 - S^2\n"
+                    "phase_r_deg phase_t_deg  arg r at the first face, arg t from the\n"
+                    "    first face to the last; gd_r_fs gd_t_fs gdd_r_fs2 gdd_t_fs2\n"
+                    "    tod_r_fs3 tod_t_fs3  derivatives by the angular frequency at\n"
+                    "    a fixed angle; no value where r is 0\n"
                     "A_layers  A_1 A_2 ..., absorptance of each layer, at most 1000\n"
                     "    (np.load needs max_header_size=100000 for more than 500)\n"
-                    "All but A_layers require -p s, p or s,p and coherent layers")
+                    "psi_deg, delta_nebraska_deg, N, C, S and depolarization take any -p\n"
+                    "and incoherent layers; they and delta_deg are in the rows of the\n"
+                    "first polarization only. All others but A_layers require -p s, p\n"
+                    "or s,p and coherent layers")
         ->type_name("NAMES");
+    add_cone_options(command, options->cone);
+    command
+        .add_option("--average", options->average,
+                    "instead of rows for wavelengths, R, T and A averaged over the range of\n"
+                    "--wavelengths, to 1e-9: flat, photopic (D65 times the 2 degree\n"
+                    "luminosity) or a file of rows nm,weight")
+        ->type_name("WEIGHT");
+    offer(command, "average", "flat photopic", OfferedWords::Use::one_or_file);
     offer(command, "polarization", "s p u", OfferedWords::Use::several);
     offer(command, "columns", spectrum_column_names, OfferedWords::Use::several);
     return options;
@@ -472,7 +552,11 @@ nlohmann::json SpectrumOptions::typed() const {
     return {{"wavelengths", wavelengths},
             {"angles", angles},
             {"polarization", polarization},
-            {"columns", columns}};
+            {"columns", columns},
+            {"unit", unit},
+            {"average", average},
+            {"cone", cone.half_angle},
+            {"f_number", cone.f_number}};
 }
 
 }  // namespace irido::cli

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/stack/reversed.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 
@@ -65,6 +66,7 @@ SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space, c
       query_(query),
       structural_(columns_where(space, false)),
       thicknesses_(columns_where(space, true)),
+      is_reversed_(source.reverse),
       varied_(with_thicknesses(source, space, thicknesses_), paths_of(space, structural_)),
       file_(source.file) {
     read_values();
@@ -129,9 +131,11 @@ SweptStacks::Walk::Place& SweptStacks::Walk::structure_at(std::uint64_t combinat
     Place& place = places_[key_];
     place.stack = prepared->document.stack;
     place.prepared = std::move(prepared);
+    if (stacks_.is_reversed_) place.written.elements = reversed(place.stack.elements);
     for (const std::size_t c : stacks_.thicknesses_) {
         const std::string& path = stacks_.space_.columns()[c].path;
-        place.varied.push_back(schemas::VariedStack::layer_at(place.stack, path));
+        Stack& written = stacks_.is_reversed_ ? place.written : place.stack;
+        place.varied.push_back(schemas::VariedStack::layer_at(written, path));
         if (place.varied.back()) continue;
         places_.erase(key_);
         throw schemas::InputError(stacks_.file_, path, "names no layer");
@@ -146,6 +150,7 @@ const SweptStacks::Walk::Place& SweptStacks::Walk::at(std::uint64_t combination)
         place.varied[i]->thickness_nm =
             stacks_.space_.columns()[c].numbers[stacks_.space_.at(c, combination)];
     }
+    if (stacks_.is_reversed_) place.stack.elements = reversed(place.written.elements);
     return place;
 }
 

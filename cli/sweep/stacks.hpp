@@ -33,7 +33,8 @@ public:
         struct Place {
             std::shared_ptr<const PreparedStack> prepared;
             Stack stack;
-            std::vector<Layer*> varied;  ///< layers of `stack`, one for each varied thickness
+            Stack written;               ///< the same as it is written, if that is reversed
+            std::vector<Layer*> varied;  ///< layers of it, one for each varied thickness
         };
         /// The prepared structure of a combination and its stack, valid until the next call.
         /// Throws InputError.
@@ -66,6 +67,7 @@ private:
     const SweepSpace& space_;
     const Query& query_;
     std::vector<std::size_t> structural_, thicknesses_;  ///< columns of the space
+    bool is_reversed_;
     schemas::VariedStack varied_;
     std::string file_;
     schemas::StackDocument first_;

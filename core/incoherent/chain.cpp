@@ -4,19 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/stack/reversed.hpp"
+
 namespace irido {
-
-namespace {
-
-std::vector<Element> reversed(const std::vector<Element>& elements) {
-    std::vector<Element> result(elements.rbegin(), elements.rend());
-    for (Element& element : result)
-        if (Group* group = std::get_if<Group>(&element.value))
-            group->elements = reversed(group->elements);
-    return result;
-}
-
-}  // namespace
 
 Chain chain_of(const std::vector<Element>& elements, std::size_t substrate) {
     Chain chain{{}, {}, substrate};

@@ -6,19 +6,10 @@
 
 namespace irido {
 
-namespace {
-
-constexpr double kZero_k = 273.15, kCiddor_c = 15;
-constexpr WavelengthRange kKnown{230, 1690};
-
-}  // namespace
-
 double index_of_air(double wavelength_nm, double temperature_c) {
     require_in_range("temperature_c", temperature_c, -40, 100);
-    const double um = std::clamp(wavelength_nm, kKnown.first_nm, kKnown.last_nm) / 1000;
-    const double s2 = 1 / (um * um);
-    const double at_15_c = 0.05792105 / (238.0185 - s2) + 0.00167917 / (57.362 - s2);
-    return 1 + at_15_c * (kCiddor_c + kZero_k) / (temperature_c + kZero_k);
+    const double um = std::clamp(wavelength_nm, kAirKnown.first_nm, kAirKnown.last_nm) / 1000;
+    return air_index(1 / (um * um), temperature_c);
 }
 
 double vacuum_wavelength(double in_air_nm, double temperature_c) {

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/material/air.hpp"
+#include "core/material/formula.hpp"
 #include "core/math/constants.hpp"
 
 namespace irido {
@@ -37,110 +38,18 @@ struct Query {
     }
 };
 
-/// The coefficients c1, c2, ... as the definitions number them; those not given are 0.
-class Coefficients {
-public:
-    explicit Coefficients(const Formula& formula) : values_(formula.coefficients) {}
-
-    std::size_t count() const { return values_.size(); }
-    double operator()(std::size_t number) const {
-        return number <= values_.size() ? values_[number - 1] : 0.0;
-    }
-
-private:
-    const std::vector<double>& values_;
-};
-
-/// sum of term(j) over j = first, first + step, ... whose leading coefficient c_j is not 0.
-template <class Term>
-double sum_of_terms(const Coefficients& c, std::size_t first, std::size_t step, Term term) {
-    double sum = 0;
-    for (std::size_t j = first; j <= c.count(); j += step)
-        if (c(j) != 0) sum += term(j);
-    return sum;
-}
-
-/// c_j L^c_(j+1) over j = first, first + 2, ...
-double power_terms(const Coefficients& c, std::size_t first, double um) {
-    return sum_of_terms(c, first, 2, [&](std::size_t j) { return c(j) * std::pow(um, c(j + 1)); });
-}
-
-/// 1 + c1 + c2 L^2 / (L^2 - c3^p) + c4 L^2 / (L^2 - c5^p) + ..., p = 2 or 1.
-double sellmeier(const Coefficients& c, double um, bool squared_poles) {
-    const double l2 = um * um;
-    return 1 + c(1) + sum_of_terms(c, 2, 2, [&](std::size_t j) {
-               const double pole = c(j + 1);
-               return c(j) * l2 / (l2 - (squared_poles ? pole : pole * pole));
-           });
-}
-
-/// c1 + c2 L^c3 / (L^2 - c4^c5) + c6 L^c7 / (L^2 - c8^c9) + c10 L^c11 + c12 L^c13 + ...
-double rational_square(const Coefficients& c, double um) {
-    double sum = c(1) + power_terms(c, 10, um);
-    for (const std::size_t j : {std::size_t{2}, std::size_t{6}})
-        if (c(j) != 0)
-            sum += c(j) * std::pow(um, c(j + 1)) / (um * um - std::pow(c(j + 2), c(j + 3)));
-    return sum;
-}
-
-/// 1 + c1 + c2 / (c3 - L^-2) + c4 / (c5 - L^-2) + ...
-double gas(const Coefficients& c, double um) {
-    return 1 + c(1) +
-           sum_of_terms(c, 2, 2, [&](std::size_t j) { return c(j) / (c(j + 1) - 1 / (um * um)); });
-}
-
-/// c1 + c2 u + c3 u^2 + c4 L^2 + c5 L^4 + c6 L^6 with u = 1 / (L^2 - 0.028)
-double herzberger(const Coefficients& c, double um) {
-    const double l2 = um * um;
-    const double u = 1 / (l2 - 0.028);
-    return c(1) + c(2) * u + c(3) * u * u + ((c(6) * l2 + c(5)) * l2 + c(4)) * l2;
-}
-
-/// (n^2 - 1) / (n^2 + 2) = r = c1 + c2 L^2 / (L^2 - c3) + c4 L^2
-double retro_square(const Coefficients& c, double um) {
-    const double l2 = um * um;
-    const double r = c(1) + (c(2) != 0 ? c(2) * l2 / (l2 - c(3)) : 0.0) + c(4) * l2;
-    return (1 + 2 * r) / (1 - r);
-}
-
-/// c1 + c2 / (L^2 - c3) + c4 (L - c5) / ((L - c5)^2 + c6)
-double exotic_square(const Coefficients& c, double um) {
-    const double shifted = um - c(5);
-    return c(1) + (c(2) != 0 ? c(2) / (um * um - c(3)) : 0.0) +
-           (c(4) != 0 ? c(4) * shifted / (shifted * shifted + c(6)) : 0.0);
-}
-
 double value_at(const Constant& constant, const Query&) {
     return constant.value;
 }
 
 /// What the formula gives for a wavelength in um, both as it means them.
 double formula_value(const Formula& formula, double um, const Query& query) {
-    const Coefficients c(formula);
-    switch (formula.number) {
-        case 1:
-            return query.root(sellmeier(c, um, false));
-        case 2:
-            return query.root(sellmeier(c, um, true));
-        case 3:
-            return query.root(c(1) + power_terms(c, 2, um));
-        case 4:
-            return query.root(rational_square(c, um));
-        case 5:
-            return c(1) + power_terms(c, 2, um);
-        case 6:
-            return gas(c, um);
-        case 7:
-            return herzberger(c, um);
-        case 8:
-            return query.root(retro_square(c, um));
-        case 9:
-            return query.root(exotic_square(c, um));
-        default:
-            break;
-    }
-    throw DomainError(name_of(query.material) + ": formula number must be in [1, 9] (got " +
-                      std::to_string(formula.number) + ")");
+    constexpr int kFormulas = 9;
+    if (formula.number < 1 || formula.number > kFormulas)
+        throw DomainError(name_of(query.material) + ": formula number must be in [1, 9] (got " +
+                          std::to_string(formula.number) + ")");
+    const FormulaAt<double> at(formula, um);
+    return at.is_square() ? query.root(at.value()) : at.value();
 }
 
 double value_at(const Formula& formula, const Query& query) {

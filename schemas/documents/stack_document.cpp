@@ -18,6 +18,7 @@
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "core/stack/index_table.hpp"
+#include "core/stack/reversed.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
@@ -431,6 +432,7 @@ const char* stack_schema_text() {
 
 StackSource load_stack(const StackRequest& request) {
     StackSource source;
+    source.reverse = request.reverse;
     if (request.stack.find('|') != std::string::npos) {
         source.file = "\"" + request.stack + "\"";
         if (!is_well_formed(request.stack)) throw InputError(well_formed(source.file), "", kNoText);
@@ -510,8 +512,35 @@ StackDocument read_stack(const json& document, const std::string& file, const st
 }
 
 StackDocument read_stack(const StackRequest& request) {
-    const StackSource source = load_stack(request);
-    return read_stack(source.document, source.file, source.folder);
+    return read_source(load_stack(request));
+}
+
+namespace {
+
+/// Light comes from the substrate, which must be transparent for that.
+void reverse(StackDocument& document) {
+    document.stack = reversed(std::move(document.stack));
+    const Material& incident = document.stack.materials[document.stack.incident];
+    if (!is_constant(incident)) return;  // said at the wavelengths that are asked for
+    const double k = index_at(incident, kAllWavelengths.first_nm).imag();
+    if (std::abs(k) >= kTransparentBelow_k)
+        throw InputError(
+            document.file, "/substrate",
+            "must be transparent, |k| below 1e-3, for --reverse (got " + to_text(k) + ")");
+    if (k != 0) document.notes.push_back(document.file + ": /substrate: " + incident_note(k));
+}
+
+}  // namespace
+
+StackDocument read_source(const StackSource& source) {
+    MaterialFiles files;
+    return read_source(source, source.document, files);
+}
+
+StackDocument read_source(const StackSource& source, const json& document, MaterialFiles& files) {
+    StackDocument result = read_stack(document, source.file, source.folder, files);
+    if (source.reverse) reverse(result);
+    return result;
 }
 
 std::vector<std::string> stack_problems(const json& document, const std::string& file,

@@ -14,13 +14,16 @@ struct StackRequest {
     std::string stack;             ///< a file, "-" for standard input, or an expression (has a '|')
     std::vector<std::string> set;  ///< PATH=VALUE, applied in this order
     std::vector<std::string> media = {};  ///< NAME=MATERIAL, added to the document's materials
+    bool reverse = false;                 ///< light comes from the substrate
 };
 
 /// A stack document as it was read, not yet checked.
 struct StackSource {
     nlohmann::json document;
-    std::string file;    ///< its name in messages
-    std::string folder;  ///< paths of material files start here
+    std::string file;      ///< its name in messages
+    std::string folder;    ///< paths of material files start here
+    bool reverse = false;  ///< its stack is reversed() once it is read; paths are those of the
+                           ///< document
 };
 
 /// A stack document as plain values. Equal materials are one, whatever they are called.
@@ -50,6 +53,13 @@ StackDocument read_stack(const nlohmann::json& document, const std::string& file
 /// files     cache: files in it are not read again
 StackDocument read_stack(const nlohmann::json& document, const std::string& file,
                          const std::string& folder, MaterialFiles& files);
+
+/// Reads the stack of a source, reversed if it says so. Throws InputError.
+StackDocument read_source(const StackSource& source);
+
+/// The same with a cache of material files, of another document in its place.
+StackDocument read_source(const StackSource& source, const nlohmann::json& document,
+                          MaterialFiles& files);
 
 /// Loads and reads the stack of a request. Throws InputError.
 StackDocument read_stack(const StackRequest& request);

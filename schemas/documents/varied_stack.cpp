@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/stack/reversed.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 
@@ -63,12 +64,13 @@ VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
     : source_(std::move(source)),
       paths_(std::move(paths)),
       shared_(std::make_shared<Shared>()),
-      own_(read_stack(source_.document, source_.file, source_.folder, shared_->files)) {
+      own_(read_source(source_, source_.document, shared_->files)) {
     require_apart(paths_);
     nlohmann::json document = source_.document;
     for (const std::string& path : paths_) set_value(document, path, nullptr);
+    Stack written = as_written(own_.stack);
     varies_thickness_only_ = std::ranges::all_of(
-        paths_, [&](const std::string& path) { return layer_at(own_.stack, path) != nullptr; });
+        paths_, [&](const std::string& path) { return layer_at(written, path) != nullptr; });
 }
 
 StackDocument VariedStack::document(std::span<const nlohmann::json> values) const {
@@ -95,16 +97,22 @@ template <class Value>
 StackDocument VariedStack::read(std::span<const Value> values) const {
     nlohmann::json document = shared_->take(source_.document);
     for (std::size_t i = 0; i < paths_.size(); ++i) set_value(document, paths_[i], values[i]);
-    StackDocument result = read_stack(document, source_.file, source_.folder, shared_->files);
+    StackDocument result = read_source(source_, document, shared_->files);
     shared_->give_back(std::move(document));  // the next values replace these ones
     return result;
 }
 
 void VariedStack::set_thicknesses(Stack& stack, std::span<const double> values) const {
+    stack = as_written(std::move(stack));
     for (std::size_t i = 0; i < paths_.size(); ++i) {
         require_thickness(source_.file, paths_[i], values[i]);
         layer_at(stack, paths_[i])->thickness_nm = values[i];
     }
+    stack = as_written(std::move(stack));
+}
+
+Stack VariedStack::as_written(Stack stack) const {
+    return source_.reverse ? reversed(std::move(stack)) : stack;
 }
 
 LayerPlace VariedStack::place_of(std::string_view path) {

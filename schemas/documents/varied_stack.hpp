@@ -29,6 +29,10 @@ public:
     /// True if all paths are thicknesses: materials and structure are then always the same.
     bool varies_thickness_only() const { return varies_thickness_only_; }
 
+    /// One of its stacks as the document has it, where layer_at() finds its layers: reversed() if
+    /// the source says so, and back.
+    Stack as_written(Stack stack) const;
+
     /// Whether a path has the shape layers.I.thickness_nm or layers.I.layers.J.thickness_nm, to
     /// any depth.
     static bool is_thickness(std::string_view path);

@@ -243,7 +243,7 @@ private:
         const std::vector<double> numbers = column_numbers(records_, value.column);
         std::vector<Series> all(others.names.size());
         for (std::size_t row = 0; row < along.size(); ++row)
-            if (panels.of_row[row] == p)
+            if (panels.of_row[row] == p && !std::isnan(numbers[row]))
                 all[others.of_row[row]].points.push_back({along[row], numbers[row]});
         for (std::size_t i = 0; i < all.size(); ++i) {
             Series& series = all[i];
@@ -358,6 +358,9 @@ struct KnownColumn {
 const std::vector<KnownColumn>& known_columns() {
     static const std::vector<KnownColumn> known{
         {"wavelength_nm", {.quantity = "vacuum wavelength", .unit = "nm", .hues = true}},
+        {"wavelength_um", {.quantity = "vacuum wavelength", .unit = "\u00b5m"}},
+        {"energy_eV", {.quantity = "photon energy", .unit = "eV"}},
+        {"wavenumber_per_cm", {.quantity = "wavenumber", .unit = "1/cm"}},
         {"angle_deg", {.quantity = "angle of incidence", .unit = "\u00b0"}},
         {"theta_deg", {.quantity = "angle of incidence", .unit = "\u00b0"}},
         {"cos_theta", {.quantity = "cosine of the angle of incidence"}},
@@ -375,6 +378,23 @@ const std::vector<KnownColumn>& known_columns() {
         {"t_im", {.quantity = "Im t"}},
         {"psi_deg", {.quantity = "\u03c8", .unit = "\u00b0"}},
         {"delta_deg", {.quantity = "\u0394", .unit = "\u00b0", .period = 360}},
+        {"delta_nebraska_deg",
+         {.quantity = "\u0394 of instruments", .unit = "\u00b0", .period = 360}},
+        {"phase_r_deg", {.quantity = "phase of r", .unit = "\u00b0", .period = 360}},
+        {"phase_t_deg", {.quantity = "phase of t", .unit = "\u00b0", .period = 360}},
+        {"gd_r_fs", {.quantity = "group delay of r", .unit = "fs"}},
+        {"gd_t_fs", {.quantity = "group delay of t", .unit = "fs"}},
+        {"gdd_r_fs2", {.quantity = "GDD of r", .unit = "fs\u00b2"}},
+        {"gdd_t_fs2", {.quantity = "GDD of t", .unit = "fs\u00b2"}},
+        {"tod_r_fs3", {.quantity = "TOD of r", .unit = "fs\u00b3"}},
+        {"tod_t_fs3", {.quantity = "TOD of t", .unit = "fs\u00b3"}},
+        {"z_nm", {.quantity = "depth", .unit = "nm"}},
+        {"medium", {.quantity = "medium", .step = 1}},
+        {"E2", {.quantity = "|E|\u00b2", .from_zero = true}},
+        {"largest_E2", {.quantity = "largest |E|\u00b2", .from_zero = true}},
+        {"absorbed", {.quantity = "absorbed power", .from_zero = true}},
+        {"absorbed_per_nm", {.quantity = "absorbed", .unit = "1/nm", .from_zero = true}},
+        {"flux", {.quantity = "flux", .from_zero = true}},
         {"C", {.quantity = "coefficient C_m"}},
         {"short_nm", {.quantity = "short-wavelength edge", .unit = "nm"}},
         {"long_nm", {.quantity = "long-wavelength edge", .unit = "nm"}},

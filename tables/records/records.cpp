@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace irido::tables {
 
@@ -46,12 +47,13 @@ void append_number(std::string& out, double value) {
     out.append(buffer.data(), result.ptr);
 }
 
-RowWriter::RowWriter(const Records& records, AppendText append_text) : append_text_(append_text) {
+RowWriter::RowWriter(const Records& records, AppendText append_text, std::string_view none)
+    : append_text_(append_text), none_(none) {
     for (const Column& column : records.columns) {
         Source source{&column, {}, nullptr};
         if (const auto* numbers = std::get_if<Column::CodedNumbers>(&column.values)) {
             for (const double value : numbers->values)
-                append_number(source.coded.emplace_back(), value);
+                append_value(source.coded.emplace_back(), value);
             source.codes = &numbers->codes;
         } else if (const auto* texts = std::get_if<Column::CodedTexts>(&column.values)) {
             for (const std::string& value : texts->values)
@@ -62,12 +64,19 @@ RowWriter::RowWriter(const Records& records, AppendText append_text) : append_te
     }
 }
 
+void RowWriter::append_value(std::string& out, double value) const {
+    if (std::isnan(value))
+        out += none_;
+    else
+        append_number(out, value);
+}
+
 void RowWriter::append(std::string& out, std::size_t column, std::size_t row) const {
     const Source& source = sources_[column];
     if (source.codes) {
         out += source.coded[(*source.codes)[row]];
     } else if (const auto* numbers = std::get_if<Column::Numbers>(&source.column->values)) {
-        append_number(out, (*numbers)[row]);
+        append_value(out, (*numbers)[row]);
     } else if (const auto* texts = std::get_if<Column::Texts>(&source.column->values)) {
         append_text_(out, (*texts)[row]);
     } else {

@@ -10,7 +10,7 @@ namespace irido::tables {
 
 /// One named column of a table of records.
 struct Column {
-    using Numbers = std::vector<double>;
+    using Numbers = std::vector<double>;  ///< NaN where a row has none
     using Texts = std::vector<std::string>;
     using Flags = std::vector<bool>;
     /// A column with few distinct values: each value once, and per row an index into them.
@@ -44,12 +44,14 @@ void append_number(std::string& out, double value);
 /// Typical bytes per value in text formats, separator included.
 inline constexpr std::size_t kUsualValueBytes = 16;
 
-/// Appends the values of columns row by row; the text of each value of a coded column is made once.
+/// Appends the values of columns row by row; a number that is NaN is none. The text of each value
+/// of a coded column is made once.
 class RowWriter {
 public:
     using AppendText = void (*)(std::string& out, const std::string& text);
 
-    RowWriter(const Records& records, AppendText append_text);
+    /// `none` is the text of a number that is missing.
+    RowWriter(const Records& records, AppendText append_text, std::string_view none);
 
     /// The value in one row of one column.
     void append(std::string& out, std::size_t column, std::size_t row) const;
@@ -61,7 +63,10 @@ private:
         const std::vector<std::uint32_t>* codes = nullptr;
     };
 
+    void append_value(std::string& out, double value) const;
+
     AppendText append_text_;
+    std::string_view none_;
     std::vector<Source> sources_;
 };
 

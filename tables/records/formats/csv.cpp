@@ -1,5 +1,6 @@
 // csv: comma-separated values after RFC 4180, but with LF line ends.
 // - A header line, then one line per record.
+// - A number that is missing is an empty field.
 // - Texts with commas, quotes or line ends are quoted; numbers are in their shortest form.
 
 #include "tables/records/packed_rows.hpp"
@@ -34,7 +35,7 @@ std::string head(const RecordLayout& layout, std::uint64_t, HeadKind) {
 std::string rows(const RecordLayout& layout, const Records& records) {
     check_columns(layout, records);
     std::string out;
-    const RowWriter writer(records, append_text);
+    const RowWriter writer(records, append_text, "");
     const std::size_t count = records.rows();
     out.reserve(count * records.columns.size() * kUsualValueBytes);
     for (std::size_t row = 0; row < count; ++row) {

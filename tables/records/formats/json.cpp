@@ -1,4 +1,5 @@
-// json: an array with one object per record, one record per line; numbers in their shortest form.
+// json: an array with one object per record, one record per line; numbers in their shortest form,
+// null where one is missing.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -31,7 +32,7 @@ std::string rows(const RecordLayout& layout, const Records& records) {
     check_columns(layout, records);
     std::vector<std::string> keys;
     for (const Column& column : records.columns) keys.push_back(quoted_json(column.name) + ":");
-    const RowWriter writer(records, append_text);
+    const RowWriter writer(records, append_text, "null");
     const std::size_t count = records.rows();
     std::size_t row_bytes = 4;
     for (const std::string& key : keys) row_bytes += key.size() + kUsualValueBytes;

@@ -132,7 +132,7 @@ TEST_CASE("bash completes commands, options, words and files", "[cli][manual]") 
         {"irido color --method four", "fourier fourier-constant"},
         {"irido color --space = di", "display-p3"},  // as bash divides --space=di
         {"irido color --space = ", "srgb rec2020 display-p3 acescg xyz"},
-        {"irido spectrum --columns psi_deg,del", "psi_deg,delta_deg"},
+        {"irido spectrum --columns psi_deg,delta_d", "psi_deg,delta_deg"},
         {"irido color -p ", "s p u"},
         {"irido spectrum -f ", "csv json npy pdf png svg"},
         {"irido sweep -f h", "h5"},

@@ -144,11 +144,14 @@ TEST_CASE("more columns come in the order asked for", "[cli][spectrum]") {
         CHECK(std::abs(at(11) * at(11) + at(12) * at(12) - at(3)) < 1e-14);
         CHECK(at(6) == 0);
     }
-    // the two polarizations of an angle have one psi and delta, 45 and 0 at normal incidence
+    // the two polarizations of an angle have one psi and delta, in the rows of the first: 45 and 0
+    // at normal incidence
     CHECK(table[1][7] == "0");
     CHECK(std::abs(std::stod(table[1][8]) - 45) < 1e-12);
-    CHECK(table[5][7] == table[7][7]);
-    CHECK(table[5][8] == table[7][8]);
+    CHECK_FALSE(table[5][7].empty());
+    CHECK_FALSE(table[5][8].empty());
+    CHECK(table[7][7].empty());
+    CHECK(table[7][8].empty());
 }
 
 TEST_CASE("absorption layer by layer, u being the mean", "[cli][spectrum]") {
@@ -254,10 +257,9 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
         {{"spectrum", stack, "-j", "1.5"}, "--threads: must be a single whole number"},
         {{"spectrum", stack, "--columns", "r_re"},
          "--columns: r_re is undefined for unpolarized light"},
-        {{"spectrum", stack, "-p", "s,u", "--columns", "psi_deg"}, "use -p s,p"},
+        {{"spectrum", stack, "-p", "s,u", "--columns", "delta_deg"}, "use -p s,p"},
         {{"spectrum", stack, "--columns", "A_layer"},
-         "--columns: must be one of r_re, r_im, t_re, t_im, psi_deg, delta_deg, A_layers (got "
-         "A_layer) (did you mean \"A_layers\"?)"},
+         "(got A_layer) (did you mean \"A_layers\"?)"},
         {{"spectrum", stack, "--columns", "A_layers,A_layers"}, "A_layers twice"},
         {{"spectrum", stack, "--columns", "A_layers,"}, "--columns: must be one of"},
         {{"spectrum", "1 | (1.5@1 | 2@1)^501 | 1", "--columns", "A_layers"},

@@ -145,7 +145,8 @@ TEST_CASE("an HDF5 stream has one dataset a column with the CSV's values", "[tab
             read_h5(as_h5(folder, streamed(*find_record_format("h5"), rows, 5), rows));
         CHECK(content.faults.empty());
         const Records all = sample_rows(0, rows);
-        const RowWriter writer(all, [](std::string& out, const std::string& text) { out += text; });
+        const RowWriter writer(
+            all, [](std::string& out, const std::string& text) { out += text; }, "");
         REQUIRE(content.columns.size() == all.columns.size());
         for (std::size_t c = 0; c < all.columns.size(); ++c) {
             CHECK(content.columns[c].name == all.columns[c].name);

@@ -1,0 +1,99 @@
+#include "core/material/index_series.hpp"
+
+#include <algorithm>
+
+#include "core/material/air.hpp"
+#include "core/material/formula.hpp"
+#include "core/math/constants.hpp"
+
+namespace irido {
+
+namespace {
+
+/// A wavelength that holds at the ends of a range, as a series.
+Series<double> held_wavelength(double wavelength_nm, WavelengthRange range) {
+    if (wavelength_nm < range.first_nm) return range.first_nm;
+    if (wavelength_nm > range.last_nm) return range.last_nm;
+    return wavelength_nm / relative_frequency();
+}
+
+/// The same of a series.
+Series<double> held_wavelength(const Series<double>& nm, WavelengthRange range) {
+    if (nm[0] < range.first_nm) return range.first_nm;
+    if (nm[0] > range.last_nm) return range.last_nm;
+    return nm;
+}
+
+Series<double> series_of_air(const Series<double>& nm, double temperature_c) {
+    const Series<double> um = held_wavelength(nm, kAirKnown) / 1000;
+    return air_index(1 / (um * um), temperature_c);
+}
+
+Series<double> series_of(const Constant& constant, double) {
+    return constant.value;
+}
+
+Series<double> series_of(const Formula& formula, double wavelength_nm) {
+    const auto& [index_to_air, wavelength_in_air, temperature_c] = formula.reference;
+    const Series<double> nm = held_wavelength(wavelength_nm, formula.range);
+    const Series<double> own = wavelength_in_air ? nm / series_of_air(nm, temperature_c) : nm;
+    const FormulaAt<Series<double>> at(formula, own / 1000);
+    const Series<double> value = at.is_square() ? sqrt(at.value()) : at.value();
+    return index_to_air ? value * series_of_air(nm, temperature_c) : value;
+}
+
+Series<double> series_of(const Table& table, double wavelength_nm) {
+    const auto& x = table.wavelength_nm;
+    const auto& y = table.value;
+    const Series<double> nm = held_wavelength(wavelength_nm, {x.front(), x.back()});
+    if (x.size() == 1) return y.front();
+    auto above = std::upper_bound(x.begin(), x.end(), nm[0]);
+    if (above == x.end()) --above;
+    const auto i = static_cast<std::size_t>(above - x.begin());
+    return y[i - 1] + (nm - x[i - 1]) * ((y[i] - y[i - 1]) / (x[i] - x[i - 1]));
+}
+
+Series<Complex> complex_series(const Series<double>& re, const Series<double>& im) {
+    Series<Complex> result;
+    for (std::size_t i = 0; i < Series<double>::kTerms; ++i) result[i] = {re[i], im[i]};
+    return result;
+}
+
+Series<Complex> series_of(const RefractiveIndex& index, double wavelength_nm) {
+    const auto series = [&](const auto& dispersion) {
+        return series_of(dispersion, wavelength_nm);
+    };
+    return complex_series(std::visit(series, index.n), std::visit(series, index.k));
+}
+
+Series<Complex> series_of(const LorentzDrude& model, double wavelength_nm) {
+    const Series<double> energy = kPhotonEnergy_eVnm / held_wavelength(wavelength_nm, model.range);
+    Series<Complex> eps(model.eps_infinity);
+    for (const auto& [strength, damping, resonance] : model.oscillators)
+        if (strength != 0)
+            eps += strength * model.plasma_ev * model.plasma_ev /
+                   complex_series(resonance * resonance - energy * energy, -damping * energy);
+    return root_of(eps, std::sqrt(eps[0]));
+}
+
+}  // namespace
+
+Series<double> relative_frequency() {
+    return Series<double>({1, 1, 0, 0});
+}
+
+Series<Complex> index_series(const Material& material, double wavelength_nm) {
+    const Complex index = index_at(material, wavelength_nm);
+    Series<Complex> series = std::visit(
+        [&](const auto& model) { return series_of(model, wavelength_nm); }, material.model);
+    series[0] = index;
+    return series;
+}
+
+bool has_rows(const Material& material) {
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    return index != nullptr &&
+           (std::holds_alternative<Table>(index->n) || std::holds_alternative<Table>(index->k));
+}
+
+}  // namespace irido

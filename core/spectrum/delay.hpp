@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include "core/coherent/coherent.hpp"
+#include "core/math/series.hpp"
+#include "core/stack/stack.hpp"
+
+namespace irido {
+
+/// Phase of an amplitude and its derivatives by the angular frequency w at a fixed angle: a pulse
+/// leaves as the integral of a(w) r(w) exp(-i w t), so its peak comes gd later. NaN where the
+/// amplitude is 0, and where a derivative is infinite.
+struct Delay {
+    double phase_deg = std::numeric_limits<double>::quiet_NaN();  ///< (-180, 180]
+    double gd_fs = phase_deg, gdd_fs2 = phase_deg, tod_fs3 = phase_deg;
+};
+
+/// Of r, which refers to the first face, and of t, from the first face to the last.
+struct Delays {
+    Delay r, t;
+};
+
+/// Phase, group delay, its dispersion and the third order of a coherent stack, by arithmetic on
+/// series in x = (w - w0)/w0 through the recursion of coherent_response(): nothing is differenced.
+/// Groups are powers by squaring. The error of the derivative of order m is about
+/// 1e-15 (tau/|a|)^m, tau the longest delay and |a| the amplitude (1 for t). A reflected amplitude
+/// below 2^-46 of the waves that it is the difference of is rounding, and counts as 0.
+///   stack          coherent layers of fixed thickness;  index  index_series() of its materials
+///   wavelength_nm  vacuum, [1, 1e7]
+Delays delays(const Stack& stack, std::span<const Series<Complex>> index, double wavelength_nm,
+              IncidentAngle incidence, Polarization polarization);
+
+}  // namespace irido

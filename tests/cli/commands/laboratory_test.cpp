@@ -1,0 +1,195 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "tests/support/program.hpp"
+
+using namespace irido::test;
+using Catch::WithinAbs;
+using Catch::Matchers::Contains;
+
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<Row> rows_of(const std::vector<std::string>& arguments, const std::string& input = "") {
+    const Outcome outcome = run_irido(arguments, input);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const auto table = parse_csv(outcome.out);
+    std::vector<Row> rows;
+    for (std::size_t i = 1; i < table.size(); ++i) {
+        rows.emplace_back();
+        for (std::size_t c = 0; c < table[0].size(); ++c) rows.back()[table[0][c]] = table[i][c];
+    }
+    return rows;
+}
+
+double number(const Row& row, const std::string& column) {
+    return std::stod(row.at(column));
+}
+
+const std::string kEllipsometric = "psi_deg,delta_nebraska_deg,N,C,S,depolarization";
+const std::string kOxide = "1 | 1.457@25 | 3.882+0.019i";
+const std::string kPane = "1 | 1.52@1mm! | 1";
+
+}  // namespace
+
+// Reference values of this file: 40-digit evaluations, rounded to double.
+TEST_CASE("what an ellipsometer prints", "[cli][spectrum]") {
+    for (const std::string p : {"u", "s", "p"}) {
+        const auto rows = rows_of(
+            {"spectrum", kOxide, "-w", "632.8", "-a", "70", "-p", p, "--columns", kEllipsometric});
+        REQUIRE(rows.size() == 1);
+        CHECK_THAT(number(rows[0], "psi_deg"), WithinAbs(15.105711131918168, 1e-10));
+        CHECK_THAT(number(rows[0], "delta_nebraska_deg"), WithinAbs(122.37166727824669, 1e-9));
+        CHECK_THAT(number(rows[0], "N"), WithinAbs(0.8641745046791867, 1e-12));
+        CHECK_THAT(number(rows[0], "C"), WithinAbs(-0.26941375703724435, 1e-12));
+        CHECK_THAT(number(rows[0], "S"), WithinAbs(0.4249925328538832, 1e-12));
+        CHECK(rows[0].at("depolarization") == "0");
+    }
+    const auto bare = rows_of(
+        {"spectrum", "1 | 3.882+0.019i", "-w", "632.8", "-a", "70", "--columns", kEllipsometric});
+    CHECK_THAT(number(bare[0], "psi_deg"), WithinAbs(10.573, 5e-4));
+    CHECK_THAT(number(bare[0], "delta_nebraska_deg"), WithinAbs(179.230, 5e-4));
+}
+
+TEST_CASE("a pane's back depolarizes", "[cli][spectrum]") {
+    const auto rows =
+        rows_of({"spectrum", kPane, "-w", "550", "-a", "60", "--columns", kEllipsometric});
+    REQUIRE(rows.size() == 1);
+    CHECK_THAT(number(rows[0], "psi_deg"), WithinAbs(5.599573512222306, 1e-10));
+    CHECK_THAT(number(rows[0], "delta_nebraska_deg"), WithinAbs(0, 1e-9));
+    CHECK_THAT(number(rows[0], "N"), WithinAbs(0.9805169896113648, 1e-12));
+    CHECK_THAT(number(rows[0], "C"), WithinAbs(0.19413242262969127, 1e-12));
+    CHECK_THAT(number(rows[0], "S"), WithinAbs(0, 1e-12));
+    CHECK_THAT(number(rows[0], "depolarization"), WithinAbs(0.0008990355673935853, 1e-12));
+}
+
+TEST_CASE("what s and p have together is printed once", "[cli][spectrum]") {
+    const auto rows = rows_of({"spectrum", kOxide, "-w", "600,632.8", "-a", "70", "-p", "p,s",
+                               "--columns", "psi_deg,delta_deg,N,r_re"});
+    REQUIRE(rows.size() == 4);
+    for (const std::string column : {"psi_deg", "delta_deg", "N"}) {
+        CHECK_FALSE(rows[0].at(column).empty());
+        CHECK_FALSE(rows[1].at(column).empty());
+        CHECK(rows[2].at(column).empty());
+        CHECK(rows[3].at(column).empty());
+    }
+}
+
+TEST_CASE("delays have no value where nothing is reflected", "[cli][spectrum]") {
+    const std::vector<std::string> ask{"spectrum",  "1 | 1@100 | 1",
+                                       "-w",        "500",
+                                       "-p",        "s",
+                                       "--columns", "phase_r_deg,gd_r_fs,gd_t_fs"};
+    const auto rows = rows_of(ask);
+    CHECK(rows[0].at("phase_r_deg").empty());
+    CHECK(rows[0].at("gd_r_fs").empty());
+    CHECK_THAT(number(rows[0], "gd_t_fs"), WithinAbs(100 / 299.792458, 1e-13));
+    std::vector<std::string> json = ask;
+    json.insert(json.end(), {"-f", "json"});
+    CHECK_THAT(run_irido(json).out, Contains("\"phase_r_deg\":null,\"gd_r_fs\":null"));
+    check_refused(run_irido({"spectrum", kPane, "-p", "s", "--columns", "gd_r_fs"}),
+                  "requires coherent layers");
+    check_refused(run_irido({"spectrum", kOxide, "--columns", "gd_r_fs"}), "use -p s,p");
+    const Outcome tabulated =
+        run_irido({"spectrum", "air | Si", "-w", "500,600", "-p", "s", "--columns", "gd_r_fs"});
+    CHECK_THAT(tabulated.err, Contains("straight lines between their rows"));
+}
+
+TEST_CASE("means over cones", "[cli][spectrum]") {
+    const auto tilted = rows_of({"spectrum", "1 | 1.38@99.6 | 1.52", "-w", "550", "-a", "45", "-p",
+                                 "u,s,p", "--cone", "10"});
+    CHECK_THAT(number(tilted[0], "R"), WithinAbs(0.021713626324774887, 1e-12));
+    CHECK_THAT(number(tilted[0], "T"), WithinAbs(0.9782863736752251, 1e-12));
+    // Gauss by 16 in v, 48 midpoints in azimuth, each ray with its own transverse vector
+    CHECK_THAT(number(tilted[1], "R"), WithinAbs(0.04133431904619384, 1e-12));
+    CHECK_THAT(number(tilted[2], "R"), WithinAbs(0.0020929336033558713, 1e-12));
+    CHECK_THAT(number(rows_of({"spectrum", "1 | 1.5", "-w", "550", "--cone", "90"})[0], "R"),
+               WithinAbs(0.0917780, 1e-7));
+    CHECK_THAT(number(rows_of({"spectrum", "1.5 | 1", "-w", "550", "--cone", "90"})[0], "R"),
+               WithinAbs(0.5963458, 1e-7));
+    const auto lens = rows_of({"spectrum", kOxide, "-w", "550", "-p", "s,p,u", "--f-number", "1"});
+    const auto cone = rows_of({"spectrum", kOxide, "-w", "550", "--cone", "30"});
+    for (const Row& row : lens)
+        CHECK_THAT(number(row, "R"), WithinAbs(number(cone[0], "R"), 1e-12));
+    check_refused(run_irido({"spectrum", kOxide, "-a", "0,85", "--cone", "10"}),
+                  "together must be at most 90 degrees (got 85 + 10)");
+    check_refused(run_irido({"spectrum", kOxide, "-a", "70", "--f-number", "1"}),
+                  "90 degrees or before");
+    check_refused(run_irido({"spectrum", kOxide, "--cone", "10", "--f-number", "4"}),
+                  "mutually exclusive");
+    check_refused(run_irido({"spectrum", kOxide, "-p", "s", "--cone", "10", "--columns", "r_re"}),
+                  "--cone: takes no --columns but A_layers");
+}
+
+TEST_CASE("a colour over a cone is the mean of its colours", "[cli][color]") {
+    const std::vector<std::string> ask{"color", "1 | 1.46@310 | 4.08+0.04i"};
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> all = ask;
+        all.insert(all.end(), more.begin(), more.end());
+        return rows_of(all);
+    };
+    CHECK_THAT(number(with({"--cone", "0.01"})[0], "Y"), WithinAbs(number(with({})[0], "Y"), 1e-6));
+    const double s = number(with({"-a", "40", "-p", "s", "--cone", "20"})[0], "Y");
+    const double p = number(with({"-a", "40", "-p", "p", "--cone", "20"})[0], "Y");
+    CHECK_THAT(number(with({"-a", "40", "--cone", "20"})[0], "Y"), WithinAbs((s + p) / 2, 1e-7));
+}
+
+TEST_CASE("light from the substrate is transmitted as light to it", "[cli][spectrum]") {
+    const auto plate = rows_of({"spectrum", kPane, "-w", "550", "-a", "45", "--reverse"});
+    CHECK_THAT(number(plate[0], "R"), WithinAbs(0.09747173783257576, 1e-12));
+    CHECK_THAT(number(plate[0], "T"), WithinAbs(0.9025282621674242, 1e-12));
+    // at the same n sin(theta): 30 degrees in 1.5 is 48.59 in air
+    const std::string stack = "1 | 2.3@80 | (1.4+0.01i@120 | 1.9@55)^4 | 1.6@1mm! | 1.5";
+    const auto there =
+        rows_of({"spectrum", stack, "-w", "550", "-a", "48.590377890729144", "-p", "s,p"});
+    const auto back =
+        rows_of({"spectrum", stack, "-w", "550", "-a", "30", "-p", "s,p", "--reverse"});
+    for (std::size_t i = 0; i < 2; ++i) {
+        CHECK_THAT(number(back[i], "T"), WithinAbs(number(there[i], "T"), 1e-13));
+        CHECK(std::abs(number(back[i], "R") - number(there[i], "R")) > 1e-4);
+    }
+    check_refused(run_irido({"spectrum", "1 | 1.5@100 | 2+3i", "--reverse"}),
+                  "/substrate: must be transparent");
+    // paths are those of the stack as it is written
+    const auto swept =
+        rows_of({"sweep", "1 | 2@100 | 1.4@50 | 1.5", "--vary", "layers.0.thickness_nm=100,130",
+                 "--compute", "spectrum", "-w", "550", "--reverse"});
+    const auto other = rows_of({"spectrum", "1.5 | 1.4@50 | 2@130 | 1", "-w", "550"});
+    CHECK(swept[1].at("R") == other[0].at("R"));
+}
+
+TEST_CASE("averages over a range", "[cli][spectrum]") {
+    const std::string stack = "1 | 1.46@310 | 4.08+0.04i";
+    for (const std::string step : {"400:700:1", "400,700", "700,400"}) {
+        const auto rows =
+            rows_of({"spectrum", stack, "-w", step, "-a", "20", "--average", "photopic"});
+        REQUIRE(rows.size() == 1);
+        CHECK(rows[0].at("weight") == "photopic");
+        CHECK_THAT(number(rows[0], "R"), WithinAbs(0.15586793952633227, 1e-10));
+        CHECK_THAT(number(rows[0], "T"), WithinAbs(0.8441320604736677, 1e-10));
+    }
+    check_refused(run_irido({"spectrum", stack, "-w", "550", "--average", "flat"}),
+                  "must be a range");
+    check_refused(run_irido({"spectrum", stack, "--average", "solar"}), "must be one of flat");
+    check_refused(run_irido({"spectrum", stack, "-w", "900:1000:1", "--average", "photopic"}),
+                  "is 0 from 900 to 1000 nm");
+}
+
+TEST_CASE("wavelengths in other units", "[cli][spectrum]") {
+    const auto nm = rows_of({"spectrum", kOxide, "-w", "632.8,380"});
+    const auto um = rows_of({"spectrum", kOxide, "-w", "0.6328,0.38", "--unit", "um"});
+    for (std::size_t i = 0; i < 2; ++i) CHECK(um[i].at("R") == nm[i].at("R"));
+    CHECK(um[0].at("wavelength_um") == "0.6328");
+    const auto ev = rows_of({"spectrum", kOxide, "-w", "2,1.5", "--unit", "eV"});
+    CHECK(ev[0].at("energy_eV") == "2");
+    CHECK(ev[1].at("energy_eV") == "1.5");
+    const auto wavenumber = rows_of({"spectrum", kOxide, "-w", "20000", "--unit", "cm-1"});
+    CHECK(wavenumber[0].at("wavenumber_per_cm") == "20000");
+    CHECK(wavenumber[0].at("R") == rows_of({"spectrum", kOxide, "-w", "500"})[0].at("R"));
+    check_refused(run_irido({"spectrum", kOxide, "--unit", "furlong"}), "--unit: must be one of");
+    check_refused(run_irido({"spectrum", kOxide, "-w", "2000", "--unit", "eV"}),
+                  "--wavelengths, eV: must be in");
+}
