@@ -34,7 +34,7 @@ std::string why_plain(const StackPower& stack, const Needs& needs, SimdLevel sim
     if (simd == SimdLevel::plain) return "IRIDO_SIMD=plain";
     if (needs.layers) return "A_layers";
     if (!stack.chain()) return "thickness distributions";
-    return "groups of many absorbing layers, or phases beyond 1e12";
+    return "groups of many layers in groups, or phases beyond 1e12";
 }
 
 std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::size_t angles,

@@ -99,5 +99,7 @@ TEST_CASE("stats say what was skipped and do not touch the answer", "[cli][simd]
     CHECK_THAT(stats("\"1 | Ag@10 | 1.5\" -a 30 --columns A_layers"),
                Contains("one at a time (A_layers)"));
     CHECK_THAT(stats("\"1 | (Ag@1 | 1.5@100)^300 | 1.5\" -a 30"),
-               Contains("one at a time (groups of many absorbing layers"));
+               Contains("skipped: repetitions of 1 group"));
+    CHECK_THAT(stats("\"1 | ((1.3@5 | 2@6)^90 | Ag@1)^3 | 1.5\" -a 30"),
+               Contains("one at a time (groups of many layers in groups"));
 }
