@@ -8,7 +8,7 @@ import { irido, program, temporaryFolder } from './support/irido.js';
 const folder = temporaryFolder();
 const root = new URL('../..', import.meta.url).pathname;
 const asked = ['irido spect', 'irido lut alb', 'irido color --met', 'irido color --space di',
-    'irido color --space=di', 'irido color --method fourier-', 'irido spectrum --columns psi_deg,del',
+    'irido color --space=di', 'irido color --method fourier-', 'irido spectrum --columns psi_deg,delta_d',
     'irido materials show N-BK', 'irido spectrum schemas/examples/soap-bubble.', 'irido bake x -o sche'];
 const wanted = ['spectrum', 'albedo', '--method', 'display-p3', 'display-p3', 'fourier-constant',
     'psi_deg,delta_deg', 'N-BK7', 'schemas/examples/soap-bubble.json', 'schemas/'];
