@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "cli/options/command.hpp"
 #include "cli/options/picture_options.hpp"
@@ -26,24 +27,21 @@ struct DrawnLayer {
     std::size_t material;
 };
 
-void list_layers(const std::vector<Element>& elements, std::vector<DrawnLayer>& to) {
-    for (const Element& element : elements) {
-        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
-            const double begin = to.empty() ? 0 : to.back().end;
-            to.push_back({begin, begin + layer->thickness_nm, layer->material});
-            continue;
-        }
-        const Group& group = std::get<Group>(element.value);
-        for (std::uint64_t i = 0; i < group.repeat; ++i) list_layers(group.elements, to);
+std::vector<DrawnLayer> drawn_layers(const Stack& stack) {
+    std::vector<DrawnLayer> drawn;
+    double end = 0;
+    for (const Layer& layer : written_out(stack.elements)) {
+        const double begin = std::exchange(end, end + layer.thickness_nm);
+        drawn.push_back({begin, end, layer.material});
     }
+    return drawn;
 }
 
 /// Adds the layers to every panel over the depth, as areas behind the curves.
 void draw_layers(const schemas::StackDocument& document, tables::Figure& figure) {
     constexpr std::size_t kMostDrawn = 1000, kFirstStyle = 2;
     if (count_layers(document.stack.elements) > kMostDrawn) return;
-    std::vector<DrawnLayer> layers;
-    list_layers(document.stack.elements, layers);
+    const std::vector<DrawnLayer> layers = drawn_layers(document.stack);
     std::map<std::size_t, std::size_t> styles;
     for (tables::Panel& panel : figure.panels) {
         double low = 0, high = 0;

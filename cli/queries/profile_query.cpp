@@ -9,6 +9,7 @@
 
 #include "cli/options/command.hpp"
 #include "cli/queries/stack_tables.hpp"
+#include "core/coherent/media.hpp"
 #include "core/spectrum/profile.hpp"
 #include "schemas/input_error.hpp"
 
@@ -30,19 +31,6 @@ void require_fields(const schemas::StackDocument& document, const StackPower& po
         throw schemas::InputError(document.file, "",
                                   "a profile requires coherent layers without thickness_sigma_nm: "
                                   "incoherent or averaged stacks have no fields");
-}
-
-double thickness_of(std::span<const Element> elements) {
-    double sum = 0;
-    for (const Element& element : elements) {
-        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
-            sum += layer->thickness_nm;
-            continue;
-        }
-        const Group& group = std::get<Group>(element.value);
-        sum += static_cast<double>(group.repeat) * thickness_of(group.elements);
-    }
-    return sum;
 }
 
 /// The columns behind polarization.
@@ -96,12 +84,9 @@ public:
 private:
     void add_rows(const Stack& stack, const IndexTable& table, std::size_t w, double angle_deg,
                   char letter) {
-        const double n0 = table.n(table.incident())[w];
         const IncidentAngle at = incident_angle(angle_deg);
         std::vector<Medium> media;
-        for (std::size_t m = 0; m < table.materials(); ++m)
-            media.push_back(medium(table.index(m, w), n0, at));
-        media.push_back(medium(n0, n0, at));
+        set_media(table, w, at, media);
         const auto profile = [&](Polarization polarization) {
             return FieldProfile(stack, media, table.k0()[w], at, polarization);
         };
@@ -125,7 +110,7 @@ private:
             }
             return;
         }
-        for (const double z_nm : query_.depths_nm(stack)) {
+        for (const double z_nm : query_.depths_nm(first.faces_nm().back())) {
             lead();
             FieldPoint point = first.at(z_nm);
             if (other) point = mean_of(point, other->at(z_nm));
@@ -159,10 +144,10 @@ ProfileQuery::ProfileQuery(const ProfileOptions& typed, const QueryRun& run)
     points_ = static_cast<std::size_t>(parse_whole_number("--points", points, 2, kMostPoints));
 }
 
-std::vector<double> ProfileQuery::depths_nm(const Stack& stack) const {
+std::vector<double> ProfileQuery::depths_nm(double last_face_nm) const {
     if (!z_nm_.empty()) return z_nm_;
     const double beyond = std::ranges::max(wavelengths_.nm()) / 2;
-    const double first = -beyond, last = thickness_of(stack.elements) + beyond;
+    const double first = -beyond, last = last_face_nm + beyond;
     std::vector<double> depths(points_);
     for (std::size_t i = 0; i < points_; ++i)
         depths[i] =

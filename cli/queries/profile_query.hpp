@@ -38,8 +38,8 @@ public:
                    std::optional<double> wavelength_nm) const override;
 
     bool is_summary() const { return summary_; }
-    /// The depths of the rows, nm.
-    std::vector<double> depths_nm(const Stack& stack) const;
+    /// The depths of the rows, nm, of a stack whose substrate begins at `last_face_nm`.
+    std::vector<double> depths_nm(double last_face_nm) const;
 
 private:
     friend class ProfileResult;

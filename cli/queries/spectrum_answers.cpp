@@ -1,5 +1,6 @@
 #include "cli/queries/spectrum_answers.hpp"
 
+#include "core/coherent/media.hpp"
 #include "core/material/index_series.hpp"
 #include "core/math/parallel.hpp"
 
@@ -14,18 +15,14 @@ void find_ellipsometry(const StackPower& power, const IndexTable& table,
                        std::span<const IncidentAngle> angles, SpectrumAnswers& out) {
     const std::size_t wavelengths = table.wavelength_nm().size();
     out.ellipsometry.resize(angles.size() * wavelengths);
-    std::vector<Medium> media(table.materials() + 1);
+    std::vector<Medium> media;
     for (std::size_t i = 0; i < out.ellipsometry.size(); ++i) {
         if (power.has_amplitudes()) {
             out.ellipsometry[i] = ellipsometry(out.spectra.s.r[i], out.spectra.p.r[i]);
             continue;
         }
         const std::size_t w = i % wavelengths;
-        const double n0 = table.n(table.incident())[w];
-        const IncidentAngle& at = angles[i / wavelengths];
-        for (std::size_t m = 0; m < table.materials(); ++m)
-            media[m] = medium(table.index(m, w), n0, at);
-        media.back() = medium(n0, n0, at);
+        set_media(table, w, angles[i / wavelengths], media);
         out.ellipsometry[i] = ellipsometry(power, media, table.k0()[w]);
     }
 }

@@ -8,6 +8,7 @@
 #include "cli/queries/stack_tables.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/colorimetry/observer.hpp"
+#include "core/material/linear_value.hpp"
 #include "core/math/adaptive_integral.hpp"
 #include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
@@ -22,14 +23,10 @@ namespace {
 /// Angles that are averaged together.
 constexpr std::size_t kAnglesOfAverage = 16;
 
-double linear(const Table& table, double nm) {
-    const auto& x = table.wavelength_nm;
-    if (nm < x.front() || nm > x.back()) return 0;
-    const auto above = std::upper_bound(x.begin(), x.end(), nm);
-    if (above == x.end()) return table.value.back();
-    const auto i = static_cast<std::size_t>(above - x.begin());
-    return table.value[i - 1] +
-           (nm - x[i - 1]) / (x[i] - x[i - 1]) * (table.value[i] - table.value[i - 1]);
+/// Between its rows, linearly, and 0 outside.
+double weight_of(const Table& table, double nm) {
+    const bool inside = nm >= table.wavelength_nm.front() && nm <= table.wavelength_nm.back();
+    return inside ? linear_value(table, nm) : 0;
 }
 
 Table luminosity() {
@@ -88,7 +85,7 @@ constexpr std::array kMeanQuantities{&Spectrum::R, &Spectrum::T, &Spectrum::A};
 
 double AverageWeight::at(double wavelength_nm) const {
     double product = 1;
-    for (const Table& factor : factors) product *= linear(factor, wavelength_nm);
+    for (const Table& factor : factors) product *= weight_of(factor, wavelength_nm);
     return product;
 }
 

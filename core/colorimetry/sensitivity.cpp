@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/material/linear_value.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/transform.hpp"
 
@@ -20,14 +21,6 @@ double linear(std::span<const double> value, double position) {
     const double row = std::clamp(std::floor(position), 0.0, last - 1);
     const auto i = static_cast<std::size_t>(row);
     return value[i] + (position - row) * (value[i + 1] - value[i]);
-}
-
-double linear(const Table& table, double wavelength_nm) {
-    const auto& x = table.wavelength_nm;
-    const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, wavelength_nm);
-    const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
-    const double t = (wavelength_nm - x[i]) / (x[i + 1] - x[i]);
-    return table.value[i] + t * (table.value[i + 1] - table.value[i]);
 }
 
 /// Integral of the sensitivity over the cells, by a rule that is exact for its cubic parts.
@@ -65,7 +58,7 @@ Sensitivity::Sensitivity(const Observer& observer, const Table& illuminant)
 }
 
 Triple Sensitivity::at(double wavelength_nm) const {
-    const double s = normalization_ * linear(illuminant_, wavelength_nm);
+    const double s = normalization_ * linear_value(illuminant_, wavelength_nm);
     const double row = wavelength_nm - kFirstRow_nm;
     return {s * linear(observer_.x, row), s * linear(observer_.y, row),
             s * linear(observer_.z, row)};

@@ -41,6 +41,27 @@ std::size_t count_layers(std::span<const Element> elements) {
     return count;
 }
 
+namespace {
+
+void write_out(std::span<const Element> elements, std::vector<Layer>& to) {
+    for (const Element& element : elements) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            to.push_back(*layer);
+            continue;
+        }
+        const Group& group = std::get<Group>(element.value);
+        for (std::uint64_t i = 0; i < group.repeat; ++i) write_out(group.elements, to);
+    }
+}
+
+}  // namespace
+
+std::vector<Layer> written_out(std::span<const Element> elements) {
+    std::vector<Layer> layers;
+    write_out(elements, layers);
+    return layers;
+}
+
 std::optional<Chain> joined(const Chain& chain, std::span<const Medium> media) {
     const auto parts = [&](const Layer& gap) {
         return travels(media[gap.material]) && gap.thickness_nm + gap.thickness_sigma_nm > 0;

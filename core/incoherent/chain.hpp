@@ -29,6 +29,9 @@ Chain chain_of(const std::vector<Element>& elements, std::size_t substrate);
 /// Layers with groups written out; the largest number there is, if they are more.
 std::size_t count_layers(std::span<const Element> elements);
 
+/// These layers in their order.
+std::vector<Layer> written_out(std::span<const Element> elements);
+
 /// The chain whose gaps part coherent blocks at this wavelength and angle: those in which light
 /// does not travel (see travels()), and those of no thickness, are layers of a block. Nothing if
 /// the chain has none of them.

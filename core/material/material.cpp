@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/material/air.hpp"
 #include "core/material/formula.hpp"
+#include "core/material/linear_value.hpp"
 #include "core/math/constants.hpp"
 
 namespace irido {
@@ -62,13 +63,7 @@ double value_at(const Formula& formula, const Query& query) {
 }
 
 double value_at(const Table& table, const Query& query) {
-    const auto& x = table.wavelength_nm;
-    const auto& y = table.value;
-    const double at = std::clamp(query.wavelength_nm, x.front(), x.back());
-    const auto above = std::upper_bound(x.begin(), x.end(), at);
-    if (above == x.end()) return y.back();
-    const auto i = static_cast<std::size_t>(above - x.begin());
-    return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
+    return linear_value(table, query.wavelength_nm);
 }
 
 WavelengthRange common(WavelengthRange a, WavelengthRange b) {

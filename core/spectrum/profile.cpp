@@ -9,22 +9,6 @@
 
 namespace irido {
 
-namespace {
-
-/// Layers in their order, groups written out.
-void write_out(const std::vector<Element>& elements, std::vector<Layer>& to) {
-    for (const Element& element : elements) {
-        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
-            to.push_back(*layer);
-            continue;
-        }
-        const Group& group = std::get<Group>(element.value);
-        for (std::uint64_t i = 0; i < group.repeat; ++i) write_out(group.elements, to);
-    }
-}
-
-}  // namespace
-
 FieldProfile::FieldProfile(const Stack& stack, std::span<const Medium> media, double k0,
                            IncidentAngle at, Polarization polarization)
     : incident_(media.back()),
@@ -39,8 +23,7 @@ FieldProfile::FieldProfile(const Stack& stack, std::span<const Medium> media, do
     if (count > kMostLayers)
         throw DomainError("a profile needs at most " + std::to_string(kMostLayers) +
                           " layers, repetitions included (got " + std::to_string(count) + ")");
-    std::vector<Layer> layers;
-    write_out(stack.elements, layers);
+    const std::vector<Layer> layers = written_out(stack.elements);
     long double depth = 0;  // so that sums of decimals are the double next to them
     faces_nm_.push_back(0);
     for (const Layer& layer : layers) {

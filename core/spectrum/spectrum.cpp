@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "core/coherent/media.hpp"
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
 
@@ -65,12 +66,8 @@ public:
         : stack_(stack), table_(table), needs_(needs), out_(out) {}
 
     void operator()(IncidentAngle incidence, std::size_t wavelength, std::size_t point) {
-        const double n0 = table_.n(table_.incident())[wavelength];
-        media_.resize(table_.materials() + 1);
+        set_media(table_, wavelength, incidence, media_);
         absorbed_.resize(needs_.layers ? stack_.layer_count() : 0);
-        for (std::size_t m = 0; m < table_.materials(); ++m)
-            media_[m] = medium(table_.index(m, wavelength), n0, incidence);
-        media_.back() = medium(n0, n0, incidence);
         const double k0 = table_.k0()[wavelength];
         Spectrum* const s = needs_.s ? &out_.s : nullptr;
         Spectrum* const p = needs_.p ? &out_.p : nullptr;

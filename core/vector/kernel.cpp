@@ -99,7 +99,10 @@ private:
         Mask small = no_lanes();
         if (kS) small = Or(small, finish(ends_s, s, in_s, start_s.b, kz.re, *s_));
         if (kP) small = Or(small, finish(ends_p, p, in_p, kz, dot(kz, eps), *p_));
-        if (program_.has_absorbing_groups) bad = Or(bad, small), small = no_lanes();
+        if (program_.has_absorbing_groups) {  // whose depth integrals the plain kernel has
+            bad = Or(bad, small);
+            small = no_lanes();
+        }
         // absorption that 1 - R - T would lose; the next points are likely to need it as well
         needs_flux_ = !hn::AllFalse(Lanes(), small);
         if (needs_flux_) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/coherent/fringe_mean.hpp"
+#include "core/coherent/media.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/quadrature/fixed_layers_cache.hpp"
 #include "core/color/quadrature/integration.hpp"
@@ -391,12 +392,8 @@ private:
                          Scratch& scratch) const {
         const std::size_t sides = request_.sides.size();
         std::vector<Medium>& media = scratch.media;
-        media.resize(indices.materials() + 1);
         for (std::size_t j = 0; j < samples.points(); ++j) {
-            const double n0 = indices.n(indices.incident())[j];
-            for (std::size_t m = 0; m < indices.materials(); ++m)
-                media[m] = medium(indices.index(m, j), n0, incidence);
-            media.back() = medium(n0, n0, incidence);
+            set_media(indices, j, incidence, media);
             for (std::size_t side = 0; side < sides; ++side) samples.row(side)[j] = 0;
             for (std::size_t k = 0; k < polarizations; ++k) {
                 const auto polarization = needs_.s && k == 0 ? Polarization::s : Polarization::p;
