@@ -141,7 +141,8 @@ LayerProfile FieldProfile::layer(std::size_t number, const FieldProfile* other) 
         result.largest_E2 = value;
         result.largest_at_nm = begin + (thickness - up_nm);
     };
-    take(thickness);
+    result.largest_E2 = field(thickness);  // 0 where no light arrives
+    result.largest_at_nm = begin;
     if (thickness == 0) return result;
     // maxima stand half a wavelength of the layer apart
     constexpr double kSteps = 12, kMostSteps = 1e5;

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/support/program.hpp"
 
@@ -99,4 +100,24 @@ TEST_CASE("a profile's picture has its layers", "[cli][profile]") {
                                        "-p", "p", "--points", "100", "-f", "svg"});
     CHECK(picture.status == 0);
     CHECK(picture.out.find("Ag") != std::string::npos);
+}
+
+TEST_CASE("layers that no light reaches have no field", "[cli][profile]") {
+    const Outcome outcome =
+        run_irido({"profile", "1.6 | (1.83@178.8 | 1.07+1.6i@147.9)^500 | 2.7+0.01i@71.5 | 2.66",
+                   "-w", "427.8", "-a", "35", "-p", "s", "--summary"});
+    REQUIRE(outcome.status == 0);
+    const auto table = parse_csv(outcome.out);
+    REQUIRE(table.size() == 1 + 1002);
+    double begin = 0;
+    for (std::size_t i = 1; i < table.size(); ++i) {
+        // std::stod refuses subnormal numbers
+        const double largest = std::strtod(table[i][6].c_str(), nullptr);
+        const double at = std::strtod(table[i][7].c_str(), nullptr);
+        const double thickness = i > 1001 ? 0 : i == 1001 ? 71.5 : i % 2 == 1 ? 178.8 : 147.9;
+        CAPTURE(i);
+        CHECK((largest >= 0 && largest < 4));
+        CHECK((at > begin - 1e-6 && at < begin + thickness + 1e-6));
+        begin += thickness;
+    }
 }
