@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -8,7 +7,6 @@
 #include "cli/options/picture_options.hpp"
 #include "cli/queries/profile_query.hpp"
 #include "core/incoherent/chain.hpp"
-#include "core/math/constants.hpp"
 
 namespace irido::cli {
 
@@ -55,14 +53,14 @@ void draw_layers(const schemas::StackDocument& document, tables::Figure& figure)
             const auto style =
                 kFirstStyle + styles.try_emplace(layer.material, styles.size()).first->second;
             const std::string& name = document.stack.materials[layer.material].name;
-            // tallest in the middle, where the label goes
             panel.areas.push_back({.name = "",
                                    .style = style,
                                    .title = name,
-                                   .label = layers.size() > 12 ? "" : name,
-                                   .x = {layer.begin, (layer.begin + layer.end) / 2, layer.end},
-                                   .low = {low, low, low},
-                                   .high = {high, std::nextafter(high, kInfinity), high}});
+                                   .label = name,
+                                   .label_in_middle = true,
+                                   .x = {layer.begin, layer.end},
+                                   .low = {low, low},
+                                   .high = {high, high}});
         }
     }
 }

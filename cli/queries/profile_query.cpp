@@ -232,7 +232,7 @@ std::unique_ptr<QueryOptions> ProfileOptions::add(CLI::App& command) {
         ->type_name("LIST");
     command.add_flag("--summary", options->summary,
                      "one row for each layer and the substrate: absorbed power, the depth\n"
-                     "in which the intensity of a wave falls to 1/e, the largest |E|^2 and\n"
+                     "over which the intensity of a wave falls to 1/e, the largest |E|^2 and\n"
                      "its depth");
     return options;
 }

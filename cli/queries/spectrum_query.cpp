@@ -321,8 +321,9 @@ SpectrumQuery::SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run)
       cone_(parse_cone(typed.cone, angles_deg_)),
       execution_(run.execution),
       note_(run.note) {
-    if (varies_wavelength_ && typed.unit != "nm")
-        throw UsageError("--unit: cannot be combined with a varied wavelength_nm");
+    if (varies_wavelength_ && (typed.unit != "nm" || !typed.average.empty()))
+        throw UsageError(std::string(typed.unit != "nm" ? "--unit" : "--average") +
+                         ": cannot be combined with a varied wavelength_nm");
     if (!cone_.is_none())
         require_power_columns(cone_.f_number != 0 ? "--f-number" : "--cone", columns_, true);
     if (typed.average.empty()) return;
@@ -388,7 +389,7 @@ void SpectrumQuery::note_stack(const schemas::StackDocument& document,
                 (names.empty() ? "" : ", ") + (material.name.empty() ? "a table" : material.name);
     if (!names.empty())
         note_(document.file + ": gd, gdd and tod take tabulated indices (" + names +
-              ") as straight lines between their rows: they jump at rows");
+              ") as straight lines between their rows, and so jump at the rows");
 }
 
 std::unique_ptr<QueryResult> SpectrumQuery::new_result() const {
@@ -517,13 +518,13 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
                     "psi_deg delta_deg  ellipsometric angles, r_p/r_s = tan(psi)\n"
                     "    exp(i delta); delta = 0 at 0 deg\n"
                     "delta_nebraska_deg  what instruments print, in [0, 360):\n"
-                    "    180 - delta, so that 57.628 is 122.372\n"
+                    "    180 - delta, so that 57.692 is 122.308\n"
                     "N C S depolarization  cos 2psi, sin 2psi cos Delta, sin 2psi\n"
                     "    sin Delta of that Delta; 1 - N^2 - C^2 - S^2\n"
                     "phase_r_deg phase_t_deg  arg r at the first face, arg t from the\n"
                     "    first face to the last; gd_r_fs gd_t_fs gdd_r_fs2 gdd_t_fs2\n"
-                    "    tod_r_fs3 tod_t_fs3  derivatives by the angular frequency at\n"
-                    "    a fixed angle; no value where r is 0\n"
+                    "    tod_r_fs3 tod_t_fs3  derivatives with respect to the angular\n"
+                    "    frequency at a fixed angle; no value where r is 0\n"
                     "A_layers  A_1 A_2 ..., absorptance of each layer, at most 1000\n"
                     "    (np.load needs max_header_size=100000 for more than 500)\n"
                     "psi_deg, delta_nebraska_deg, N, C, S and depolarization take any -p\n"

@@ -90,7 +90,7 @@ IncidentAngle ConeNode::incidence() const {
 double ConeSize::half_angle(double incident_index) const {
     if (f_number == 0) return half_angle_deg;
     const double sine = 1 / (2 * f_number * incident_index);
-    require_in_range("the sine of a cone, 1/(2 N n),", sine, 0, 1);
+    require_in_range("the sine of the half-angle at this f-number, 1/(2 N n),", sine, 0, 1);
     return std::asin(sine) / kDegree;
 }
 

@@ -138,7 +138,7 @@ SeriesWave outgoing_wave(const SeriesMedium& m, Polarization polarization) {
 }
 
 double finite(double value) {
-    return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(value) ? value + 0.0 : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// From the logarithm's series l1 x + l2 x^2 + l3 x^3 of a/a0.

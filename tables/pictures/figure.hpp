@@ -44,10 +44,11 @@ struct Series {
 
 /// What lies between two curves over x.
 struct Area {
-    std::string name = {};   ///< as of a series
-    std::size_t style = 0;   ///< its colour
-    std::string title = {};  ///< what it is, where a picture can say so
-    std::string label = {};  ///< written where it is tallest
+    std::string name = {};         ///< as of a series
+    std::size_t style = 0;         ///< its colour
+    std::string title = {};        ///< what it is, where a picture can say so
+    std::string label = {};        ///< written where it is tallest, or:
+    bool label_in_middle = false;  ///< between its ends, if there is room
     std::vector<double> x = {}, low = {}, high = {};
 };
 

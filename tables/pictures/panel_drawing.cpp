@@ -223,6 +223,13 @@ void draw_area(const Area& area, const PanelPlaces& places, std::vector<DrawnGro
     }
     for (std::size_t i = area.x.size(); i-- > 0;)
         around.push_back({places.x(area.x[i]), places.y(area.high[i])});
+    if (area.label_in_middle) {
+        const double begin = std::max(places.x(area.x.front()), box.left);
+        const double end = std::min(places.x(area.x.back()), box.right);
+        label_at.reset();
+        if (end - begin > text_width(area.label, Text{}.size))
+            label_at = {std::round((begin + end) / 2), box.bottom - label_room};
+    }
     DrawnGroup group{.name = "area", .title = area.title, .clip = box};
     group.items.emplace_back(Path{.lines = {around},
                                   .closed = true,

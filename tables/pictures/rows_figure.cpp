@@ -379,7 +379,7 @@ const std::vector<KnownColumn>& known_columns() {
         {"psi_deg", {.quantity = "\u03c8", .unit = "\u00b0"}},
         {"delta_deg", {.quantity = "\u0394", .unit = "\u00b0", .period = 360}},
         {"delta_nebraska_deg",
-         {.quantity = "\u0394 of instruments", .unit = "\u00b0", .period = 360}},
+         {.quantity = "\u0394 (instrument convention)", .unit = "\u00b0", .period = 360}},
         {"phase_r_deg", {.quantity = "phase of r", .unit = "\u00b0", .period = 360}},
         {"phase_t_deg", {.quantity = "phase of t", .unit = "\u00b0", .period = 360}},
         {"gd_r_fs", {.quantity = "group delay of r", .unit = "fs"}},

@@ -174,6 +174,9 @@ TEST_CASE("averages over a range", "[cli][spectrum]") {
     check_refused(run_irido({"spectrum", stack, "-w", "550", "--average", "flat"}),
                   "must be a range");
     check_refused(run_irido({"spectrum", stack, "--average", "solar"}), "must be one of flat");
+    check_refused(run_irido({"sweep", stack, "--vary", "wavelength_nm=500,600", "--compute",
+                             "spectrum", "--average", "flat"}),
+                  "--average: cannot be combined with a varied wavelength_nm");
     check_refused(run_irido({"spectrum", stack, "-w", "900:1000:1", "--average", "photopic"}),
                   "is 0 from 900 to 1000 nm");
 }
