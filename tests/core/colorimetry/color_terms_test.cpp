@@ -132,12 +132,12 @@ TEST_CASE("the white and black have no hue and no wavelength", "[colorimetry]") 
 TEST_CASE("Luv of a pure lightness, and of primaries", "[colorimetry]") {
     CHECK(luv({0, 0, 0}, kD65) == Triple{0, 0, 0});
     CHECK_THAT(luv({kD65[0] / 2, 0.5, kD65[2] / 2}, kD65)[1], WithinAbs(0, 1e-12));
-    // The red of sRGB, whose u', v' are 0.4507, 0.5229 where the white's are 0.1978, 0.4683.
+    // The red of sRGB, u' = 4 x/(3 + 12 y - 2 x), v' = 9 y/(3 + 12 y - 2 x).
     const Triple white{0.3127 / 0.329, 1, 0.3583 / 0.329};
     const Triple red{0.4123908, 0.2126390, 0.0193308};
     const Triple uv = luv(red, white);
-    CHECK_THAT(uv[1], WithinAbs(13 * uv[0] * (0.4507042 - 0.1978330), 1e-3));
-    CHECK_THAT(uv[2], WithinAbs(13 * uv[0] * (0.5228873 - 0.4683200), 1e-3));
+    CHECK_THAT(uv[1], WithinAbs(13 * uv[0] * (2.56 / 5.68 - 1.2508 / 6.3226), 1e-3));
+    CHECK_THAT(uv[2], WithinAbs(13 * uv[0] * (2.97 / 5.68 - 2.961 / 6.3226), 1e-3));
 }
 
 TEST_CASE("CMC differences", "[colorimetry]") {
