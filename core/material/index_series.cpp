@@ -76,6 +76,16 @@ Series<Complex> series_of(const LorentzDrude& model, double wavelength_nm) {
     return root_of(eps, std::sqrt(eps[0]));
 }
 
+Series<Complex> series_of(const Mixture& mixture, double wavelength_nm) {
+    const auto part = [&](std::size_t i) {
+        return std::visit([&](const auto& model) { return series_of(model, wavelength_nm); },
+                          mixture.parts[i].model);
+    };
+    if (mixture.fraction == 0) return part(1);
+    if (mixture.fraction == 1) return part(0);
+    return root_near(mixed_permittivity(mixture.rule, part(0), part(1), mixture.fraction));
+}
+
 }  // namespace
 
 Series<double> relative_frequency() {
@@ -91,6 +101,7 @@ Series<Complex> index_series(const Material& material, double wavelength_nm) {
 }
 
 bool has_rows(const Material& material) {
+    if (std::ranges::any_of(parts_of(material), has_rows)) return true;
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     return index != nullptr &&
            (std::holds_alternative<Table>(index->n) || std::holds_alternative<Table>(index->k));

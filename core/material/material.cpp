@@ -26,6 +26,7 @@ std::string name_of(const Material& material) {
 struct Query {
     const Material& material;
     double wavelength_nm;
+    bool holds;  ///< end values hold outside the ranges
 
     double require(std::string_view what, double value, double lowest, double highest) const {
         if (value >= lowest && value <= highest) return value;
@@ -101,6 +102,20 @@ Complex value_at(const RefractiveIndex& index, const Query& query) {
     return {std::visit(evaluate, index.n), std::visit(evaluate, index.k)};
 }
 
+Complex known_index(const Material& material, double wavelength_nm, bool holds);
+
+Complex value_at(const Mixture& mixture, const Query& query) {
+    const auto part = [&](std::size_t i) {
+        const Material& material = mixture.parts[i];
+        return known_index(material, query.wavelength_nm,
+                           query.holds || material.outside == Outside::clamp);
+    };
+    if (mixture.fraction == 0) return part(1);
+    if (mixture.fraction == 1) return part(0);
+    query.require("fraction", mixture.fraction, 0, 1);
+    return std::sqrt(mixed_permittivity(mixture.rule, part(0), part(1), mixture.fraction));
+}
+
 Complex value_at(const LorentzDrude& model, const Query& query) {
     const double energy = kPhotonEnergy_eVnm / std::clamp(query.wavelength_nm, model.range.first_nm,
                                                           model.range.last_nm);
@@ -116,15 +131,23 @@ WavelengthRange known_range(const LorentzDrude& model) {
     return model.range;
 }
 
+WavelengthRange known_range(const Mixture& mixture) {
+    WavelengthRange range = kAllWavelengths;
+    for (const Material& part : mixture.parts)
+        if (part.outside == Outside::refuse) range = common(range, range_of(part));
+    return range;
+}
+
 std::string in_words(WavelengthRange range) {
     return to_text(range.first_nm) + " to " + to_text(range.last_nm) + " nm";
 }
 
-/// Throws unless the material is known at the wavelength, or holds its end values.
-void require_known(const Material& material, double wavelength_nm) {
+/// Throws unless the material is known at the wavelength, or holds its end values; the parts of a
+/// mixture say it for themselves.
+void require_known(const Material& material, double wavelength_nm, bool holds) {
     require_in_range("wavelength_nm", wavelength_nm, kAllWavelengths.first_nm,
                      kAllWavelengths.last_nm);
-    if (material.outside == Outside::clamp || contains(range_of(material), wavelength_nm)) return;
+    if (holds || !parts_of(material).empty() || contains(range_of(material), wavelength_nm)) return;
     const auto refuse = [&](const std::string& what, WavelengthRange range) {
         throw DomainError(what + " is known from " + in_words(range) + " (asked for " +
                           to_text(wavelength_nm) + ")");
@@ -135,16 +158,9 @@ void require_known(const Material& material, double wavelength_nm) {
     refuse(name_of(material), index != nullptr ? known_range(index->n) : range_of(material));
 }
 
-}  // namespace
-
-WavelengthRange range_of(const Material& material) {
-    return common(kAllWavelengths,
-                  std::visit([](const auto& model) { return known_range(model); }, material.model));
-}
-
-Complex index_at(const Material& material, double wavelength_nm) {
-    require_known(material, wavelength_nm);
-    const Query query{material, wavelength_nm};
+Complex known_index(const Material& material, double wavelength_nm, bool holds) {
+    require_known(material, wavelength_nm, holds);
+    const Query query{material, wavelength_nm, holds};
     const Complex index =
         std::visit([&](const auto& model) { return value_at(model, query); }, material.model);
     query.require("n", index.real(), 0, kLargestIndex);
@@ -154,30 +170,51 @@ Complex index_at(const Material& material, double wavelength_nm) {
     return index;
 }
 
+}  // namespace
+
+bool Mixture::operator==(const Mixture& other) const {
+    return rule == other.rule && fraction == other.fraction && parts == other.parts;
+}
+
+std::span<const Material> parts_of(const Material& material) {
+    if (const auto* mixture = std::get_if<Mixture>(&material.model)) return mixture->parts;
+    return {};
+}
+
+WavelengthRange range_of(const Material& material) {
+    return common(kAllWavelengths,
+                  std::visit([](const auto& model) { return known_range(model); }, material.model));
+}
+
+Complex index_at(const Material& material, double wavelength_nm) {
+    return known_index(material, wavelength_nm, material.outside == Outside::clamp);
+}
+
 bool is_constant(const Material& material) {
+    const std::span<const Material> parts = parts_of(material);
+    if (!parts.empty()) return std::ranges::all_of(parts, is_constant);
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     return index != nullptr && std::holds_alternative<Constant>(index->n) &&
            std::holds_alternative<Constant>(index->k);
 }
 
-std::vector<double> table_rows(const Material& material, WavelengthRange between) {
-    std::vector<double> rows;
+namespace {
+
+/// Rows of all tables of a material.
+void add_rows(const Material& material, std::vector<double>& rows) {
+    for (const Material& part : parts_of(material)) add_rows(part, rows);
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
-    if (index == nullptr) return rows;
+    if (index == nullptr) return;
     for (const Dispersion* dispersion : {&index->n, &index->k})
         if (const auto* table = std::get_if<Table>(dispersion))
             rows.insert(rows.end(), table->wavelength_nm.begin(), table->wavelength_nm.end());
-    const std::vector<double> all = kinks(material, between);
-    std::ranges::sort(rows);
-    std::vector<double> found;
-    std::ranges::set_intersection(all, rows, std::back_inserter(found));
-    return found;
 }
 
-std::vector<double> kinks(const Material& material, WavelengthRange between) {
-    const bool holds = material.outside == Outside::clamp;
-    const WavelengthRange known = holds ? kAllWavelengths : range_of(material);
-    std::vector<double> found;
+/// Wavelengths inside `between` and `known` where n or k has a kink; ends of ranges if they hold.
+void add_kinks(const Material& material, WavelengthRange between, WavelengthRange known, bool holds,
+               std::vector<double>& found) {
+    for (const Material& part : parts_of(material))
+        add_kinks(part, between, known, holds || part.outside == Outside::clamp, found);
     const auto take = [&](double nm) {
         if (nm > between.first_nm && nm < between.last_nm && contains(known, nm))
             found.push_back(nm);
@@ -193,8 +230,27 @@ std::vector<double> kinks(const Material& material, WavelengthRange between) {
                 std::for_each(table->wavelength_nm.begin(), table->wavelength_nm.end(), take);
             else
                 take_ends(known_range(*dispersion));
-    else
+    else if (parts_of(material).empty())
         take_ends(range_of(material));
+}
+
+}  // namespace
+
+std::vector<double> table_rows(const Material& material, WavelengthRange between) {
+    std::vector<double> rows;
+    add_rows(material, rows);
+    if (rows.empty()) return rows;
+    const std::vector<double> all = kinks(material, between);
+    std::ranges::sort(rows);
+    std::vector<double> found;
+    std::ranges::set_intersection(all, rows, std::back_inserter(found));
+    return found;
+}
+
+std::vector<double> kinks(const Material& material, WavelengthRange between) {
+    const bool holds = material.outside == Outside::clamp;
+    std::vector<double> found;
+    add_kinks(material, between, holds ? kAllWavelengths : range_of(material), holds, found);
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;

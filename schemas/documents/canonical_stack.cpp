@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/material/library.hpp"
+#include "schemas/documents/mixing_rules.hpp"
 
 namespace irido::schemas {
 
@@ -96,6 +97,22 @@ json lorentz_drude_json(const LorentzDrude& model) {
     return {{"lorentz_drude", std::move(object)}};
 }
 
+json material_json(const Material& material);
+
+json mixture_json(const Mixture& mixture) {
+    return {{"mixture",
+             {{"inclusion", material_json(mixture.parts[0])},
+              {"host", material_json(mixture.parts[1])},
+              {"fraction", mixture.fraction},
+              {"model", name_of(mixture.rule)}}}};
+}
+
+struct ModelJson {
+    json operator()(const RefractiveIndex& index) const { return index_json(index); }
+    json operator()(const LorentzDrude& model) const { return lorentz_drude_json(model); }
+    json operator()(const Mixture& mixture) const { return mixture_json(mixture); }
+};
+
 json material_json(const Material& material) {
     if (const auto built_in = find_material(material.name);
         built_in && built_in->material.model == material.model && !is_constant(material)) {
@@ -103,9 +120,7 @@ json material_json(const Material& material) {
         if (material.outside == Outside::clamp)
             return {{"name", material.name}, {"extrapolate", "clamp"}};
     }
-    const auto* const index = std::get_if<RefractiveIndex>(&material.model);
-    json result =
-        index ? index_json(*index) : lorentz_drude_json(std::get<LorentzDrude>(material.model));
+    json result = std::visit(ModelJson{}, material.model);
     if (material.outside == Outside::clamp && !is_constant(material))
         result["extrapolate"] = "clamp";
     return result;

@@ -69,8 +69,9 @@ VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
     nlohmann::json document = source_.document;
     for (const std::string& path : paths_) set_value(document, path, nullptr);
     Stack written = as_written(own_.stack);
-    varies_thickness_only_ = std::ranges::all_of(
-        paths_, [&](const std::string& path) { return layer_at(written, path) != nullptr; });
+    varies_thickness_only_ = std::ranges::all_of(paths_, [&](const std::string& path) {
+        return layer_at(written, path) != nullptr && has_value(source_.document, path);
+    });
 }
 
 StackDocument VariedStack::document(std::span<const nlohmann::json> values) const {
