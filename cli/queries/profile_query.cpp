@@ -86,8 +86,8 @@ private:
                   char letter) {
         const IncidentAngle at = incident_angle(angle_deg);
         std::vector<Medium> media;
-        set_media(table, w, at, media);
         const auto profile = [&](Polarization polarization) {
+            set_media(table, w, at, polarization, media);
             return FieldProfile(stack, media, table.k0()[w], at, polarization);
         };
         const FieldProfile first = profile(letter == 'p' ? Polarization::p : Polarization::s);

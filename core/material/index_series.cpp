@@ -76,14 +76,22 @@ Series<Complex> series_of(const LorentzDrude& model, double wavelength_nm) {
     return root_of(eps, std::sqrt(eps[0]));
 }
 
+Series<Complex> series_of(const Material& material, double wavelength_nm);
+
+Series<Complex> series_of(const Uniaxial& medium, double wavelength_nm) {
+    return series_of(medium.parts[0], wavelength_nm);
+}
+
 Series<Complex> series_of(const Mixture& mixture, double wavelength_nm) {
-    const auto part = [&](std::size_t i) {
-        return std::visit([&](const auto& model) { return series_of(model, wavelength_nm); },
-                          mixture.parts[i].model);
-    };
+    const auto part = [&](std::size_t i) { return series_of(mixture.parts[i], wavelength_nm); };
     if (mixture.fraction == 0) return part(1);
     if (mixture.fraction == 1) return part(0);
     return root_near(mixed_permittivity(mixture.rule, part(0), part(1), mixture.fraction));
+}
+
+Series<Complex> series_of(const Material& material, double wavelength_nm) {
+    return std::visit([&](const auto& model) { return series_of(model, wavelength_nm); },
+                      material.model);
 }
 
 }  // namespace
@@ -94,8 +102,16 @@ Series<double> relative_frequency() {
 
 Series<Complex> index_series(const Material& material, double wavelength_nm) {
     const Complex index = index_at(material, wavelength_nm);
-    Series<Complex> series = std::visit(
-        [&](const auto& model) { return series_of(model, wavelength_nm); }, material.model);
+    Series<Complex> series = series_of(material, wavelength_nm);
+    series[0] = index;
+    return series;
+}
+
+Series<Complex> extraordinary_series(const Material& material, double wavelength_nm) {
+    const auto* medium = std::get_if<Uniaxial>(&material.model);
+    if (medium == nullptr) return index_series(material, wavelength_nm);
+    const Complex index = extraordinary_index_at(material, wavelength_nm);
+    Series<Complex> series = series_of(medium->parts[1], wavelength_nm);
     series[0] = index;
     return series;
 }

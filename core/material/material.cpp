@@ -104,16 +104,20 @@ Complex value_at(const RefractiveIndex& index, const Query& query) {
 
 Complex known_index(const Material& material, double wavelength_nm, bool holds);
 
+Complex part_at(const Material& part, const Query& query) {
+    return known_index(part, query.wavelength_nm, query.holds || part.outside == Outside::clamp);
+}
+
 Complex value_at(const Mixture& mixture, const Query& query) {
-    const auto part = [&](std::size_t i) {
-        const Material& material = mixture.parts[i];
-        return known_index(material, query.wavelength_nm,
-                           query.holds || material.outside == Outside::clamp);
-    };
+    const auto part = [&](std::size_t i) { return part_at(mixture.parts[i], query); };
     if (mixture.fraction == 0) return part(1);
     if (mixture.fraction == 1) return part(0);
     query.require("fraction", mixture.fraction, 0, 1);
     return std::sqrt(mixed_permittivity(mixture.rule, part(0), part(1), mixture.fraction));
+}
+
+Complex value_at(const Uniaxial& medium, const Query& query) {
+    return part_at(medium.parts[0], query);
 }
 
 Complex value_at(const LorentzDrude& model, const Query& query) {
@@ -131,11 +135,19 @@ WavelengthRange known_range(const LorentzDrude& model) {
     return model.range;
 }
 
-WavelengthRange known_range(const Mixture& mixture) {
+WavelengthRange range_of_parts(std::span<const Material> parts) {
     WavelengthRange range = kAllWavelengths;
-    for (const Material& part : mixture.parts)
+    for (const Material& part : parts)
         if (part.outside == Outside::refuse) range = common(range, range_of(part));
     return range;
+}
+
+WavelengthRange known_range(const Mixture& mixture) {
+    return range_of_parts(mixture.parts);
+}
+
+WavelengthRange known_range(const Uniaxial& medium) {
+    return range_of_parts(medium.parts);
 }
 
 std::string in_words(WavelengthRange range) {
@@ -176,8 +188,36 @@ bool Mixture::operator==(const Mixture& other) const {
     return rule == other.rule && fraction == other.fraction && parts == other.parts;
 }
 
+bool Uniaxial::operator==(const Uniaxial& other) const {
+    return parts == other.parts;
+}
+
+bool is_uniaxial(const Material& material) {
+    return std::holds_alternative<Uniaxial>(material.model);
+}
+
+const Material* first_uniaxial(std::span<const Material> materials) {
+    const auto found = std::ranges::find_if(materials, is_uniaxial);
+    return found == materials.end() ? nullptr : &*found;
+}
+
+Complex extraordinary_index_at(const Material& material, double wavelength_nm) {
+    const Complex ordinary = index_at(material, wavelength_nm);
+    const auto* medium = std::get_if<Uniaxial>(&material.model);
+    if (medium == nullptr) return ordinary;
+    const bool holds = material.outside == Outside::clamp;
+    const Complex index = part_at(medium->parts[1], {material, wavelength_nm, holds});
+    if (ordinary.imag() * index.imag() < 0)
+        throw DomainError(name_of(material) +
+                          ": must not absorb along one axis and amplify along another (k " +
+                          to_text(ordinary.imag()) + " and " + to_text(index.imag()) + " at " +
+                          to_text(wavelength_nm) + " nm)");
+    return index;
+}
+
 std::span<const Material> parts_of(const Material& material) {
     if (const auto* mixture = std::get_if<Mixture>(&material.model)) return mixture->parts;
+    if (const auto* medium = std::get_if<Uniaxial>(&material.model)) return medium->parts;
     return {};
 }
 
@@ -238,6 +278,7 @@ void add_kinks(const Material& material, WavelengthRange between, WavelengthRang
 
 std::vector<double> table_rows(const Material& material, WavelengthRange between) {
     std::vector<double> rows;
+    if (is_uniaxial(material)) return rows;
     add_rows(material, rows);
     if (rows.empty()) return rows;
     const std::vector<double> all = kinks(material, between);

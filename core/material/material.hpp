@@ -92,10 +92,17 @@ struct Mixture {
     bool operator==(const Mixture& other) const;
 };
 
+/// A crystal, or layers finer than light, with its axis along the normal of the stack. s waves see
+/// the ordinary index alone. parts  ordinary, extraordinary
+struct Uniaxial {
+    std::vector<Material> parts;
+    bool operator==(const Uniaxial& other) const;
+};
+
 /// Complex index of a medium, n + i k with k > 0 absorbing (fields go as exp(-i w t)).
 struct Material {
     std::string name;
-    std::variant<RefractiveIndex, LorentzDrude, Mixture> model;
+    std::variant<RefractiveIndex, LorentzDrude, Mixture, Uniaxial> model;
     Outside outside = Outside::refuse;
     bool operator==(const Material&) const = default;
 };
@@ -114,7 +121,17 @@ WavelengthRange range_of(const Material& material);
 /// |n + ik| >= 1e-6.
 Complex index_at(const Material& material, double wavelength_nm);
 
-/// What a medium is made of: the parts of a mixture; none for others.
+/// Whether p waves see another index, too. index_at() is then that of s waves.
+bool is_uniaxial(const Material& material);
+
+/// The first uniaxial one; nullptr if there is none.
+const Material* first_uniaxial(std::span<const Material> materials);
+
+/// n + i k along the normal of the stack: the extraordinary index, or index_at(). Throws
+/// DomainError as that does, and if one of the two absorbs while the other amplifies.
+Complex extraordinary_index_at(const Material& material, double wavelength_nm);
+
+/// What a medium is made of: the parts of a mixture or of a uniaxial medium; none for others.
 std::span<const Material> parts_of(const Material& material);
 
 /// True if the index is the same at every wavelength.
@@ -123,7 +140,7 @@ bool is_constant(const Material& material);
 /// Wavelengths strictly inside (first_nm, last_nm) where n or k has a kink, sorted, unique.
 std::vector<double> kinks(const Material& material, WavelengthRange between);
 
-/// Those of them that are rows of a table, of a mixture's too.
+/// Those of them that are rows of a table, of a mixture's too; none of uniaxial media.
 std::vector<double> table_rows(const Material& material, WavelengthRange between);
 
 }  // namespace irido

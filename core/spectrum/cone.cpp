@@ -201,7 +201,11 @@ void cone_spectra(const Stack& stack, const StackPower& power, const IndexTable&
         };
         const auto ends_at = [&](const ConeLight& light, std::size_t w) {
             std::vector<Complex> index;
-            for (std::size_t m = 0; m < table.materials(); ++m) index.push_back(table.index(m, w));
+            for (std::size_t m = 0; m < table.materials(); ++m) {
+                index.push_back(table.index(m, w));
+                if (const std::size_t row = table.extraordinary(m); row != m)
+                    index.push_back(table.index(row, w));
+            }
             return light.smooth_ends(index, table.n(table.incident())[w]);
         };
         for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {

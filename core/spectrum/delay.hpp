@@ -29,7 +29,9 @@ struct Delays {
 /// below 2^-46 of the waves that it is the difference of is rounding, and counts as 0.
 ///   stack          coherent layers of fixed thickness;  index  index_series() of its materials
 ///   wavelength_nm  vacuum, [1, 1e7]
+///   extraordinary  extraordinary_series() of its materials; may be left out where none is uniaxial
 Delays delays(const Stack& stack, std::span<const Series<Complex>> index, double wavelength_nm,
-              IncidentAngle incidence, Polarization polarization);
+              IncidentAngle incidence, Polarization polarization,
+              std::span<const Series<Complex>> extraordinary = {});
 
 }  // namespace irido

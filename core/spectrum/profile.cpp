@@ -80,11 +80,13 @@ FieldPoint FieldProfile::point(std::size_t number, const Fields& at) const {
         result.Ey2 = scaled(std::norm(at.b));
     } else {
         result.Ex2 = scaled(std::norm(at.b));
-        result.Ez2 = scaled(across2_ * std::norm(at.c / m.eps));
+        result.Ez2 = scaled(across2_ * std::norm(at.c / m.eps_z));
     }
     result.flux = times_exp(at.flux * power_, exponent);
     // k0 Im(eps) |E|^2 of the fields, whose power is that of flux
-    result.absorbed_per_nm = k0_ * m.eps.imag() * result.E2() * power_ / amplitude2_;
+    result.absorbed_per_nm =
+        k0_ * (m.eps.imag() * (result.Ex2 + result.Ey2) + m.eps_z.imag() * result.Ez2) * power_ /
+        amplitude2_;
     return result;
 }
 
@@ -110,7 +112,7 @@ double FieldProfile::E2_in(std::size_t number, double up_nm) const {
 
 double FieldProfile::absorbed_in(std::size_t number) const {
     const Medium& m = medium(number);
-    if (m.eps.imag() == 0) return 0;
+    if (!is_lossy(m)) return 0;
     if (number > layers_.size()) return at(faces_nm_.back()).flux;
     const Fields& bottom = at_faces_[number];
     const double k0_d = k0_ * (faces_nm_[number] - faces_nm_[number - 1]);

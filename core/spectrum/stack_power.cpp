@@ -100,7 +100,7 @@ void StackPower::assign(const Stack& stack) {
         chain_.substrate = stack.substrate;
     }
     mirror_.reset();
-    if (has_amplitudes())
+    if (has_amplitudes() && !first_uniaxial(stack.materials))
         mirror_ = hosted_mirror(chain_.blocks[0].down, stack.incident, stack.substrate);
 }
 

@@ -107,10 +107,16 @@ json mixture_json(const Mixture& mixture) {
               {"model", name_of(mixture.rule)}}}};
 }
 
+json uniaxial_json(const Uniaxial& medium) {
+    return {{"ordinary", material_json(medium.parts[0])},
+            {"extraordinary", material_json(medium.parts[1])}};
+}
+
 struct ModelJson {
     json operator()(const RefractiveIndex& index) const { return index_json(index); }
     json operator()(const LorentzDrude& model) const { return lorentz_drude_json(model); }
     json operator()(const Mixture& mixture) const { return mixture_json(mixture); }
+    json operator()(const Uniaxial& medium) const { return uniaxial_json(medium); }
 };
 
 json material_json(const Material& material) {

@@ -34,6 +34,10 @@ struct HashOf {
         mix(hash, mixture.fraction);
         for (const Material& part : mixture.parts) std::visit(*this, part.model);
     }
+    void operator()(const Uniaxial& medium) {
+        mix(hash, 2);
+        for (const Material& part : medium.parts) std::visit(*this, part.model);
+    }
     void operator()(const LorentzDrude& model) {
         mix(hash, model.plasma_ev);
         for (const auto& oscillator : model.oscillators) mix(hash, oscillator.strength);

@@ -149,6 +149,8 @@ private:
                 : object["thickness_nm"].get<double>();
         result.thickness_sigma_nm = number_or(object, "thickness_sigma_nm", 0);
         result.coherent = object.value("coherent", true);
+        if (!result.coherent && is_uniaxial(result_.stack.materials[result.material]))
+            report(pointer, "a uniaxial layer must be coherent");
         return result;
     }
 
@@ -208,8 +210,8 @@ private:
     }
 
     Material from_object(const json& object, const std::string& pointer) {
-        constexpr std::array kModels{"n",         "file",          "table",  "cauchy",
-                                     "sellmeier", "lorentz_drude", "mixture"};
+        constexpr std::array kModels{"n",         "file",          "table",   "cauchy",
+                                     "sellmeier", "lorentz_drude", "mixture", "ordinary"};
         const bool has_model = std::any_of(kModels.begin(), kModels.end(), [&](const char* model) {
             return object.contains(model);
         });
@@ -240,16 +242,32 @@ private:
         if (object.contains("sellmeier")) {
             return {pointer, RefractiveIndex{read_sellmeier(object["sellmeier"])}};
         }
+        if (object.contains("ordinary")) return {pointer, uniaxial(object, pointer)};
         if (object.contains("mixture"))
             return {pointer, mixture(object["mixture"], pointer + "/mixture")};
         return {pointer, read_lorentz_drude(object["lorentz_drude"])};
     }
 
+    Uniaxial uniaxial(const json& object, const std::string& pointer) {
+        Uniaxial medium;
+        for (const std::string key : {"ordinary", "extraordinary"})
+            medium.parts.push_back(isotropic(object[key], pointer + "/" + key));
+        return medium;
+    }
+
+    /// A material that is no uniaxial one.
+    Material isotropic(const json& value, const std::string& pointer) {
+        Material result = build(value, pointer);
+        if (!is_uniaxial(result)) return result;
+        report(pointer, "must be isotropic");
+        return {result.name, RefractiveIndex{}};
+    }
+
     Mixture mixture(const json& object, const std::string& pointer) {
         return {mixing_rule(object.value("model", "bruggeman")),
                 object["fraction"].get<double>(),
-                {build(object["inclusion"], pointer + "/inclusion"),
-                 build(object["host"], pointer + "/host")}};
+                {isotropic(object["inclusion"], pointer + "/inclusion"),
+                 isotropic(object["host"], pointer + "/host")}};
     }
 
     Material constant(double n, double k, const std::string& pointer) {
@@ -312,6 +330,7 @@ private:
     void require_real(std::size_t incident) {
         if (is_broken("/incident") || result_.stack.materials.empty()) return;
         const Material& medium = result_.stack.materials[incident];
+        if (is_uniaxial(medium)) return report("/incident", "must be isotropic");
         if (!is_constant(medium)) return;
         const double k = index_at(medium, kAllWavelengths.first_nm).imag();
         if (std::abs(k) >= kTransparentBelow_k)
@@ -370,6 +389,8 @@ namespace {
 void reverse(StackDocument& document) {
     document.stack = reversed(std::move(document.stack));
     const Material& incident = document.stack.materials[document.stack.incident];
+    if (is_uniaxial(incident))
+        throw InputError(document.file, "/substrate", "must be isotropic for --reverse");
     if (!is_constant(incident)) return;  // said at the wavelengths that are asked for
     const double k = index_at(incident, kAllWavelengths.first_nm).imag();
     if (std::abs(k) >= kTransparentBelow_k)

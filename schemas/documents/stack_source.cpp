@@ -88,7 +88,10 @@ namespace {
 /// Calls visit(material) for a material and the parts of mixtures.
 void visit_material(json& material, const std::function<void(json&)>& visit) {
     visit(material);
-    if (!material.is_object() || !material.contains("mixture")) return;
+    if (!material.is_object()) return;
+    for (const char* key : {"ordinary", "extraordinary"})
+        if (material.contains(key)) visit_material(material[key], visit);
+    if (!material.contains("mixture")) return;
     json& mixture = material["mixture"];
     if (!mixture.is_object()) return;
     for (const char* key : {"inclusion", "host"})

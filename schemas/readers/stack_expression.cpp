@@ -259,7 +259,10 @@ private:
                 lose(material.name + ": extrapolate");
             return quoted_where_needed(material.name);
         }
-        if (!is_constant(material)) lose(material.name + ": written as its index at 550 nm");
+        if (is_uniaxial(material))
+            lose(material.name + ": uniaxial, written as its ordinary index at 550 nm");
+        else if (!is_constant(material))
+            lose(material.name + ": written as its index at 550 nm");
         Material clamped = material;
         clamped.outside = Outside::clamp;
         const auto index = index_at(clamped, 550);
