@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 17> kColorNames{"L",
                                                        "delta_e_cmc_2_1",
                                                        "delta_e_cmc_1_1"};
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoColorValue = std::numeric_limits<double>::quiet_NaN();
 
 bool is_difference(ColorColumn column) {
     return column >= ColorColumn::delta_e_76;
@@ -120,7 +120,7 @@ double color_column_value(ColorColumn column, const Triple& xyz, const ColorView
         case C_ab:
             return polar_lab().chroma;
         case h_ab_deg:
-            return polar_lab().hue_deg.value_or(kNone);
+            return polar_lab().hue_deg.value_or(kNoColorValue);
         case u:
             return of_luv()[1];
         case v:
@@ -128,17 +128,17 @@ double color_column_value(ColorColumn column, const Triple& xyz, const ColorView
         case C_uv:
             return polar_luv().chroma;
         case h_uv_deg:
-            return polar_luv().hue_deg.value_or(kNone);
+            return polar_luv().hue_deg.value_or(kNoColorValue);
         case dominant_nm:
             return dominant_wavelength(xyz, view.white, view.observer)
-                .wavelength_nm.value_or(kNone);
+                .wavelength_nm.value_or(kNoColorValue);
         case excitation_purity:
             return dominant_wavelength(xyz, view.white, view.observer).purity;
         case whiteness_cie:
-            if (!view.has_whiteness) return kNone;
+            if (!view.has_whiteness) return kNoColorValue;
             return cie_whiteness(xyz, view.white, view.observer_degrees).whiteness;
         case tint_cie:
-            if (!view.has_whiteness) return kNone;
+            if (!view.has_whiteness) return kNoColorValue;
             return cie_whiteness(xyz, view.white, view.observer_degrees).tint;
         case ColorColumn::delta_e_76:
             return irido::delta_e_76(view.target.value(), of_lab());
@@ -149,7 +149,7 @@ double color_column_value(ColorColumn column, const Triple& xyz, const ColorView
         case delta_e_cmc_1_1:
             return delta_e_cmc(view.target.value(), of_lab(), 1, 1);
     }
-    return kNone;
+    return kNoColorValue;
 }
 
 }  // namespace irido::cli

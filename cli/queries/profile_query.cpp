@@ -100,7 +100,7 @@ private:
         };
         const FieldProfile* const other = second ? &*second : nullptr;
         if (query_.summary_) {
-            for (std::size_t number = 1; number <= first.faces_nm().size(); ++number) {
+            for (std::size_t number = 1; number <= first.layers() + 1; ++number) {
                 lead();
                 const LayerProfile layer = first.layer(number, other);
                 add_numbers(

@@ -78,6 +78,19 @@ Series<Complex> series_of(const LorentzDrude& model, double wavelength_nm) {
 
 Series<Complex> series_of(const Material& material, double wavelength_nm);
 
+/// Indices along the faces and across them.
+std::array<Series<Complex>, 2> series_of_both(const GradedPart& part, double wavelength_nm) {
+    const std::vector<Material>& ends = *part.ends;
+    const auto eps = GradedHalfStep(part.half, part.steps)
+                         .permittivity(part.profile, series_of(ends[0], wavelength_nm),
+                                       series_of(ends[1], wavelength_nm));
+    return {root_near(eps[0]), root_near(eps[1])};
+}
+
+Series<Complex> series_of(const GradedPart& part, double wavelength_nm) {
+    return series_of_both(part, wavelength_nm)[0];
+}
+
 Series<Complex> series_of(const Uniaxial& medium, double wavelength_nm) {
     return series_of(medium.parts[0], wavelength_nm);
 }
@@ -108,10 +121,12 @@ Series<Complex> index_series(const Material& material, double wavelength_nm) {
 }
 
 Series<Complex> extraordinary_series(const Material& material, double wavelength_nm) {
-    const auto* medium = std::get_if<Uniaxial>(&material.model);
-    if (medium == nullptr) return index_series(material, wavelength_nm);
+    if (!is_uniaxial(material)) return index_series(material, wavelength_nm);
     const Complex index = extraordinary_index_at(material, wavelength_nm);
-    Series<Complex> series = series_of(medium->parts[1], wavelength_nm);
+    const auto* medium = std::get_if<Uniaxial>(&material.model);
+    Series<Complex> series =
+        medium ? series_of(medium->parts[1], wavelength_nm)
+               : series_of_both(std::get<GradedPart>(material.model), wavelength_nm)[1];
     series[0] = index;
     return series;
 }

@@ -116,6 +116,19 @@ Complex value_at(const Mixture& mixture, const Query& query) {
     return std::sqrt(mixed_permittivity(mixture.rule, part(0), part(1), mixture.fraction));
 }
 
+/// Indices along the faces and across them.
+std::array<Complex, 2> indices_of(const GradedPart& part, const Query& query) {
+    const std::vector<Material>& ends = *part.ends;
+    const auto eps =
+        GradedHalfStep(part.half, part.steps)
+            .permittivity(part.profile, part_at(ends[0], query), part_at(ends[1], query));
+    return {std::sqrt(eps[0]), std::sqrt(eps[1])};
+}
+
+Complex value_at(const GradedPart& part, const Query& query) {
+    return indices_of(part, query)[0];
+}
+
 Complex value_at(const Uniaxial& medium, const Query& query) {
     return part_at(medium.parts[0], query);
 }
@@ -144,6 +157,10 @@ WavelengthRange range_of_parts(std::span<const Material> parts) {
 
 WavelengthRange known_range(const Mixture& mixture) {
     return range_of_parts(mixture.parts);
+}
+
+WavelengthRange known_range(const GradedPart& part) {
+    return range_of_parts(*part.ends);
 }
 
 WavelengthRange known_range(const Uniaxial& medium) {
@@ -192,8 +209,14 @@ bool Uniaxial::operator==(const Uniaxial& other) const {
     return parts == other.parts;
 }
 
+bool GradedPart::operator==(const GradedPart& other) const {
+    return profile == other.profile && half == other.half && steps == other.steps &&
+           (ends == other.ends || *ends == *other.ends);
+}
+
 bool is_uniaxial(const Material& material) {
-    return std::holds_alternative<Uniaxial>(material.model);
+    return std::holds_alternative<Uniaxial>(material.model) ||
+           std::holds_alternative<GradedPart>(material.model);
 }
 
 const Material* first_uniaxial(std::span<const Material> materials) {
@@ -203,10 +226,11 @@ const Material* first_uniaxial(std::span<const Material> materials) {
 
 Complex extraordinary_index_at(const Material& material, double wavelength_nm) {
     const Complex ordinary = index_at(material, wavelength_nm);
+    if (!is_uniaxial(material)) return ordinary;
+    const Query query{material, wavelength_nm, material.outside == Outside::clamp};
     const auto* medium = std::get_if<Uniaxial>(&material.model);
-    if (medium == nullptr) return ordinary;
-    const bool holds = material.outside == Outside::clamp;
-    const Complex index = part_at(medium->parts[1], {material, wavelength_nm, holds});
+    const Complex index = medium ? part_at(medium->parts[1], query)
+                                 : indices_of(std::get<GradedPart>(material.model), query)[1];
     if (ordinary.imag() * index.imag() < 0)
         throw DomainError(name_of(material) +
                           ": must not absorb along one axis and amplify along another (k " +
@@ -218,6 +242,7 @@ Complex extraordinary_index_at(const Material& material, double wavelength_nm) {
 std::span<const Material> parts_of(const Material& material) {
     if (const auto* mixture = std::get_if<Mixture>(&material.model)) return mixture->parts;
     if (const auto* medium = std::get_if<Uniaxial>(&material.model)) return medium->parts;
+    if (const auto* part = std::get_if<GradedPart>(&material.model)) return *part->ends;
     return {};
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "core/complex.hpp"
+#include "core/material/graded.hpp"
 #include "core/material/mixing_rule.hpp"
 
 namespace irido {
@@ -99,10 +101,20 @@ struct Uniaxial {
     bool operator==(const Uniaxial& other) const;
 };
 
+/// A part of a graded layer, as uniaxial media see it.
+///   half, steps  of GradedHalfStep
+///   ends         the materials at the layer's top and bottom, which its parts share
+struct GradedPart {
+    GradedProfile profile = GradedProfile::n;
+    std::size_t half = 0, steps = 1;
+    std::shared_ptr<const std::vector<Material>> ends;
+    bool operator==(const GradedPart& other) const;
+};
+
 /// Complex index of a medium, n + i k with k > 0 absorbing (fields go as exp(-i w t)).
 struct Material {
     std::string name;
-    std::variant<RefractiveIndex, LorentzDrude, Mixture, Uniaxial> model;
+    std::variant<RefractiveIndex, LorentzDrude, Mixture, Uniaxial, GradedPart> model;
     Outside outside = Outside::refuse;
     bool operator==(const Material&) const = default;
 };
@@ -131,7 +143,8 @@ const Material* first_uniaxial(std::span<const Material> materials);
 /// DomainError as that does, and if one of the two absorbs while the other amplifies.
 Complex extraordinary_index_at(const Material& material, double wavelength_nm);
 
-/// What a medium is made of: the parts of a mixture or of a uniaxial medium; none for others.
+/// What a medium is made of: the parts of a mixture or a uniaxial medium, the ends of a graded
+/// layer; none for others.
 std::span<const Material> parts_of(const Material& material);
 
 /// True if the index is the same at every wavelength.

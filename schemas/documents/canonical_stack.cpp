@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/material/library.hpp"
-#include "schemas/documents/mixing_rules.hpp"
+#include "schemas/documents/material_words.hpp"
 
 namespace irido::schemas {
 
@@ -107,6 +107,16 @@ json mixture_json(const Mixture& mixture) {
               {"model", name_of(mixture.rule)}}}};
 }
 
+/// Not a form of documents: only for what tells one stack from another.
+json graded_part_json(const GradedPart& part) {
+    return {{"graded_part",
+             {{"from", material_json((*part.ends)[0])},
+              {"to", material_json((*part.ends)[1])},
+              {"profile", name_of(part.profile)},
+              {"half_step", part.half},
+              {"steps", part.steps}}}};
+}
+
 json uniaxial_json(const Uniaxial& medium) {
     return {{"ordinary", material_json(medium.parts[0])},
             {"extraordinary", material_json(medium.parts[1])}};
@@ -117,6 +127,7 @@ struct ModelJson {
     json operator()(const LorentzDrude& model) const { return lorentz_drude_json(model); }
     json operator()(const Mixture& mixture) const { return mixture_json(mixture); }
     json operator()(const Uniaxial& medium) const { return uniaxial_json(medium); }
+    json operator()(const GradedPart& part) const { return graded_part_json(part); }
 };
 
 json material_json(const Material& material) {
@@ -127,6 +138,8 @@ json material_json(const Material& material) {
             return {{"name", material.name}, {"extrapolate", "clamp"}};
     }
     json result = std::visit(ModelJson{}, material.model);
+    const bool is_named = !material.name.empty() && material.name[0] != '/';
+    if (is_named && std::holds_alternative<Mixture>(material.model)) result["name"] = material.name;
     if (material.outside == Outside::clamp && !is_constant(material))
         result["extrapolate"] = "clamp";
     return result;

@@ -34,6 +34,11 @@ struct HashOf {
         mix(hash, mixture.fraction);
         for (const Material& part : mixture.parts) std::visit(*this, part.model);
     }
+    void operator()(const GradedPart& part) {
+        mix(hash, static_cast<double>(part.half));
+        mix(hash, static_cast<double>(part.steps));
+        for (const Material& end : *part.ends) std::visit(*this, end.model);
+    }
     void operator()(const Uniaxial& medium) {
         mix(hash, 2);
         for (const Material& part : medium.parts) std::visit(*this, part.model);

@@ -261,8 +261,9 @@ bool is_part_of(std::string_view path, std::string_view whole) {
 }
 
 json value_from_text(std::string_view path, std::string_view text) {
-    constexpr std::array<std::string_view, 7> kMaterials{
-        "material", "incident", "substrate", "inclusion", "host", "ordinary", "extraordinary"};
+    constexpr std::array<std::string_view, 9> kMaterials{"material",      "incident", "substrate",
+                                                         "inclusion",     "host",     "ordinary",
+                                                         "extraordinary", "from",     "to"};
     const std::string_view key = path.substr(path.rfind('.') + 1);
     if (std::find(kMaterials.begin(), kMaterials.end(), key) != kMaterials.end()) {
         json index = parse_index(text);

@@ -15,6 +15,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/coherent/graded_layer.hpp"
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "core/stack/index_table.hpp"
@@ -22,7 +23,8 @@
 #include "schemas/documents/equal_materials.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/material_models.hpp"
-#include "schemas/documents/mixing_rules.hpp"
+#include "schemas/documents/material_words.hpp"
+#include "schemas/documents/rough_faces.hpp"
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/index_rows.hpp"
@@ -77,6 +79,7 @@ public:
         if (document_.contains("substrate")) {
             stack.substrate = material(document_["substrate"], "/substrate");
         }
+        if (broken_.empty() && problems.empty() && has_rough_faces(document_)) roughen();
         if (layers_ > kMostLayers) {
             report("/layers", "must hold at most 1e6 layers (got " + std::to_string(layers_) + ")");
         }
@@ -120,6 +123,8 @@ private:
             const auto layers = array[i].find("layers");
             if (layers != array[i].end()) {
                 result.push_back({group(array[i], *layers, place)});
+            } else if (array[i].contains("graded")) {
+                result.push_back({graded_layer_of(array[i], place)});
             } else {
                 result.push_back({layer(array[i], place)});
             }
@@ -152,6 +157,72 @@ private:
         if (!result.coherent && is_uniaxial(result_.stack.materials[result.material]))
             report(pointer, "a uniaxial layer must be coherent");
         return result;
+    }
+
+    /// A graded layer is a group of its parts that occurs once.
+    Group graded_layer_of(const json& object, const std::string& pointer) {
+        ++layers_;
+        Group result;
+        if (is_broken(pointer)) return result;
+        if (!object.value("coherent", true)) report(pointer, "a graded layer must be coherent");
+        const json& graded = object["graded"];
+        const std::string place = pointer + "/graded";
+        const double thickness_nm = object["thickness_nm"].get<double>();
+        try {
+            const GradedLayer parts = graded_layer(isotropic(graded["from"], place + "/from"),
+                                                   isotropic(graded["to"], place + "/to"),
+                                                   graded_profile(graded.value("profile", "n")),
+                                                   thickness_nm, incident_index(), place);
+            constexpr double kPoor = 1e-5;
+            if (!(parts.error <= kPoor))
+                report(place, "changes too much over " + to_text(thickness_nm) +
+                                  " nm for parts of an error below " + to_text(kPoor));
+            else if (parts.error > kGradedError)
+                result_.notes.push_back(file_ + ": " + place + ": the error of r and t is up to " +
+                                        to_text(parts.error) + " at 380 nm");
+            Layer part;
+            part.thickness_nm = thickness_nm / static_cast<double>(parts.parts.size());
+            for (const Material& material : parts.parts) {
+                part.material = add(material, place);
+                ++part.part;
+                result.elements.push_back({part});
+            }
+        } catch (const DomainError& error) {
+            report(place, error.what());
+        }
+        return result;
+    }
+
+    /// Of the incident medium about where graded layers are measured.
+    double incident_index() const {
+        Material incident = result_.stack.materials[result_.stack.incident];
+        incident.outside = Outside::clamp;
+        return std::max(1e-3, index_at(incident, kGradedWavelength_nm).real());
+    }
+
+    /// The layers with those of rough faces.
+    void roughen() {
+        Stack& stack = result_.stack;
+        const FaceReader faces{
+            [&](const json& layer, const std::string& pointer, bool top) {
+                const char* const end = top ? "from" : "to";
+                return material(layer["graded"][end], pointer + "/graded/" + end);
+            },
+            [&](std::size_t above, std::size_t below, bool centred, const std::string& pointer) {
+                const Material &upper = stack.materials[above], &lower = stack.materials[below];
+                if (is_uniaxial(upper) || is_uniaxial(lower)) {
+                    report(pointer, "a face of a uniaxial medium cannot be rough");
+                    return above;
+                }
+                return add({centred ? "roughness, centred" : "roughness, added",
+                            Mixture{MixingRule::bruggeman, 0.5, {upper, lower}}, Outside::refuse},
+                           pointer);
+            },
+            [&](const std::string& pointer, const std::string& message) {
+                report(pointer, message);
+            }};
+        stack.elements =
+            with_rough_faces(document_, stack.elements, stack.incident, stack.substrate, faces);
     }
 
     /// Thickness of that many quarter waves of a material, at normal incidence.

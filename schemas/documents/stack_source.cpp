@@ -104,6 +104,9 @@ void for_each_material(json& layers, const std::function<void(json&)>& visit) {
     for (json& element : layers) {
         if (!element.is_object()) continue;
         if (element.contains("material")) visit_material(element["material"], visit);
+        if (element.contains("graded") && element["graded"].is_object())
+            for (const char* key : {"from", "to"})
+                if (element["graded"].contains(key)) visit_material(element["graded"][key], visit);
         if (element.contains("layers")) for_each_material(element["layers"], visit);
     }
 }

@@ -1,4 +1,4 @@
-#include "schemas/documents/mixing_rules.hpp"
+#include "schemas/documents/material_words.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,9 @@ namespace {
 constexpr std::array<std::string_view, 5> kMixingRules{"bruggeman", "maxwell-garnett",
                                                        "lorentz-lorenz", "linear", "series"};
 
+/// In the order of GradedProfile.
+constexpr std::array<std::string_view, 4> kGradedProfiles{"n", "eps", "exp", "inverse-n"};
+
 }  // namespace
 
 MixingRule mixing_rule(std::string_view name) {
@@ -19,6 +22,15 @@ MixingRule mixing_rule(std::string_view name) {
 
 std::string_view name_of(MixingRule rule) {
     return kMixingRules[static_cast<std::size_t>(rule)];
+}
+
+GradedProfile graded_profile(std::string_view name) {
+    return static_cast<GradedProfile>(std::ranges::find(kGradedProfiles, name) -
+                                      kGradedProfiles.begin());
+}
+
+std::string_view name_of(GradedProfile profile) {
+    return kGradedProfiles[static_cast<std::size_t>(profile)];
 }
 
 }  // namespace irido::schemas
