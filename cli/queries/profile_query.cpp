@@ -132,7 +132,7 @@ private:
 ProfileQuery::ProfileQuery(const ProfileOptions& typed, const QueryRun& run)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
-      wavelengths_(typed.wavelengths, typed.unit),
+      wavelengths_(typed.wavelengths, typed.unit, "550"),
       summary_(typed.summary),
       note_(run.note) {
     if (!typed.points.empty() && !typed.z.empty())

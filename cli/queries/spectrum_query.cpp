@@ -312,8 +312,9 @@ std::vector<double> both_ends(const std::vector<double>& wavelengths_nm) {
 
 SpectrumQuery::SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run)
     : varies_wavelength_(run.varies_wavelength),
-      typed_(varies_wavelength_ ? TypedWavelengths()
-                                : TypedWavelengths(typed.wavelengths, typed.unit)),
+      typed_(varies_wavelength_
+                 ? TypedWavelengths()
+                 : TypedWavelengths(typed.wavelengths, typed.unit, kUsualWavelengths_nm)),
       wavelengths_nm_(typed_.nm()),
       angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
@@ -502,7 +503,7 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
     auto options = std::make_unique<SpectrumOptions>();
     command
         .add_option("-w,--wavelengths", options->wavelengths,
-                    "vacuum wavelengths, nm or as --unit says, [1, 1e7] nm [380:780:1]")
+                    "vacuum wavelengths, nm or as --unit says, [1, 1e7] nm [380:780:1 nm]")
         ->type_name("LIST");
     add_unit_option(command, options->unit);
     add_angles_option(command, options->angles);

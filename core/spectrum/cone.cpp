@@ -90,7 +90,9 @@ IncidentAngle ConeNode::incidence() const {
 double ConeSize::half_angle(double incident_index) const {
     if (f_number == 0) return half_angle_deg;
     const double sine = 1 / (2 * f_number * incident_index);
-    require_in_range("the sine of the half-angle at this f-number, 1/(2 N n),", sine, 0, 1);
+    if (!(sine >= 0 && sine <= 1))
+        throw DomainError("an f-number must be at least 1/(2 n), here " +
+                          to_text(1 / (2 * incident_index)) + " (got " + to_text(f_number) + ")");
     return std::asin(sine) / kDegree;
 }
 
