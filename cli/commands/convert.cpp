@@ -65,10 +65,11 @@ void reverse_layers(nlohmann::json& layers, const std::string& file) {
     if (!layers.is_array()) return;
     std::reverse(layers.begin(), layers.end());
     for (nlohmann::json& element : layers) {
-        for (const char* key : {"graded", "roughness_nm"})
-            if (element.contains(key))
-                throw schemas::InputError(
-                    file, "", std::string(key) + " cannot be written with --reverse as JSON");
+        if (element.contains("roughness_nm"))
+            throw schemas::InputError(file, "",
+                                      "roughness_nm cannot be written with --reverse as JSON");
+        if (element.contains("graded"))
+            std::swap(element["graded"]["from"], element["graded"]["to"]);
         if (element.contains("layers")) reverse_layers(element["layers"], file);
     }
 }
