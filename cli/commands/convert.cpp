@@ -5,6 +5,7 @@
 
 #include "cli/options/command.hpp"
 #include "core/error.hpp"
+#include "schemas/input_error.hpp"
 #include "schemas/readers/stack_expression.hpp"
 #include "tables/files/atomic_file.hpp"
 

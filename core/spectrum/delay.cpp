@@ -157,8 +157,8 @@ Delay delay_of(const ComplexSeries& a, double w0) {
     if (a[0] == 0.0 || !std::isfinite(phase)) return {};
     const ComplexSeries l = a / ComplexSeries(a[0]);
     const Complex l1 = l[1], l2 = l[2] - l1 * l1 / 2.0, l3 = l[3] - l1 * l[2] + l1 * l1 * l1 / 3.0;
-    return {phase <= -180 ? 180 : phase, finite(l1.imag() / w0), finite(2 * l2.imag() / (w0 * w0)),
-            finite(6 * l3.imag() / (w0 * w0 * w0))};
+    return {phase <= -180 ? 180 : phase + 0.0, finite(l1.imag() / w0),
+            finite(2 * l2.imag() / (w0 * w0)), finite(6 * l3.imag() / (w0 * w0 * w0))};
 }
 
 }  // namespace
@@ -192,7 +192,8 @@ Delays delays(const Stack& stack, std::span<const Series<Complex>> index, double
     if (std::abs(difference[0]) <= kRounding * (std::abs(down[0]) + std::abs(up[0])))
         difference[0] = 0;
     const double w0 = kTwoPi * kLight_nm_per_fs / wavelength_nm;
-    return {delay_of(difference / sum, w0), delay_of((is_s ? kz : n0 * n0) * leaving / sum, w0)};
+    // t is this times a positive number, which at 90 degrees is 0
+    return {delay_of(difference / sum, w0), delay_of(leaving / sum, w0)};
 }
 
 }  // namespace irido

@@ -210,6 +210,15 @@ TEST_CASE("wavelengths in other units", "[cli][spectrum]") {
                   "an f-number must be at least 1/(2 n), here 0.5 (got 0.4)");
 }
 
+TEST_CASE("delays at 90 degrees are the limits of those before", "[cli][spectrum]") {
+    const auto rows = rows_of({"spectrum", "1 | 1.5@200 | 3", "-w", "550", "-a", "89.9999,90", "-p",
+                               "s,p", "--columns", "phase_r_deg,gd_r_fs,phase_t_deg,gd_t_fs"});
+    REQUIRE(rows.size() == 4);
+    for (const std::string column : {"phase_r_deg", "gd_r_fs", "phase_t_deg", "gd_t_fs"})
+        for (std::size_t p = 0; p < 2; ++p)
+            CHECK_THAT(number(rows[2 + p], column), WithinAbs(number(rows[p], column), 1e-3));
+}
+
 // Reference values: 40-digit evaluations.
 TEST_CASE("a rough face of silicon", "[cli][spectrum]") {
     const std::vector<std::string> request{
