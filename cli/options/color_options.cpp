@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "core/color/held_stack.hpp"
 #include "core/colorimetry/illuminant.hpp"

@@ -383,11 +383,14 @@ void SpectrumQuery::note_stack(const schemas::StackDocument& document,
     note_incident(document, table, note_);
     const StackPower power = stack_power(document, document.stack);
     if (!spectrum_needs(polarizations_, columns_, power).derivatives) return;
-    std::string names;
-    for (const Material& material : document.stack.materials)
-        if (has_rows(material))
-            names +=
-                (names.empty() ? "" : ", ") + (material.name.empty() ? "a table" : material.name);
+    std::string names, last;
+    for (const Material& material : document.stack.materials) {
+        if (!has_rows(material)) continue;
+        const std::string name = material.name.empty() ? "a table" : material.name;
+        if (name == last) continue;  // parts of a graded layer
+        names += (names.empty() ? "" : ", ") + name;
+        last = name;
+    }
     if (!names.empty())
         note_(document.file + ": gd, gdd and tod take tabulated indices (" + names +
               ") as straight lines between their rows, and so jump at the rows");
