@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/stack/reversed.hpp"
 #include "schemas/documents/json_document.hpp"
+#include "schemas/documents/rough_faces.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido::schemas {
@@ -69,9 +70,12 @@ VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
     nlohmann::json document = source_.document;
     for (const std::string& path : paths_) set_value(document, path, nullptr);
     Stack written = as_written(own_.stack);
-    varies_thickness_only_ = std::ranges::all_of(paths_, [&](const std::string& path) {
-        return layer_at(written, path) != nullptr && has_value(source_.document, path);
-    });
+    // layers of rough faces stand between those of the document
+    varies_thickness_only_ =
+        !has_rough_faces(source_.document) &&
+        std::ranges::all_of(paths_, [&](const std::string& path) {
+            return layer_at(written, path) != nullptr && has_value(source_.document, path);
+        });
 }
 
 StackDocument VariedStack::document(std::span<const nlohmann::json> values) const {
