@@ -74,7 +74,7 @@ VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
     varies_thickness_only_ =
         !has_rough_faces(source_.document) &&
         std::ranges::all_of(paths_, [&](const std::string& path) {
-            return layer_at(written, path) != nullptr && has_value(source_.document, path);
+            return layer_at(written, path) != nullptr && !has_other_effects(source_.document, path);
         });
 }
 
@@ -128,6 +128,12 @@ LayerPlace VariedStack::place_of(std::string_view path) {
 
 bool VariedStack::is_thickness(std::string_view path) {
     return !place_of(path).empty();
+}
+
+bool VariedStack::has_other_effects(const nlohmann::json& document, std::string_view path) {
+    if (has_rough_faces(document)) return true;
+    const std::string layer(path.substr(0, path.rfind('.') + 1));
+    return has_value(document, layer + "graded") || has_value(document, layer + "qwot");
 }
 
 Layer* VariedStack::layer_at(Stack& stack, std::string_view path) {
