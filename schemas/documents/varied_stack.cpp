@@ -70,12 +70,9 @@ VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
     nlohmann::json document = source_.document;
     for (const std::string& path : paths_) set_value(document, path, nullptr);
     Stack written = as_written(own_.stack);
-    // layers of rough faces stand between those of the document
-    varies_thickness_only_ =
-        !has_rough_faces(source_.document) &&
-        std::ranges::all_of(paths_, [&](const std::string& path) {
-            return layer_at(written, path) != nullptr && !has_other_effects(source_.document, path);
-        });
+    varies_thickness_only_ = std::ranges::all_of(paths_, [&](const std::string& path) {
+        return layer_at(written, path) != nullptr && !has_other_effects(source_.document, path);
+    });
 }
 
 StackDocument VariedStack::document(std::span<const nlohmann::json> values) const {
