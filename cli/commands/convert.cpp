@@ -5,6 +5,7 @@
 
 #include "cli/options/command.hpp"
 #include "core/error.hpp"
+#include "schemas/input_error.hpp"
 #include "schemas/readers/stack_expression.hpp"
 #include "tables/files/atomic_file.hpp"
 
@@ -65,10 +66,11 @@ void reverse_layers(nlohmann::json& layers, const std::string& file) {
     if (!layers.is_array()) return;
     std::reverse(layers.begin(), layers.end());
     for (nlohmann::json& element : layers) {
-        for (const char* key : {"graded", "roughness_nm"})
-            if (element.contains(key))
-                throw schemas::InputError(
-                    file, "", std::string(key) + " cannot be written with --reverse as JSON");
+        if (element.contains("roughness_nm"))
+            throw schemas::InputError(file, "",
+                                      "roughness_nm cannot be written with --reverse as JSON");
+        if (element.contains("graded"))
+            std::swap(element["graded"]["from"], element["graded"]["to"]);
         if (element.contains("layers")) reverse_layers(element["layers"], file);
     }
 }

@@ -28,9 +28,15 @@ struct DrawnLayer {
 std::vector<DrawnLayer> drawn_layers(const Stack& stack) {
     std::vector<DrawnLayer> drawn;
     double end = 0;
+    const std::vector<std::size_t> listed = listed_layers(stack.elements);
+    std::size_t i = 0;
     for (const Layer& layer : written_out(stack.elements)) {
         const double begin = std::exchange(end, end + layer.thickness_nm);
-        drawn.push_back({begin, end, layer.material});
+        if (i > 0 && listed[i] == listed[i - 1])
+            drawn.back().end = end;
+        else
+            drawn.push_back({begin, end, layer.material});
+        ++i;
     }
     return drawn;
 }
@@ -38,7 +44,7 @@ std::vector<DrawnLayer> drawn_layers(const Stack& stack) {
 /// Adds the layers to every panel over the depth, as areas behind the curves.
 void draw_layers(const schemas::StackDocument& document, tables::Figure& figure) {
     constexpr std::size_t kMostDrawn = 1000, kFirstStyle = 2;
-    if (count_layers(document.stack.elements) > kMostDrawn) return;
+    if (count_listed_layers(document.stack.elements) > kMostDrawn) return;
     const std::vector<DrawnLayer> layers = drawn_layers(document.stack);
     std::map<std::size_t, std::size_t> styles;
     for (tables::Panel& panel : figure.panels) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "core/color/held_stack.hpp"
 #include "core/colorimetry/illuminant.hpp"
@@ -183,6 +184,7 @@ std::string percent(double fraction) {
 
 void report_held_ranges(const schemas::StackDocument& document, const Sensitivity& sensitivity,
                         bool strict, const std::function<void(const std::string&)>& say) {
+    std::set<std::string> said;  // parts of a graded layer have the same range
     for (const HeldRange& held : held_ranges(document.stack, sensitivity)) {
         const std::string& pointer = document.material_pointers[held.material];
         if (!held.usable)
@@ -194,7 +196,8 @@ void report_held_ranges(const schemas::StackDocument& document, const Sensitivit
                                  percent(held.weight[0]) + ", " + percent(held.weight[1]) + ", " +
                                  percent(held.weight[2]) + " of the X, Y, Z weight lies";
         if (strict) throw schemas::InputError(document.file, pointer, text);
-        say(schemas::InputError(document.file, pointer, text).what());
+        const std::string line = schemas::InputError(document.file, pointer, text).what();
+        if (said.insert(line).second) say(line);
     }
 }
 

@@ -39,6 +39,11 @@ void add_stack_options(CLI::App& command, schemas::StackRequest& request) {
                     "--material H=2.35 --material L=SiO2")
         ->type_name("NAME=MATERIAL")
         ->allow_extra_args(false);
+    command
+        .add_option("--reference", request.reference_nm,
+                    "reference wavelength, nm, of layers in quarter waves, as in\n"
+                    "\"air | (H@1Q | L@1Q)^8 | BK7\"")
+        ->type_name("NM");
     command.add_flag("--reverse", request.reverse,
                      "light from the substrate's side, angles in the substrate, which must\n"
                      "be transparent; paths are those of the stack as it is written");

@@ -29,8 +29,12 @@ ConeSize parse_cone(const ConeOptions& options, std::span<const double> angles_d
     if (!options.half_angle.empty())
         size.half_angle_deg = parse_one_number("--cone", options.half_angle, 0, kLargestAngle_deg);
     constexpr double kLeast = 1e-3, kMost = 1e6;
-    if (!options.f_number.empty())
-        size.f_number = parse_one_number("--f-number", options.f_number, kLeast, kMost);
+    if (!options.f_number.empty()) {
+        size.f_number = parse_one_number("--f-number", options.f_number, 0, kMost);
+        if (size.f_number < kLeast)
+            throw UsageError("--f-number: must be at least 1/(2 n), which is 0.5 in air (got " +
+                             to_text(size.f_number) + ")");
+    }
     if (size.f_number != 0) return size;  // its half-angle depends on the incident medium
     const double last = std::ranges::max(angles_deg) + size.half_angle_deg;
     if (!size.is_none() && !(last <= kLargestAngle_deg))

@@ -1,7 +1,9 @@
 #include "cli/options/list.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.hpp"
 #include "schemas/readers/number.hpp"
@@ -44,6 +46,16 @@ private:
         return hint + ", " + to_text(value) + " um is " + to_text(std::round(value * 1e9) / 1e6);
     }
 
+    /// Of a range, to six digits where it has many.
+    static std::string bound(double value) {
+        constexpr std::size_t kMany = 10;
+        std::string exact = to_text(value);
+        if (exact.size() <= kMany) return exact;
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%.6g", value);
+        return text.data();
+    }
+
     double number(std::string_view text) const {
         const auto value = schemas::parse_number(schemas::trimmed(text));
         if (!value) fail("must be a number (got '" + std::string(text) + "')");
@@ -56,7 +68,7 @@ private:
         try {
             require_in_range(option_, value, lowest_, highest_);
         } catch (const DomainError&) {
-            fail("must be in [" + to_text(lowest_) + ", " + to_text(highest_) + "] (got " +
+            fail("must be in [" + bound(lowest_) + ", " + bound(highest_) + "] (got " +
                  to_text(value) + ")" + unit_hint(value));
         }
         values.push_back(value);

@@ -61,10 +61,12 @@ bool is_wavelength_column(std::string_view column) {
     return std::ranges::find(kUnits, column, &WavelengthUnit::column) != kUnits.end();
 }
 
-TypedWavelengths::TypedWavelengths(const std::string& list, const std::string& unit)
+TypedWavelengths::TypedWavelengths(const std::string& list, const std::string& unit,
+                                   const std::string& otherwise_nm)
     : unit_(&parse_unit(unit)) {
-    if (unit_->per_nm == 1) {
-        nm_ = parse_list("--wavelengths", list, kAllWavelengths.first_nm, kAllWavelengths.last_nm);
+    if (unit_->per_nm == 1 || list.empty()) {
+        nm_ = parse_list("--wavelengths", list.empty() ? otherwise_nm : list,
+                         kAllWavelengths.first_nm, kAllWavelengths.last_nm);
         return;
     }
     const double first = unit_->from_nm(kAllWavelengths.first_nm),

@@ -21,6 +21,9 @@ struct WavelengthUnit {
     double from_nm(double nm) const;
 };
 
+/// The LIST of spectra if none is typed.
+inline constexpr const char* kUsualWavelengths_nm = "380:780:1";
+
 /// --unit
 void add_unit_option(CLI::App& command, std::string& unit);
 
@@ -34,8 +37,9 @@ bool is_wavelength_column(std::string_view column);
 class TypedWavelengths {
 public:
     TypedWavelengths() : unit_(&parse_unit("nm")) {}
-    /// A LIST in the unit, [1, 1e7] nm. Throws UsageError.
-    TypedWavelengths(const std::string& list, const std::string& unit);
+    /// A LIST in the unit, [1, 1e7] nm; "" is another one in nm. Throws UsageError.
+    TypedWavelengths(const std::string& list, const std::string& unit,
+                     const std::string& otherwise_nm);
 
     const WavelengthUnit& unit() const { return *unit_; }
     const std::vector<double>& nm() const { return nm_; }

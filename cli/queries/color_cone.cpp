@@ -41,8 +41,12 @@ std::vector<StackColor> cone_colors(std::span<const ColorAlgorithm* const> algor
     const std::size_t sides = request.sides.size();
     const double n0 = index_near(stack.materials[stack.incident]).real();
     std::vector<Complex> constant_indices;
-    for (const Material& material : stack.materials)
-        if (is_constant(material)) constant_indices.push_back(index_near(material));
+    for (const Material& material : stack.materials) {
+        if (!is_constant(material)) continue;
+        constant_indices.push_back(index_near(material));
+        if (is_uniaxial(material))
+            constant_indices.push_back(extraordinary_index_at(material, kIndexWavelength_nm));
+    }
     std::vector<StackColor> result;
     for (const double axis_deg : angles_deg) {
         const ConeLight light({axis_deg, size.half_angle(n0)});

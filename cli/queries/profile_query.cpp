@@ -86,8 +86,8 @@ private:
                   char letter) {
         const IncidentAngle at = incident_angle(angle_deg);
         std::vector<Medium> media;
-        set_media(table, w, at, media);
         const auto profile = [&](Polarization polarization) {
+            set_media(table, w, at, polarization, media);
             return FieldProfile(stack, media, table.k0()[w], at, polarization);
         };
         const FieldProfile first = profile(letter == 'p' ? Polarization::p : Polarization::s);
@@ -100,7 +100,7 @@ private:
         };
         const FieldProfile* const other = second ? &*second : nullptr;
         if (query_.summary_) {
-            for (std::size_t number = 1; number <= first.faces_nm().size(); ++number) {
+            for (std::size_t number = 1; number <= first.layers() + 1; ++number) {
                 lead();
                 const LayerProfile layer = first.layer(number, other);
                 add_numbers(
@@ -132,7 +132,7 @@ private:
 ProfileQuery::ProfileQuery(const ProfileOptions& typed, const QueryRun& run)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
-      wavelengths_(typed.wavelengths, typed.unit),
+      wavelengths_(typed.wavelengths, typed.unit, "550"),
       summary_(typed.summary),
       note_(run.note) {
     if (!typed.points.empty() && !typed.z.empty())

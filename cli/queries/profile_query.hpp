@@ -10,7 +10,7 @@ namespace irido::cli {
 
 /// Options of irido profile, as typed.
 struct ProfileOptions : QueryOptions {
-    std::string wavelengths = "550";
+    std::string wavelengths;  ///< "" for 550 nm
     std::string angles = "0";
     std::string polarization = "u";
     std::string unit = "nm";

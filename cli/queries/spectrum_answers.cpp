@@ -15,15 +15,16 @@ void find_ellipsometry(const StackPower& power, const IndexTable& table,
                        std::span<const IncidentAngle> angles, SpectrumAnswers& out) {
     const std::size_t wavelengths = table.wavelength_nm().size();
     out.ellipsometry.resize(angles.size() * wavelengths);
-    std::vector<Medium> media;
+    std::vector<Medium> media_s, media_p;
     for (std::size_t i = 0; i < out.ellipsometry.size(); ++i) {
         if (power.has_amplitudes()) {
             out.ellipsometry[i] = ellipsometry(out.spectra.s.r[i], out.spectra.p.r[i]);
             continue;
         }
         const std::size_t w = i % wavelengths;
-        set_media(table, w, angles[i / wavelengths], media);
-        out.ellipsometry[i] = ellipsometry(power, media, table.k0()[w]);
+        set_media(table, w, angles[i / wavelengths], Polarization::s, media_s);
+        set_media(table, w, angles[i / wavelengths], Polarization::p, media_p);
+        out.ellipsometry[i] = ellipsometry(power, media_s, media_p, table.k0()[w]);
     }
 }
 
@@ -36,15 +37,19 @@ void find_delays(const Stack& stack, const IndexTable& table, std::span<const In
     parallel_for(blocks, threads, [&](std::size_t block) {
         const std::size_t begin = block * kDelaysTogether;
         for (std::size_t w = begin; w < std::min(begin + kDelaysTogether, nm.size()); ++w) {
-            std::vector<Series<Complex>> index;
-            for (const Material& material : stack.materials)
+            std::vector<Series<Complex>> index, extraordinary;
+            for (const Material& material : stack.materials) {
                 index.push_back(index_series(material, nm[w]));
+                if (table.is_uniaxial())
+                    extraordinary.push_back(extraordinary_series(material, nm[w]));
+            }
             for (std::size_t a = 0; a < angles.size(); ++a) {
                 const std::size_t point = a * nm.size() + w;
                 if (needs.s)
                     out.delays_s[point] = delays(stack, index, nm[w], angles[a], Polarization::s);
                 if (needs.p)
-                    out.delays_p[point] = delays(stack, index, nm[w], angles[a], Polarization::p);
+                    out.delays_p[point] =
+                        delays(stack, index, nm[w], angles[a], Polarization::p, extraordinary);
             }
         }
     });

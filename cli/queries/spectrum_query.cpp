@@ -312,8 +312,9 @@ std::vector<double> both_ends(const std::vector<double>& wavelengths_nm) {
 
 SpectrumQuery::SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run)
     : varies_wavelength_(run.varies_wavelength),
-      typed_(varies_wavelength_ ? TypedWavelengths()
-                                : TypedWavelengths(typed.wavelengths, typed.unit)),
+      typed_(varies_wavelength_
+                 ? TypedWavelengths()
+                 : TypedWavelengths(typed.wavelengths, typed.unit, kUsualWavelengths_nm)),
       wavelengths_nm_(typed_.nm()),
       angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       polarizations_(parse_polarizations(typed.polarization)),
@@ -382,11 +383,14 @@ void SpectrumQuery::note_stack(const schemas::StackDocument& document,
     note_incident(document, table, note_);
     const StackPower power = stack_power(document, document.stack);
     if (!spectrum_needs(polarizations_, columns_, power).derivatives) return;
-    std::string names;
-    for (const Material& material : document.stack.materials)
-        if (has_rows(material))
-            names +=
-                (names.empty() ? "" : ", ") + (material.name.empty() ? "a table" : material.name);
+    std::string names, last;
+    for (const Material& material : document.stack.materials) {
+        if (!has_rows(material)) continue;
+        const std::string name = material.name.empty() ? "a table" : material.name;
+        if (name == last) continue;  // parts of a graded layer
+        names += (names.empty() ? "" : ", ") + name;
+        last = name;
+    }
     if (!names.empty())
         note_(document.file + ": gd, gdd and tod take tabulated indices (" + names +
               ") as straight lines between their rows, and so jump at the rows");
@@ -502,7 +506,7 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
     auto options = std::make_unique<SpectrumOptions>();
     command
         .add_option("-w,--wavelengths", options->wavelengths,
-                    "vacuum wavelengths, nm or as --unit says, [1, 1e7] nm [380:780:1]")
+                    "vacuum wavelengths, nm or as --unit says, [1, 1e7] nm [380:780:1 nm]")
         ->type_name("LIST");
     add_unit_option(command, options->unit);
     add_angles_option(command, options->angles);

@@ -13,7 +13,7 @@ namespace irido::cli {
 
 /// Options of irido spectrum, as typed.
 struct SpectrumOptions : QueryOptions {
-    std::string wavelengths = "380:780:1";
+    std::string wavelengths;  ///< "" for kUsualWavelengths_nm
     std::string angles = "0";
     std::string polarization = "u";
     std::string columns;

@@ -16,7 +16,7 @@ namespace {
     for (std::size_t m = 0; m < document.stack.materials.size(); ++m) {
         try {
             for (const double wavelength : wavelengths_nm)
-                index_at(document.stack.materials[m], wavelength);
+                extraordinary_index_at(document.stack.materials[m], wavelength);
         } catch (const DomainError& error) {
             throw schemas::InputError(document.file, document.material_pointers[m], error.what());
         }

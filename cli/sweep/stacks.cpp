@@ -15,12 +15,15 @@ constexpr std::size_t kMostPlaces = 16;
 /// Values per column that are checked before the sweep begins.
 constexpr std::size_t kMostChecked = 1000;
 
-std::vector<std::size_t> columns_where(const SweepSpace& space, bool thickness) {
+std::vector<std::size_t> columns_where(const SweepSpace& space, const nlohmann::json& document,
+                                       bool thickness) {
     std::vector<std::size_t> columns;
     for (std::size_t c = 0; c < space.columns().size(); ++c) {
         const SweptColumn& column = space.columns()[c];
-        if (!column.is_light() && schemas::VariedStack::is_thickness(column.path) == thickness)
-            columns.push_back(c);
+        if (column.is_light()) continue;
+        const bool is_thickness = schemas::VariedStack::is_thickness(column.path) &&
+                                  !schemas::VariedStack::has_other_effects(document, column.path);
+        if (is_thickness == thickness) columns.push_back(c);
     }
     return columns;
 }
@@ -64,8 +67,8 @@ schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSp
 SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space, const Query& query)
     : space_(space),
       query_(query),
-      structural_(columns_where(space, false)),
-      thicknesses_(columns_where(space, true)),
+      structural_(columns_where(space, source.document, false)),
+      thicknesses_(columns_where(space, source.document, true)),
       is_reversed_(source.reverse),
       varied_(with_thicknesses(source, space, thicknesses_), paths_of(space, structural_)),
       file_(source.file) {

@@ -12,7 +12,7 @@ namespace irido {
 namespace {
 
 bool same_medium(const Medium& a, const Medium& b) {
-    return a.eps == b.eps;
+    return a.eps == b.eps && a.q2 == b.q2;
 }
 
 bool all_same(const Medium& above, std::span<const Element> elements,
@@ -43,8 +43,15 @@ Medium medium(Complex index, double n0, IncidentAngle at) {
     const double n = index.real(), k = index.imag();
     const double along = n0 * at.cos, across = n0 * at.sin;
     const Complex eps{(n - k) * (n + k), 2 * n * k};
-    if (at.cos * at.cos > 0.5) return {eps, {eps.real() - across * across, eps.imag()}};
-    return {eps, {(n - n0) * (n + n0) - k * k + along * along, eps.imag()}};
+    if (at.cos * at.cos > 0.5) return {eps, {eps.real() - across * across, eps.imag()}, eps};
+    return {eps, {(n - n0) * (n + n0) - k * k + along * along, eps.imag()}, eps};
+}
+
+Medium extraordinary_medium(Complex ordinary, Complex extraordinary, double n0, IncidentAngle at) {
+    const Medium o = medium(ordinary, n0, at), e = medium(extraordinary, n0, at);
+    const bool is_real = o.eps.imag() == 0 && e.eps.imag() == 0;
+    const Complex ratio = is_real ? o.eps.real() / e.eps.real() : o.eps / e.eps;
+    return {o.eps, ratio * e.q2, e.eps};
 }
 
 double cos_of_incidence(double angle_deg) {

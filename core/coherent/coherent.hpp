@@ -33,9 +33,15 @@ IncidentAngle incident_angle(double angle_deg);
 
 /// One medium at one wavelength and angle.
 struct Medium {
-    Complex eps;  ///< permittivity (n + ik)^2
-    Complex q2;   ///< (kz / k0)^2 = eps - S^2, formed without its cancellation near grazing
+    Complex eps;      ///< permittivity (n + ik)^2; along the faces where the medium is uniaxial
+    Complex q2;       ///< (kz / k0)^2 = eps - S^2, formed without its cancellation near grazing
+    Complex eps_z{};  ///< permittivity along the normal
 };
+
+/// Whether a medium absorbs or amplifies.
+inline bool is_lossy(const Medium& medium) {
+    return medium.eps.imag() != 0 || medium.q2.imag() != 0;
+}
 
 /// Permittivity and squared normal index of a medium of the given complex index,
 ///     q2 = eps - (n0 sin theta)^2                                   up to 45 degrees,
@@ -43,6 +49,13 @@ struct Medium {
 /// the first keeps the digits of small indices, the second those of grazing angles.
 /// n0 > 0 is the real index of the incident medium, to which the incidence belongs.
 Medium medium(Complex index, double n0, IncidentAngle incidence);
+
+/// The medium that p waves see where the axis of a uniaxial one is along the normal,
+///     kz^2/k0^2 = eps_o (1 - S^2/eps_e) = eps_o/eps_e (eps_e - S^2),   Y = eps_o k0/kz,
+/// which is what p waves have of eps and q2 everywhere else; s waves see medium(ordinary).
+/// Source: P. Yeh, Optical Waves in Layered Media (1988), section 9.4.
+Medium extraordinary_medium(Complex ordinary, Complex extraordinary, double n0,
+                            IncidentAngle incidence);
 
 /// Closed range of the angle of incidence, degrees.
 inline constexpr double kLargestAngle_deg = 90;

@@ -188,9 +188,10 @@ Matrix wave_matrix(const Medium& m, double k0_d, Polarization polarization, Comp
 
 Slab layer_slab(const Medium& m, double k0_d, Polarization polarization) {
     const Phase phase = layer_phase(m.q2, k0_d);
-    Slab slab{phase_matrix(m, phase, k0_d, polarization), {}, m.eps.imag() != 0};
+    Slab slab{phase_matrix(m, phase, k0_d, polarization), {}, is_lossy(m)};
+    const double loss = m.eps.imag() != 0 ? m.eps.imag() : (m.q2 / m.eps).imag();
     if (slab.absorbs)
-        (m.eps.imag() > 0 ? slab.absorbed.loss : slab.absorbed.gain) =
+        (loss > 0 ? slab.absorbed.loss : slab.absorbed.gain) =
             root_of(absorbed_power(m, phase, k0_d, polarization));
     return slab;
 }

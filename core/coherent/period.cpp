@@ -168,7 +168,7 @@ Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
 bool absorbs(std::span<const Element> elements, std::span<const Medium> media) {
     for (const Element& element : elements) {
         if (const Layer* layer = std::get_if<Layer>(&element.value)) {
-            if (media[layer->material].eps.imag() != 0) return true;
+            if (is_lossy(media[layer->material])) return true;
         } else if (absorbs(std::get<Group>(element.value).elements, media)) {
             return true;
         }

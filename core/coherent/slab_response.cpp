@@ -29,7 +29,7 @@ double dying_phase(std::span<const Element> elements, std::span<const Medium> me
     for (const Element& element : elements) {
         if (const Layer* layer = std::get_if<Layer>(&element.value)) {
             const Medium& m = media[layer->material];
-            if (m.eps.imag() == 0) continue;
+            if (!is_lossy(m)) continue;
             const Complex delta = k0 * layer->thickness_nm * std::sqrt(m.q2);
             const double b2 = delta.imag() * delta.imag();
             sum += std::copysign(delta.real(), delta.imag() * delta.real()) * b2 / (1 + b2);

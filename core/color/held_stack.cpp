@@ -67,6 +67,9 @@ std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support, b
 }
 
 bool is_real(const Material& material) {
+    if (is_uniaxial(material)) return false;
+    const std::span<const Material> parts = parts_of(material);
+    if (!parts.empty()) return std::ranges::all_of(parts, is_real);
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     if (!index) return false;
     if (const auto* k = std::get_if<Constant>(&index->k)) return k->value == 0;

@@ -25,23 +25,27 @@ Chain chain_of(const std::vector<Element>& elements, std::size_t substrate) {
     return chain;
 }
 
-std::size_t count_layers(std::span<const Element> elements) {
+namespace {
+
+/// Layers for which counts(layer) is true.
+template <class Counts>
+std::size_t count_if(std::span<const Element> elements, const Counts& counts) {
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
     std::size_t count = 0;
     for (const Element& element : elements) {
-        std::size_t more = 1;
+        std::size_t more = 0;
         if (const Group* group = std::get_if<Group>(&element.value)) {
-            more = count_layers(group->elements);
+            more = count_if(group->elements, counts);
             if (more > most / group->repeat) return most;
             more *= group->repeat;
+        } else if (counts(std::get<Layer>(element.value))) {
+            more = 1;
         }
         if (more > most - count) return most;
         count += more;
     }
     return count;
 }
-
-namespace {
 
 void write_out(std::span<const Element> elements, std::vector<Layer>& to) {
     for (const Element& element : elements) {
@@ -56,10 +60,33 @@ void write_out(std::span<const Element> elements, std::vector<Layer>& to) {
 
 }  // namespace
 
+std::size_t count_layers(std::span<const Element> elements) {
+    return count_if(elements, [](const Layer&) { return true; });
+}
+
+std::size_t count_listed_layers(std::span<const Element> elements) {
+    return count_if(elements, [](const Layer& layer) { return layer.part <= 1; });
+}
+
 std::vector<Layer> written_out(std::span<const Element> elements) {
     std::vector<Layer> layers;
     write_out(elements, layers);
     return layers;
+}
+
+std::vector<std::size_t> listed_layers(std::span<const Element> elements) {
+    std::vector<std::size_t> places;
+    std::size_t next = 0;
+    std::uint32_t before = 0;
+    for (const Layer& layer : written_out(elements)) {
+        // parts follow each other, whichever end the stack is seen from
+        const bool continues = layer.part != 0 && before != 0 &&
+                               (layer.part == before + 1 || before == layer.part + 1);
+        if (!continues) ++next;
+        places.push_back(next - 1);
+        before = layer.part;
+    }
+    return places;
 }
 
 std::optional<Chain> joined(const Chain& chain, std::span<const Medium> media) {

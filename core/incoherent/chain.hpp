@@ -29,8 +29,14 @@ Chain chain_of(const std::vector<Element>& elements, std::size_t substrate);
 /// Layers with groups written out; the largest number there is, if they are more.
 std::size_t count_layers(std::span<const Element> elements);
 
+/// The same, each layer that is written in parts being one.
+std::size_t count_listed_layers(std::span<const Element> elements);
+
 /// These layers in their order.
 std::vector<Layer> written_out(std::span<const Element> elements);
+
+/// Of each of these layers, its place among those that count_listed_layers() counts.
+std::vector<std::size_t> listed_layers(std::span<const Element> elements);
 
 /// The chain whose gaps part coherent blocks at this wavelength and angle: those in which light
 /// does not travel (see travels()), and those of no thickness, are layers of a block. Nothing if

@@ -8,8 +8,7 @@ Complex cross_reflection(const ChainLight& s, const ChainLight& p) {
     Complex below = crossed(p.down(last).r, s.down(last).r);
     for (std::size_t i = last; i-- > 0;) {
         const Response s_down = s.down(i), s_up = s.up(i), p_down = p.down(i), p_up = p.up(i);
-        const double kept = s.gap(i).kept;
-        const Complex arriving = kept * kept * below;
+        const Complex arriving = s.gap(i).kept * p.gap(i).kept * below;
         below = crossed(p_down.r, s_down.r) + crossed(p_down.t * p_up.t, s_down.t * s_up.t) *
                                                   arriving /
                                                   (1.0 - crossed(p_up.r, s_up.r) * arriving);

@@ -12,7 +12,7 @@ bool travels(const Medium& m) {
 
 Wave wave_in_gap(const Medium& m, double k0_d, Polarization polarization) {
     const Wave own = onward_wave(m, polarization);
-    if (m.eps.imag() == 0) return own;
+    if (!is_lossy(m)) return own;
     const Complex y = own.c / own.b;
     const double most = y.real() * std::abs(std::sinh(k0_d * onward_kz(m).imag()));
     if (std::abs(y.imag()) <= most) return own;

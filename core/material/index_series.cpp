@@ -76,6 +76,37 @@ Series<Complex> series_of(const LorentzDrude& model, double wavelength_nm) {
     return root_of(eps, std::sqrt(eps[0]));
 }
 
+Series<Complex> series_of(const Material& material, double wavelength_nm);
+
+/// Indices along the faces and across them.
+std::array<Series<Complex>, 2> series_of_both(const GradedPart& part, double wavelength_nm) {
+    const std::vector<Material>& ends = *part.ends;
+    const auto eps = GradedHalfStep(part.half, part.steps)
+                         .permittivity(part.profile, series_of(ends[0], wavelength_nm),
+                                       series_of(ends[1], wavelength_nm));
+    return {root_near(eps[0]), root_near(eps[1])};
+}
+
+Series<Complex> series_of(const GradedPart& part, double wavelength_nm) {
+    return series_of_both(part, wavelength_nm)[0];
+}
+
+Series<Complex> series_of(const Uniaxial& medium, double wavelength_nm) {
+    return series_of(medium.parts[0], wavelength_nm);
+}
+
+Series<Complex> series_of(const Mixture& mixture, double wavelength_nm) {
+    const auto part = [&](std::size_t i) { return series_of(mixture.parts[i], wavelength_nm); };
+    if (mixture.fraction == 0) return part(1);
+    if (mixture.fraction == 1) return part(0);
+    return root_near(mixed_permittivity(mixture.rule, part(0), part(1), mixture.fraction));
+}
+
+Series<Complex> series_of(const Material& material, double wavelength_nm) {
+    return std::visit([&](const auto& model) { return series_of(model, wavelength_nm); },
+                      material.model);
+}
+
 }  // namespace
 
 Series<double> relative_frequency() {
@@ -84,13 +115,24 @@ Series<double> relative_frequency() {
 
 Series<Complex> index_series(const Material& material, double wavelength_nm) {
     const Complex index = index_at(material, wavelength_nm);
-    Series<Complex> series = std::visit(
-        [&](const auto& model) { return series_of(model, wavelength_nm); }, material.model);
+    Series<Complex> series = series_of(material, wavelength_nm);
+    series[0] = index;
+    return series;
+}
+
+Series<Complex> extraordinary_series(const Material& material, double wavelength_nm) {
+    if (!is_uniaxial(material)) return index_series(material, wavelength_nm);
+    const Complex index = extraordinary_index_at(material, wavelength_nm);
+    const auto* medium = std::get_if<Uniaxial>(&material.model);
+    Series<Complex> series =
+        medium ? series_of(medium->parts[1], wavelength_nm)
+               : series_of_both(std::get<GradedPart>(material.model), wavelength_nm)[1];
     series[0] = index;
     return series;
 }
 
 bool has_rows(const Material& material) {
+    if (std::ranges::any_of(parts_of(material), has_rows)) return true;
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     return index != nullptr &&
            (std::holds_alternative<Table>(index->n) || std::holds_alternative<Table>(index->k));

@@ -14,6 +14,9 @@ Series<double> relative_frequency();
 /// outside a range, nothing varies. Throws DomainError as index_at() does.
 Series<Complex> index_series(const Material& material, double wavelength_nm);
 
+/// The same of extraordinary_index_at().
+Series<Complex> extraordinary_series(const Material& material, double wavelength_nm);
+
 /// Whether the derivatives are those of straight lines between rows.
 bool has_rows(const Material& material);
 

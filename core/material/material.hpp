@@ -1,11 +1,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "core/complex.hpp"
+#include "core/material/graded.hpp"
+#include "core/material/mixing_rule.hpp"
 
 namespace irido {
 
@@ -80,10 +84,37 @@ struct LorentzDrude {
     bool operator==(const LorentzDrude&) const = default;
 };
 
+struct Material;
+
+/// Two media, mixed finely. parts  inclusion, host;  fraction  volume of the inclusion, [0, 1]
+struct Mixture {
+    MixingRule rule = MixingRule::bruggeman;
+    double fraction = 0.5;
+    std::vector<Material> parts;
+    bool operator==(const Mixture& other) const;
+};
+
+/// A crystal, or layers finer than light, with its axis along the normal of the stack. s waves see
+/// the ordinary index alone. parts  ordinary, extraordinary
+struct Uniaxial {
+    std::vector<Material> parts;
+    bool operator==(const Uniaxial& other) const;
+};
+
+/// A part of a graded layer, as uniaxial media see it.
+///   half, steps  of GradedHalfStep
+///   ends         the materials at the layer's top and bottom, which its parts share
+struct GradedPart {
+    GradedProfile profile = GradedProfile::n;
+    std::size_t half = 0, steps = 1;
+    std::shared_ptr<const std::vector<Material>> ends;
+    bool operator==(const GradedPart& other) const;
+};
+
 /// Complex index of a medium, n + i k with k > 0 absorbing (fields go as exp(-i w t)).
 struct Material {
     std::string name;
-    std::variant<RefractiveIndex, LorentzDrude> model;
+    std::variant<RefractiveIndex, LorentzDrude, Mixture, Uniaxial, GradedPart> model;
     Outside outside = Outside::refuse;
     bool operator==(const Material&) const = default;
 };
@@ -91,14 +122,30 @@ struct Material {
 /// All vacuum wavelengths that irido accepts, nm.
 inline constexpr WavelengthRange kAllWavelengths{1, 1e7};
 
-/// Where n and k are known, both; kAllWavelengths for constants. first_nm > last_nm if nowhere.
+/// Where n and k are known, both; kAllWavelengths for constants. first_nm > last_nm if nowhere. A
+/// mixture is known where its parts are, or hold their end values.
 WavelengthRange range_of(const Material& material);
 
 /// n + i k at one vacuum wavelength in kAllWavelengths. If the material says clamp, n holds its end
-/// values outside the range of n, and k those of k. Throws DomainError that names the material, its
-/// range (that of n or of k) and the wavelength, or the value if the result is no index that irido
-/// computes with: n in [0, 1e4], k in [-1e4, 1e4], |n + ik| >= 1e-6.
+/// values outside the range of n, and k those of k; so do the parts of a mixture that says it.
+/// Throws DomainError that names the material, its range (that of n or of k) and the wavelength, or
+/// the value if the result is no index that irido computes with: n in [0, 1e4], k in [-1e4, 1e4],
+/// |n + ik| >= 1e-6.
 Complex index_at(const Material& material, double wavelength_nm);
+
+/// Whether p waves see another index, too. index_at() is then that of s waves.
+bool is_uniaxial(const Material& material);
+
+/// The first uniaxial one; nullptr if there is none.
+const Material* first_uniaxial(std::span<const Material> materials);
+
+/// n + i k along the normal of the stack: the extraordinary index, or index_at(). Throws
+/// DomainError as that does, and if one of the two absorbs while the other amplifies.
+Complex extraordinary_index_at(const Material& material, double wavelength_nm);
+
+/// What a medium is made of: the parts of a mixture or a uniaxial medium, the ends of a graded
+/// layer; none for others.
+std::span<const Material> parts_of(const Material& material);
 
 /// True if the index is the same at every wavelength.
 bool is_constant(const Material& material);
@@ -106,7 +153,7 @@ bool is_constant(const Material& material);
 /// Wavelengths strictly inside (first_nm, last_nm) where n or k has a kink, sorted, unique.
 std::vector<double> kinks(const Material& material, WavelengthRange between);
 
-/// Those of them that are rows of a table.
+/// Those of them that are rows of a table, of a mixture's too; none of uniaxial media.
 std::vector<double> table_rows(const Material& material, WavelengthRange between);
 
 }  // namespace irido

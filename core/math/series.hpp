@@ -84,17 +84,23 @@ inline Series<double> sqrt(const Series<double>& square) {
     return root_of(square, std::sqrt(square[0]));
 }
 
-/// base^exponent, base[0] > 0
-inline Series<double> pow(const Series<double>& base, double exponent) {
-    Series<double> power(std::pow(base[0], exponent));
-    for (std::size_t k = 1; k < Series<double>::kTerms; ++k) {
-        double sum = 0;
+/// base^exponent, which begins with `first`; base[0] is not 0.
+template <class T>
+Series<T> power_series(const Series<T>& base, double exponent, const T& first) {
+    Series<T> power(first);
+    for (std::size_t k = 1; k < Series<T>::kTerms; ++k) {
+        T sum = 0;
         for (std::size_t i = 1; i <= k; ++i)
-            sum += (exponent * static_cast<double>(i) - static_cast<double>(k - i)) * base[i] *
-                   power[k - i];
+            sum += (exponent * static_cast<double>(i) - static_cast<double>(k - i)) *
+                   product(base[i], power[k - i]);
         power[k] = sum / (static_cast<double>(k) * base[0]);
     }
     return power;
+}
+
+/// base^exponent, base[0] > 0
+inline Series<double> pow(const Series<double>& base, double exponent) {
+    return power_series(base, exponent, std::pow(base[0], exponent));
 }
 
 }  // namespace irido

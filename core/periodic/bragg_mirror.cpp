@@ -41,6 +41,8 @@ std::vector<Element> without_single_groups(const std::vector<Element>& elements)
 BraggMirror::BraggMirror(Stack stack, double first_nm, double last_nm) : stack_(std::move(stack)) {
     stack_.elements = without_single_groups(stack_.elements);
     find_pair();
+    if (first_uniaxial(stack_.materials))
+        throw DomainError("a Bragg mirror needs isotropic media (got a uniaxial one)");
     check_indices(first_nm, last_nm);
     for (Material& material : stack_.materials) material.outside = Outside::clamp;
 }

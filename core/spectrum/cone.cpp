@@ -90,7 +90,9 @@ IncidentAngle ConeNode::incidence() const {
 double ConeSize::half_angle(double incident_index) const {
     if (f_number == 0) return half_angle_deg;
     const double sine = 1 / (2 * f_number * incident_index);
-    require_in_range("the sine of the half-angle at this f-number, 1/(2 N n),", sine, 0, 1);
+    if (!(sine >= 0 && sine <= 1))
+        throw DomainError("an f-number must be at least 1/(2 n), here " +
+                          to_text(1 / (2 * incident_index)) + " (got " + to_text(f_number) + ")");
     return std::asin(sine) / kDegree;
 }
 
@@ -201,7 +203,11 @@ void cone_spectra(const Stack& stack, const StackPower& power, const IndexTable&
         };
         const auto ends_at = [&](const ConeLight& light, std::size_t w) {
             std::vector<Complex> index;
-            for (std::size_t m = 0; m < table.materials(); ++m) index.push_back(table.index(m, w));
+            for (std::size_t m = 0; m < table.materials(); ++m) {
+                index.push_back(table.index(m, w));
+                if (const std::size_t row = table.extraordinary(m); row != m)
+                    index.push_back(table.index(row, w));
+            }
             return light.smooth_ends(index, table.n(table.incident())[w]);
         };
         for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {

@@ -23,8 +23,8 @@ struct SeriesMedium {
     ComplexSeries eps, q2, w, v;
 };
 
-SeriesMedium series_medium(const ComplexSeries& index, const ComplexSeries& n0, IncidentAngle at,
-                           Polarization polarization) {
+SeriesMedium isotropic_medium(const ComplexSeries& index, const ComplexSeries& n0, IncidentAngle at,
+                              Polarization polarization) {
     const ComplexSeries along = n0 * at.cos, across = n0 * at.sin;
     SeriesMedium m;
     m.eps = index * index;
@@ -34,6 +34,16 @@ SeriesMedium series_medium(const ComplexSeries& index, const ComplexSeries& n0, 
     m.w = is_s ? ComplexSeries(1) : m.q2 / m.eps;
     m.v = is_s ? m.q2 : m.eps;
     return m;
+}
+
+/// extraordinary_medium() for p.
+SeriesMedium axial_medium(const ComplexSeries& ordinary, const ComplexSeries& extraordinary,
+                          const ComplexSeries& n0, IncidentAngle at) {
+    SeriesMedium o = isotropic_medium(ordinary, n0, at, Polarization::p);
+    const SeriesMedium e = isotropic_medium(extraordinary, n0, at, Polarization::p);
+    o.w = e.q2 / e.eps;
+    o.q2 = o.eps * o.w;
+    return o;
 }
 
 /// cos(sqrt u) and sin(sqrt u)/sqrt u, both divided by exp(|Im sqrt u|) of the constant term.
@@ -147,19 +157,22 @@ Delay delay_of(const ComplexSeries& a, double w0) {
     if (a[0] == 0.0 || !std::isfinite(phase)) return {};
     const ComplexSeries l = a / ComplexSeries(a[0]);
     const Complex l1 = l[1], l2 = l[2] - l1 * l1 / 2.0, l3 = l[3] - l1 * l[2] + l1 * l1 * l1 / 3.0;
-    return {phase <= -180 ? 180 : phase, finite(l1.imag() / w0), finite(2 * l2.imag() / (w0 * w0)),
-            finite(6 * l3.imag() / (w0 * w0 * w0))};
+    return {phase <= -180 ? 180 : phase + 0.0, finite(l1.imag() / w0),
+            finite(2 * l2.imag() / (w0 * w0)), finite(6 * l3.imag() / (w0 * w0 * w0))};
 }
 
 }  // namespace
 
 Delays delays(const Stack& stack, std::span<const Series<Complex>> index, double wavelength_nm,
-              IncidentAngle incidence, Polarization polarization) {
+              IncidentAngle incidence, Polarization polarization,
+              std::span<const Series<Complex>> extraordinary) {
     ComplexSeries n0 = index[stack.incident];
     for (Complex& coefficient : n0.c) coefficient.imag(0);
     std::vector<SeriesMedium> media;
-    for (const ComplexSeries& one : index)
-        media.push_back(series_medium(one, n0, incidence, polarization));
+    for (std::size_t m = 0; m < index.size(); ++m)
+        media.push_back(polarization == Polarization::s || extraordinary.empty()
+                            ? isotropic_medium(index[m], n0, incidence, polarization)
+                            : axial_medium(index[m], extraordinary[m], n0, incidence));
     const double k0 = kTwoPi / wavelength_nm;
     SeriesWave fields = outgoing_wave(media[stack.substrate], polarization);
     const ComplexSeries leaving = fields.b;
@@ -179,7 +192,8 @@ Delays delays(const Stack& stack, std::span<const Series<Complex>> index, double
     if (std::abs(difference[0]) <= kRounding * (std::abs(down[0]) + std::abs(up[0])))
         difference[0] = 0;
     const double w0 = kTwoPi * kLight_nm_per_fs / wavelength_nm;
-    return {delay_of(difference / sum, w0), delay_of((is_s ? kz : n0 * n0) * leaving / sum, w0)};
+    // t is this times a positive number, which at 90 degrees is 0
+    return {delay_of(difference / sum, w0), delay_of(leaving / sum, w0)};
 }
 
 }  // namespace irido

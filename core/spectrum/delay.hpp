@@ -26,10 +26,13 @@ struct Delays {
 /// series in x = (w - w0)/w0 through the recursion of coherent_response(): nothing is differenced.
 /// Groups are powers by squaring. The error of the derivative of order m is about
 /// 1e-15 (tau/|a|)^m, tau the longest delay and |a| the amplitude (1 for t). A reflected amplitude
-/// below 2^-46 of the waves that it is the difference of is rounding, and counts as 0.
+/// below 2^-46 of the waves that it is the difference of is rounding, and counts as 0. At 90
+/// degrees t is 0, and its phase and delays are their limits.
 ///   stack          coherent layers of fixed thickness;  index  index_series() of its materials
 ///   wavelength_nm  vacuum, [1, 1e7]
+///   extraordinary  extraordinary_series() of its materials; may be left out where none is uniaxial
 Delays delays(const Stack& stack, std::span<const Series<Complex>> index, double wavelength_nm,
-              IncidentAngle incidence, Polarization polarization);
+              IncidentAngle incidence, Polarization polarization,
+              std::span<const Series<Complex>> extraordinary = {});
 
 }  // namespace irido

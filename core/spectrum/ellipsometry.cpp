@@ -56,9 +56,10 @@ Ellipsometry ellipsometry(double R_s, double R_p, Complex cross) {
             std::clamp(1 - N * N - C * C - S * S, 0.0, 1.0)};
 }
 
-Ellipsometry ellipsometry(const StackPower& stack, std::span<const Medium> media, double k0) {
-    const ChainLight s(*stack.chain(), media, k0, Polarization::s);
-    const ChainLight p(*stack.chain(), media, k0, Polarization::p);
+Ellipsometry ellipsometry(const StackPower& stack, std::span<const Medium> media_s,
+                          std::span<const Medium> media_p, double k0) {
+    const ChainLight s(*stack.chain(), media_s, k0, Polarization::s);
+    const ChainLight p(*stack.chain(), media_p, k0, Polarization::p);
     if (s.last_block() == 0) return ellipsometry(s.response().r, p.response().r);
     // ChainLight::response() of several blocks has powers only
     return ellipsometry(s.response().power.R, p.response().power.R, cross_reflection(s, p));

@@ -39,6 +39,7 @@ Ellipsometry ellipsometry(double R_s, double R_p, Complex cross);
 
 /// Of a stack with incoherent layers and without spread thicknesses, all its beams collected;
 /// arguments as those of StackPower's call.
-Ellipsometry ellipsometry(const StackPower& stack, std::span<const Medium> media, double k0);
+Ellipsometry ellipsometry(const StackPower& stack, std::span<const Medium> media_s,
+                          std::span<const Medium> media_p, double k0);
 
 }  // namespace irido

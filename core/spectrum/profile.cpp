@@ -24,6 +24,7 @@ FieldProfile::FieldProfile(const Stack& stack, std::span<const Medium> media, do
         throw DomainError("a profile needs at most " + std::to_string(kMostLayers) +
                           " layers, repetitions included (got " + std::to_string(count) + ")");
     const std::vector<Layer> layers = written_out(stack.elements);
+    listed_ = listed_layers(stack.elements);
     long double depth = 0;  // so that sums of decimals are the double next to them
     faces_nm_.push_back(0);
     for (const Layer& layer : layers) {
@@ -65,6 +66,11 @@ FieldProfile::Fields FieldProfile::above(const Fields& below, const Medium& m,
     return up;
 }
 
+std::size_t FieldProfile::listed(std::size_t number) const {
+    if (number == 0) return 0;
+    return number > layers_.size() ? layers() + 1 : listed_[number - 1] + 1;
+}
+
 const Medium& FieldProfile::medium(std::size_t number) const {
     if (number == 0) return incident_;
     return number > layers_.size() ? substrate_ : layers_[number - 1];
@@ -75,16 +81,18 @@ FieldPoint FieldProfile::point(std::size_t number, const Fields& at) const {
     const double exponent = 2 * (at.log_scale - log_scale_);
     const auto scaled = [&](double x) { return times_exp(x * amplitude2_, exponent); };
     FieldPoint result;
-    result.medium = number;
+    result.medium = listed(number);
     if (polarization_ == Polarization::s) {
         result.Ey2 = scaled(std::norm(at.b));
     } else {
         result.Ex2 = scaled(std::norm(at.b));
-        result.Ez2 = scaled(across2_ * std::norm(at.c / m.eps));
+        result.Ez2 = scaled(across2_ * std::norm(at.c / m.eps_z));
     }
     result.flux = times_exp(at.flux * power_, exponent);
     // k0 Im(eps) |E|^2 of the fields, whose power is that of flux
-    result.absorbed_per_nm = k0_ * m.eps.imag() * result.E2() * power_ / amplitude2_;
+    result.absorbed_per_nm =
+        k0_ * (m.eps.imag() * (result.Ex2 + result.Ey2) + m.eps_z.imag() * result.Ez2) * power_ /
+        amplitude2_;
     return result;
 }
 
@@ -110,7 +118,7 @@ double FieldProfile::E2_in(std::size_t number, double up_nm) const {
 
 double FieldProfile::absorbed_in(std::size_t number) const {
     const Medium& m = medium(number);
-    if (m.eps.imag() == 0) return 0;
+    if (!is_lossy(m)) return 0;
     if (number > layers_.size()) return at(faces_nm_.back()).flux;
     const Fields& bottom = at_faces_[number];
     const double k0_d = k0_ * (faces_nm_[number] - faces_nm_[number - 1]);
@@ -121,6 +129,23 @@ double FieldProfile::absorbed_in(std::size_t number) const {
 }
 
 LayerProfile FieldProfile::layer(std::size_t number, const FieldProfile* other) const {
+    if (number > layers()) return part(layers_.size() + 1, other);
+    const auto [first, last] = std::ranges::equal_range(listed_, number - 1);
+    const auto begin = static_cast<std::size_t>(first - listed_.begin()) + 1;
+    const auto end = static_cast<std::size_t>(last - listed_.begin()) + 1;
+    LayerProfile whole = part(begin, other);
+    for (std::size_t i = begin + 1; i < end; ++i) {
+        const LayerProfile next = part(i, other);
+        whole.absorbed += next.absorbed;
+        whole.penetration_nm.reset();  // a wave has another one at every depth
+        if (next.largest_E2 <= whole.largest_E2) continue;
+        whole.largest_E2 = next.largest_E2;
+        whole.largest_at_nm = next.largest_at_nm;
+    }
+    return whole;
+}
+
+LayerProfile FieldProfile::part(std::size_t number, const FieldProfile* other) const {
     const auto mean = [&](double own, const auto& of_other) {
         return other ? (own + of_other(*other)) / 2 : own;
     };

@@ -51,6 +51,9 @@ public:
 
     FieldPoint at(double z_nm) const;
 
+    /// L, layers that are written in parts being one.
+    std::size_t layers() const { return listed_.empty() ? 0 : listed_.back() + 1; }
+
     /// Of medium 1..L + 1; with the other polarization's profile, of unpolarized light.
     LayerProfile layer(std::size_t medium, const FieldProfile* other = nullptr) const;
 
@@ -63,13 +66,17 @@ private:
 
     void add(const std::vector<Element>& elements);
     const Medium& medium(std::size_t number) const;
+    /// The medium that is listed for one of the parts, or the substrate.
+    std::size_t listed(std::size_t number) const;
+    LayerProfile part(std::size_t number, const FieldProfile* other) const;
     double E2_in(std::size_t number, double up_nm) const;
     double absorbed_in(std::size_t number) const;
     /// By `depth_nm` up from fields at the lower face of a medium.
     Fields above(const Fields& below, const Medium& m, double depth_nm) const;
     FieldPoint point(std::size_t number, const Fields& at) const;
 
-    std::vector<Medium> layers_;
+    std::vector<Medium> layers_;       ///< parts of a layer each for itself, as everywhere below
+    std::vector<std::size_t> listed_;  ///< of which layer they are
     std::vector<double> faces_nm_;
     std::vector<Fields> at_faces_;
     Medium incident_, substrate_;

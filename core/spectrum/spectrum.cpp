@@ -66,7 +66,8 @@ public:
         : stack_(stack), table_(table), needs_(needs), out_(out) {}
 
     void operator()(IncidentAngle incidence, std::size_t wavelength, std::size_t point) {
-        set_media(table_, wavelength, incidence, media_);
+        wavelength_ = wavelength;
+        incidence_ = incidence;
         absorbed_.resize(needs_.layers ? stack_.layer_count() : 0);
         const double k0 = table_.k0()[wavelength];
         Spectrum* const s = needs_.s ? &out_.s : nullptr;
@@ -83,6 +84,7 @@ private:
     void compute(Polarization polarization, double k0, std::size_t point, Spectrum* to,
                  Spectrum* also) {
         Response response;
+        set_media(table_, wavelength_, incidence_, polarization, media_);
         try {
             response = stack_(media_, k0, polarization);
             if (needs_.layers) stack_.layer_absorption(media_, k0, polarization, absorbed_);
@@ -102,6 +104,8 @@ private:
     const IndexTable& table_;
     const Needs& needs_;
     Spectra& out_;
+    std::size_t wavelength_ = 0;
+    IncidentAngle incidence_{1};
     std::vector<Medium> media_;
     std::vector<double> absorbed_;
 };
@@ -152,6 +156,20 @@ Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) 
     return {row.data() + wavelength, varies};
 }
 
+/// The extraordinary indices of a run of p alone.
+void set_extraordinary(const IndexTable& table, std::size_t wavelength, bool across,
+                       PointRun& run) {
+    run.extraordinary_n.assign(table.materials(), {});
+    run.extraordinary_k.assign(table.materials(), {});
+    for (std::size_t m = 0; m < table.materials(); ++m) {
+        const std::size_t row = table.extraordinary(m);
+        if (row == m) continue;
+        const bool varies = !across && !table.is_constant(m);
+        run.extraordinary_n[m] = stream(table.n(row), wavelength, varies);
+        run.extraordinary_k[m] = stream(table.k(row), wavelength, varies);
+    }
+}
+
 /// The points of a job.
 ///   cosines, sines  memory for those of a job along angles
 void set_points(const SpectrumJob& job, const IndexTable& table,
@@ -176,6 +194,8 @@ void set_points(const SpectrumJob& job, const IndexTable& table,
         run.cos_theta.values = cosines.data();
         run.sin_theta.values = sines.data();
     }
+    run.extraordinary_n.clear();
+    run.extraordinary_k.clear();
     run.n.resize(table.materials());
     run.k.resize(table.materials());
     for (std::size_t m = 0; m < table.materials(); ++m) {
@@ -218,8 +238,16 @@ public:
         const RunOutput s = output_at(only_p ? out_.p : out_.s, first, stride);
         const RunOutput p = output_at(out_.p, first, stride);
         redo_.clear();
-        run_chain(program_, run_, needs_.s || normal ? &s : nullptr,
-                  needs_.p && !normal ? &p : nullptr, redo_, memory_, simd_);
+        const RunOutput* const with_s = needs_.s || normal ? &s : nullptr;
+        const RunOutput* const with_p = needs_.p && !normal ? &p : nullptr;
+        if (table_.is_uniaxial() && with_p) {
+            if (with_s) run_chain(program_, run_, with_s, nullptr, redo_, memory_, simd_);
+            set_extraordinary(table_, wavelength, across, run_);
+            run_chain(program_, run_, nullptr, with_p, redo_of_p_, memory_, simd_);
+            add_redo_of_p();
+        } else {
+            run_chain(program_, run_, with_s, with_p, redo_, memory_, simd_);
+        }
         if (normal && needs_.s && needs_.p && needs_.p_at_normal)
             copy_points(out_.s, out_.p, first, first + run_.count);
         for (const std::size_t i : redo_)
@@ -228,6 +256,13 @@ public:
     }
 
 private:
+    void add_redo_of_p() {
+        redo_.insert(redo_.end(), redo_of_p_.begin(), redo_of_p_.end());
+        redo_of_p_.clear();
+        std::ranges::sort(redo_);
+        redo_.erase(std::unique(redo_.begin(), redo_.end()), redo_.end());
+    }
+
     const ChainProgram& program_;
     PlainRun& plain_;
     const IndexTable& table_;
@@ -238,6 +273,7 @@ private:
     PointRun& run_;
     std::vector<double>&cosines_, &sines_;
     std::vector<std::size_t>& redo_;
+    std::vector<std::size_t> redo_of_p_;
     RunMemory& memory_;
 };
 
@@ -329,9 +365,16 @@ void SpectrumKernel::fix_layers(const IndexTable& table, IncidentAngle incidence
     set_points({false, 0, 0, out.points}, table, {&incidence, 1}, memory.run, memory.cosines,
                memory.sines);
     const bool normal = incidence.cos == 1;
-    for (const FixedRun& run : fixed_.runs)
-        store_fixed(run, memory.run, needs_.s || normal, needs_.p && !normal, fixed_.rows,
-                    out.numbers.data(), memory.kernel, simd_);
+    const auto store = [&](bool s, bool p) {
+        for (const FixedRun& run : fixed_.runs)
+            store_fixed(run, memory.run, s, p, fixed_.rows, out.numbers.data(), memory.kernel,
+                        simd_);
+    };
+    const bool s = needs_.s || normal, p = needs_.p && !normal;
+    if (!table.is_uniaxial() || !p) return store(s, p);
+    if (s) store(true, false);
+    set_extraordinary(table, 0, false, memory.run);
+    store(false, true);
 }
 
 void SpectrumKernel::fix_all_layers(const IndexTable& table,

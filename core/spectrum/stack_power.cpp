@@ -78,7 +78,10 @@ private:
 }  // namespace
 
 void StackPower::assign(const Stack& stack) {
-    layer_count_ = count_layers(stack.elements);
+    layer_count_ = count_listed_layers(stack.elements);
+    listed_.clear();
+    if (layer_count_ <= kLargestLayerList && layer_count_ < count_layers(stack.elements))
+        listed_ = listed_layers(stack.elements);
     spreads_.clear();
     spread_of_.clear();
     if (any_layer(stack.elements, needs_expansion)) {
@@ -100,7 +103,7 @@ void StackPower::assign(const Stack& stack) {
         chain_.substrate = stack.substrate;
     }
     mirror_.reset();
-    if (has_amplitudes())
+    if (has_amplitudes() && !first_uniaxial(stack.materials))
         mirror_ = hosted_mirror(chain_.blocks[0].down, stack.incident, stack.substrate);
 }
 
@@ -126,9 +129,15 @@ void StackPower::layer_absorption(std::span<const Medium> media, double k0,
                           std::to_string(kLargestLayerList) + " (got " +
                           std::to_string(layer_count_) + ")");
     const bool lit = outgoing_wave(media.back(), polarization).flux > 0;
+    std::vector<double> parts(listed_.size());
+    const std::span<double> all = listed_.empty() ? absorbed : std::span(parts);
     if (!lit || spreads_.empty())
-        return ChainLight(chain_, media, k0, polarization).layer_absorption(absorbed);
-    SpreadMean(chain_, spreads_, spread_of_, media, k0, polarization).layer_absorption(absorbed);
+        ChainLight(chain_, media, k0, polarization).layer_absorption(all);
+    else
+        SpreadMean(chain_, spreads_, spread_of_, media, k0, polarization).layer_absorption(all);
+    if (listed_.empty()) return;
+    std::ranges::fill(absorbed, 0);
+    for (std::size_t i = 0; i < parts.size(); ++i) absorbed[listed_[i]] += parts[i];
 }
 
 }  // namespace irido

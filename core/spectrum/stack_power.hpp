@@ -53,7 +53,8 @@ public:
     /// What the whole stack is, if no thickness is spread: its powers are mirror_power() then.
     const std::optional<HostedMirror>& mirror() const { return mirror_; }
 
-    /// Layers with groups written out, from the incident side to the substrate.
+    /// Layers with groups written out, from the incident side to the substrate; those that are
+    /// written in parts are one.
     std::size_t layer_count() const { return layer_count_; }
 
     static constexpr std::size_t kLargestLayerList = 1000;
@@ -68,6 +69,7 @@ public:
 
 private:
     std::size_t layer_count_ = 0;
+    std::vector<std::size_t> listed_;  ///< per layer written out, if some are parts: whose part
     Chain chain_;
     std::optional<HostedMirror> mirror_;
     std::vector<SpreadLayer> spreads_;

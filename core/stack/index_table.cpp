@@ -10,11 +10,32 @@
 
 namespace irido {
 
+namespace {
+
+/// See IndexTable::extraordinary().
+std::vector<std::size_t> rows_of_extraordinary(const std::vector<Material>& materials) {
+    std::vector<std::size_t> rows;
+    std::size_t next = materials.size();
+    for (std::size_t m = 0; m < materials.size(); ++m)
+        rows.push_back(is_uniaxial(materials[m]) ? next++ : m);
+    return rows;
+}
+
+std::size_t rows_in(const std::vector<std::size_t>& extraordinary) {
+    std::size_t rows = extraordinary.size();
+    for (const std::size_t row : extraordinary) rows = std::max(rows, row + 1);
+    return rows;
+}
+
+}  // namespace
+
 IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     : wavelength_nm_(std::move(wavelength_nm)),
       materials_(stack.materials.size()),
       incident_(stack.incident),
-      n_(wavelength_nm_.size() * materials_ + kMostLanes, 1),
+      extraordinary_(rows_of_extraordinary(stack.materials)),
+      rows_(rows_in(extraordinary_)),
+      n_(wavelength_nm_.size() * rows_ + kMostLanes, 1),
       k_(n_.size(), 0),
       k0_(wavelength_nm_.size() + kMostLanes, 1),
       constant_(materials_, true),
@@ -31,19 +52,23 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     for (std::size_t m = 0; m < materials_; ++m) {
         const Material& material = stack.materials[m];
         const bool constant = irido::is_constant(material);
-        Complex index;
-        for (std::size_t w = 0; w < count; ++w) {
-            if (w == 0 || !constant) {
-                index = index_at(material, wavelength_nm_[w]);
-                largest_index =
-                    std::max(largest_index, std::abs(index.real()) + std::abs(index.imag()));
+        const auto fill = [&](std::size_t row, auto&& at) {
+            Complex index;
+            for (std::size_t w = 0; w < count; ++w) {
+                if (w == 0 || !constant) {
+                    index = at(material, wavelength_nm_[w]);
+                    largest_index =
+                        std::max(largest_index, std::abs(index.real()) + std::abs(index.imag()));
+                }
+                n_[row * count + w] = index.real();
+                k_[row * count + w] = index.imag();
+                if (index != this->index(row, 0)) constant_[m] = false;
+                if (index.imag() != 0) absorbs_[m] = true;
+                if (index.imag() < 0) amplifies_[m] = true;
             }
-            n_[m * count + w] = index.real();
-            k_[m * count + w] = index.imag();
-            if (index != this->index(m, 0)) constant_[m] = false;
-            if (index.imag() != 0) absorbs_[m] = true;
-            if (index.imag() < 0) amplifies_[m] = true;
-        }
+        };
+        fill(m, index_at);
+        if (extraordinary_[m] != m) fill(extraordinary_[m], extraordinary_index_at);
     }
     largest_wavenumber_ = largest_k0 * largest_index;
     for (std::size_t w = 0; w < count; ++w) {
@@ -70,13 +95,15 @@ void IndexTable::replace(std::size_t material, std::span<const Complex> index) {
 
 void IndexTable::resize_like(const IndexTable& model, std::size_t count) {
     materials_ = model.materials_;
+    extraordinary_ = model.extraordinary_;
+    rows_ = model.rows_;
     incident_ = model.incident_;
     largest_wavenumber_ = 0;
     constant_ = model.constant_;
     absorbs_ = model.absorbs_;
     amplifies_ = model.amplifies_;
     wavelength_nm_.resize(count);
-    n_.resize(count * materials_ + kMostLanes, 1);
+    n_.resize(count * rows_ + kMostLanes, 1);
     k_.resize(n_.size(), 0);
     k0_.resize(count + kMostLanes, 1);
 }
@@ -95,7 +122,7 @@ void IndexTable::assign(const IndexTable& constant,
             shortest = std::min(shortest, wavelength);
         }
     }
-    for (std::size_t m = 0; m < materials_; ++m) {
+    for (std::size_t m = 0; m < rows_; ++m) {
         const Complex index = constant.index(m, 0);
         std::fill_n(n_.data() + m * count, count, index.real());
         std::fill_n(k_.data() + m * count, count, index.imag());
@@ -113,10 +140,15 @@ void IndexTable::assign(std::span<const IndexTable* const> parts) {
         const std::size_t some = part->wavelength_nm_.size();
         std::copy_n(part->wavelength_nm_.data(), some, wavelength_nm_.data() + at);
         std::copy_n(part->k0_.data(), some, k0_.data() + at);
-        for (std::size_t m = 0; m < materials_; ++m) {
+        for (std::size_t m = 0; m < rows_; ++m) {
             std::copy_n(part->n_.data() + m * some, some, n_.data() + m * count + at);
             std::copy_n(part->k_.data() + m * some, some, k_.data() + m * count + at);
-            if (part->index(m, 0) != first.index(m, 0) || !part->constant_[m]) constant_[m] = false;
+        }
+        for (std::size_t m = 0; m < materials_; ++m) {
+            const std::size_t e = extraordinary_[m];
+            if (part->index(m, 0) != first.index(m, 0) || part->index(e, 0) != first.index(e, 0) ||
+                !part->constant_[m])
+                constant_[m] = false;
             if (part->absorbs_[m]) absorbs_[m] = true;
             if (part->amplifies_[m]) amplifies_[m] = true;
         }

@@ -39,13 +39,18 @@ public:
         return {n(material)[wavelength], k(material)[wavelength]};
     }
     std::size_t incident() const { return incident_; }
+    /// Whether any material is uniaxial: index() is then that of s waves.
+    bool is_uniaxial() const { return rows_ > materials_; }
+    /// The row of n(row) and k(row) with a material's extraordinary index: its own, or one behind
+    /// all materials.
+    std::size_t extraordinary(std::size_t material) const { return extraordinary_[material]; }
     /// 2 pi / wavelength, 1/nm.
     const std::vector<double>& k0() const { return k0_; }
     /// Largest k0 |n + ik| of any material, 1/nm, or somewhat more.
     double largest_wavenumber() const { return largest_wavenumber_; }
-    /// Whether the material has one index at all wavelengths.
+    /// Whether the material has the same indices at all wavelengths.
     bool is_constant(std::size_t material) const { return constant_[material]; }
-    /// Per material: whether its index has an imaginary part at any wavelength.
+    /// Per material: whether an index of it has an imaginary part at any wavelength.
     const std::vector<bool>& absorbs() const { return absorbs_; }
     /// Per material: whether that is negative anywhere.
     const std::vector<bool>& amplifies() const { return amplifies_; }
@@ -58,8 +63,10 @@ private:
 
     std::vector<double> wavelength_nm_;
     std::size_t materials_, incident_;
+    std::vector<std::size_t> extraordinary_;  ///< row per material
+    std::size_t rows_;                        ///< materials, and extraordinary indices
     double largest_wavenumber_ = 0;
-    // n_ and k_ are [material][wavelength]; all three can be read kMostLanes past their end
+    // n_ and k_ are [row][wavelength]; all three can be read kMostLanes past their end
     std::vector<double> n_, k_, k0_;
     std::vector<bool> constant_, absorbs_, amplifies_;
 };

@@ -20,6 +20,8 @@ struct Layer {
     double thickness_nm = 0;        ///< [0, 1e9]
     double thickness_sigma_nm = 0;  ///< standard deviation of a Gaussian spread, [0, 1e9]
     bool coherent = true;           ///< false: powers, not amplitudes, add across it
+    std::uint32_t part = 0;  ///< 1, 2, ... from the top, of a layer that is written in parts;
+                             ///< they are listed as one
     bool operator==(const Layer&) const = default;
 };
 

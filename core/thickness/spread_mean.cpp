@@ -227,7 +227,7 @@ Complex SpreadMean::power_now(std::span<double> values) const {
 /// Whether the wave in a gap depends on the gap's thickness.
 bool SpreadMean::waves_move() const {
     return std::ranges::any_of(chain_.gaps, [&](const Layer& gap) {
-        return gap.thickness_sigma_nm > 0 && light_.media()[gap.material].eps.imag() != 0;
+        return gap.thickness_sigma_nm > 0 && is_lossy(light_.media()[gap.material]);
     });
 }
 

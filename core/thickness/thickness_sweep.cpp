@@ -29,7 +29,7 @@ SweptLayer::SweptLayer(const Medium& medium, double k0, Polarization polarizatio
 
 SweptLayer::State SweptLayer::operator()(double thickness_nm, double phase) const {
     const double k0_d = k0_ * thickness_nm;
-    const bool absorbs = medium_.eps.imag() != 0;
+    const bool absorbs = is_lossy(medium_);
     const bool thin = absorbs && std::norm(k0_d * kz_) < kThin;
     if (phase == 0 && (thin || std::norm(kz_) < kNearCritical))
         return {layer_turn(medium_.q2, k0_d),
@@ -69,7 +69,7 @@ ThicknessSweep::ThicknessSweep(const Wave& in, const Slab& above, const Medium& 
     : in_(in),
       above_(above),
       layer_(layer, k0, polarization),
-      layer_absorbs_(layer.eps.imag() != 0),
+      layer_absorbs_(is_lossy(layer)),
       absorbs_(above.absorbs || below.absorbs || layer_absorbs_),
       unit_(4 * std::norm(in.b) * std::norm(in.c) / in.flux),
       below_log_scale_(below.matrix.log_scale),

@@ -31,6 +31,9 @@ struct PointRun {
     Stream cos_theta;  ///< in (0, 1]
     Stream sin_theta;
     std::vector<Stream> n, k;  ///< one per material
+    /// Extraordinary indices, one per material, without values for isotropic ones; empty unless the
+    /// run is of p alone and some medium is uniaxial.
+    std::vector<Stream> extraordinary_n, extraordinary_k;
     /// Index into them of the medium above the layers; nothing for the incident medium. Its wave is
     /// the one that travels or decays downwards, and k >= 0.
     std::optional<std::size_t> above;

@@ -63,16 +63,40 @@ struct MediaRun {
     bool is_constant(std::size_t m) const {
         const std::size_t material = program_.media[m].material;
         if (material == Program::kIncident) return !run_.incident.varies && !run_.cos_theta.varies;
-        return !run_.n[material].varies && !run_.k[material].varies && !run_.incident.varies &&
-               !run_.cos_theta.varies;
+        if (run_.n[material].varies || run_.k[material].varies || run_.incident.varies ||
+            run_.cos_theta.varies)
+            return false;
+        return !has_axis(material) ||
+               !(run_.extraordinary_n[material].varies || run_.extraordinary_k[material].varies);
+    }
+
+    /// Whether p waves see another index of the material, too.
+    bool has_axis(std::size_t material) const {
+        return !run_.extraordinary_n.empty() && material != Program::kIncident &&
+               run_.extraordinary_n[material].values != nullptr;
     }
 
     /// eps and q2 of a medium.
     HWY_INLINE void permittivity(std::size_t material, std::size_t point, Cx& eps, Cx& q2) const {
-        const V n0 = at(run_.incident, point);
         const bool incident = material == Program::kIncident;
-        const V n = incident ? n0 : at(run_.n[material], point);
+        const V n = at(incident ? run_.incident : run_.n[material], point);
         const V k = incident ? constant(0) : at(run_.k[material], point);
+        isotropic(n, k, point, eps, q2);
+    }
+
+    /// The same where the axis is along the normal, for p, with the permittivity eps_z along it:
+    /// extraordinary_medium() of coherent.hpp.
+    HWY_INLINE void axial_permittivity(std::size_t material, std::size_t point, Cx& eps, Cx& q2,
+                                       Cx& eps_z) const {
+        permittivity(material, point, eps, q2);
+        isotropic(at(run_.extraordinary_n[material], point),
+                  at(run_.extraordinary_k[material], point), point, eps_z, q2);
+        const V inverse = Div(constant(1), norm(eps_z));
+        q2 = mul(q2, scaled(mul(eps, {eps_z.re, negative(eps_z.im)}), inverse));
+    }
+
+    HWY_INLINE void isotropic(V n, V k, std::size_t point, Cx& eps, Cx& q2) const {
+        const V n0 = at(run_.incident, point);
         const V along = Mul(n0, at(run_.cos_theta, point));
         const V twice = Mul(constant(2), Mul(n, k));
         eps = {Mul(Sub(n, k), Add(n, k)), twice};
@@ -86,7 +110,14 @@ struct MediaRun {
     void prepare(std::size_t m, std::size_t point) {
         double* record = records_ + m * kRecord;
         Cx eps, q2;
-        permittivity(program_.media[m].material, point, eps, q2);
+        const std::size_t material = program_.media[m].material;
+        Cx eps_z;
+        const bool axial = has_axis(material);
+        if (axial) {
+            axial_permittivity(material, point, eps, q2, eps_z);
+        } else {
+            permittivity(material, point, eps, q2);
+        }
         if (m + 1 == program_.media.size()) {
             put(record, kKzRe,
                 normal_ ? normal_root(m, point) : outgoing_root(q2, program_.media[m].absorbs));
@@ -124,7 +155,9 @@ struct MediaRun {
         put(record, kWRe, scaled(mul(q2, {eps.re, negative(eps.im)}), inverse_eps));
         put(record, kEpsRe, eps);
         const V across = Mul(at(run_.incident, point), at(run_.sin_theta, point));
-        put(record, kLossW, Mul(Mul(Mul(across, across), eps.im), inverse_eps));
+        put(record, kLossW,
+            axial ? Div(Mul(Mul(across, across), eps_z.im), norm(eps_z))
+                  : Mul(Mul(Mul(across, across), eps.im), inverse_eps));
         evanescent_[m] = false;
     }
 

@@ -97,6 +97,7 @@ private:
     }
 
     bool add(const Group& group) {
+        if (group.repeat == 1) return add(std::span(group.elements));
         if (group.elements.size() == 1 && std::holds_alternative<Layer>(group.elements[0].value)) {
             const Layer& layer = std::get<Layer>(group.elements[0].value);
             add(layer.material, layer.thickness_nm * static_cast<double>(group.repeat));

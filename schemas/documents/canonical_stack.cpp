@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/material/library.hpp"
+#include "schemas/documents/material_words.hpp"
 
 namespace irido::schemas {
 
@@ -96,6 +97,39 @@ json lorentz_drude_json(const LorentzDrude& model) {
     return {{"lorentz_drude", std::move(object)}};
 }
 
+json material_json(const Material& material);
+
+json mixture_json(const Mixture& mixture) {
+    return {{"mixture",
+             {{"inclusion", material_json(mixture.parts[0])},
+              {"host", material_json(mixture.parts[1])},
+              {"fraction", mixture.fraction},
+              {"model", name_of(mixture.rule)}}}};
+}
+
+/// Not a form of documents: only for what tells one stack from another.
+json graded_part_json(const GradedPart& part) {
+    return {{"graded_part",
+             {{"from", material_json((*part.ends)[0])},
+              {"to", material_json((*part.ends)[1])},
+              {"profile", name_of(part.profile)},
+              {"half_step", part.half},
+              {"steps", part.steps}}}};
+}
+
+json uniaxial_json(const Uniaxial& medium) {
+    return {{"ordinary", material_json(medium.parts[0])},
+            {"extraordinary", material_json(medium.parts[1])}};
+}
+
+struct ModelJson {
+    json operator()(const RefractiveIndex& index) const { return index_json(index); }
+    json operator()(const LorentzDrude& model) const { return lorentz_drude_json(model); }
+    json operator()(const Mixture& mixture) const { return mixture_json(mixture); }
+    json operator()(const Uniaxial& medium) const { return uniaxial_json(medium); }
+    json operator()(const GradedPart& part) const { return graded_part_json(part); }
+};
+
 json material_json(const Material& material) {
     if (const auto built_in = find_material(material.name);
         built_in && built_in->material.model == material.model && !is_constant(material)) {
@@ -103,9 +137,9 @@ json material_json(const Material& material) {
         if (material.outside == Outside::clamp)
             return {{"name", material.name}, {"extrapolate", "clamp"}};
     }
-    const auto* const index = std::get_if<RefractiveIndex>(&material.model);
-    json result =
-        index ? index_json(*index) : lorentz_drude_json(std::get<LorentzDrude>(material.model));
+    json result = std::visit(ModelJson{}, material.model);
+    const bool is_named = !material.name.empty() && material.name[0] != '/';
+    if (is_named && std::holds_alternative<Mixture>(material.model)) result["name"] = material.name;
     if (material.outside == Outside::clamp && !is_constant(material))
         result["extrapolate"] = "clamp";
     return result;

@@ -230,6 +230,24 @@ void set_value(json& document, std::string_view path, json value) {
     *place = std::move(value);
 }
 
+bool has_value(const json& document, std::string_view path) {
+    const json* place = &document;
+    while (!path.empty()) {
+        const std::string step = take_step(path);
+        if (place->is_array()) {
+            const std::optional<double> index = parse_number(step);
+            if (!index || !(*index >= 0 && *index < static_cast<double>(place->size())))
+                return false;
+            place = &(*place)[static_cast<std::size_t>(*index)];
+        } else if (place->is_object() && place->contains(step)) {
+            place = &(*place)[step];
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool is_part_of(std::string_view path, std::string_view whole) {
     const auto step_of = [](std::string_view& rest) {
         std::string step = take_step(rest);  // indices may begin with zeros
@@ -243,7 +261,9 @@ bool is_part_of(std::string_view path, std::string_view whole) {
 }
 
 json value_from_text(std::string_view path, std::string_view text) {
-    constexpr std::array<std::string_view, 3> kMaterials{"material", "incident", "substrate"};
+    constexpr std::array<std::string_view, 9> kMaterials{"material",      "incident", "substrate",
+                                                         "inclusion",     "host",     "ordinary",
+                                                         "extraordinary", "from",     "to"};
     const std::string_view key = path.substr(path.rfind('.') + 1);
     if (std::find(kMaterials.begin(), kMaterials.end(), key) != kMaterials.end()) {
         json index = parse_index(text);

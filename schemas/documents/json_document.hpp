@@ -19,6 +19,9 @@ void set_value(nlohmann::json& document, std::string_view path, nlohmann::json v
 /// Sets the value given as "PATH=VALUE", as after --set. Throws InputError.
 void set_value(nlohmann::json& document, std::string_view path_equals_value);
 
+/// Whether the document has a value at a dotted path.
+bool has_value(const nlohmann::json& document, std::string_view path);
+
 /// Whether a dotted path names the same value as `whole`, or a part of it.
 bool is_part_of(std::string_view path, std::string_view whole);
 

@@ -15,15 +15,21 @@
 #include <utility>
 #include <variant>
 
+#include "core/coherent/graded_layer.hpp"
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "core/stack/index_table.hpp"
 #include "core/stack/reversed.hpp"
+#include "schemas/documents/equal_materials.hpp"
 #include "schemas/documents/json_document.hpp"
+#include "schemas/documents/material_models.hpp"
+#include "schemas/documents/material_words.hpp"
+#include "schemas/documents/rough_faces.hpp"
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/index_rows.hpp"
 #include "schemas/readers/nearest.hpp"
+#include "schemas/readers/number.hpp"
 #include "schemas/readers/stack_expression.hpp"
 #include "schemas/readers/text_file.hpp"
 #include "schemas/readers/utf8.hpp"
@@ -35,103 +41,6 @@ using nlohmann::json;
 
 constexpr std::size_t kMostLayers = 1'000'000;
 
-// --- materials as numbers -------------------------------------------------------------------
-
-double number_or(const json& object, const char* key, double otherwise) {
-    const auto found = object.find(key);
-    return found == object.end() ? otherwise : found->get<double>();
-}
-
-/// n = A + B/L^2 + C/L^4 + ... is formula 5, whose coefficients are A and (B, -2), (C, -4), ...
-Formula read_cauchy(const json& series) {
-    Formula formula{5, {series[0].get<double>()}, kAllWavelengths};
-    for (std::size_t i = 1; i < series.size(); ++i) {
-        formula.coefficients.push_back(series[i].get<double>());
-        formula.coefficients.push_back(-2 * static_cast<double>(i));
-    }
-    return formula;
-}
-
-/// n^2 = 1 + sum B L^2/(L^2 - C) is formula 2 with a first coefficient of 0.
-Formula read_sellmeier(const json& terms) {
-    Formula formula{2, {0}, kAllWavelengths};
-    for (const json& term : terms) {
-        formula.coefficients.push_back(term[0].get<double>());
-        formula.coefficients.push_back(term[1].get<double>());
-    }
-    return formula;
-}
-
-LorentzDrude read_lorentz_drude(const json& object) {
-    LorentzDrude model;
-    model.eps_infinity = number_or(object, "eps_infinity", 1);
-    model.plasma_ev = object["plasma_ev"].get<double>();
-    model.range = kAllWavelengths;
-    for (const json& term : object["oscillators"]) {
-        model.oscillators.push_back(
-            {term[0].get<double>(), term[1].get<double>(), term[2].get<double>()});
-    }
-    return model;
-}
-
-/// Rows [nm, n] or [nm, n, k]: k is known in the rows that give it, and 0 if none does.
-MaterialFile read_table(const json& rows, const std::string& name) {
-    Table n;
-    Table k;
-    for (const json& row : rows) {
-        n.wavelength_nm.push_back(row[0].get<double>());
-        n.value.push_back(row[1].get<double>());
-        if (row.size() < 3) continue;
-        k.wavelength_nm.push_back(row[0].get<double>());
-        k.value.push_back(row[2].get<double>());
-    }
-    const bool is_real =
-        std::all_of(k.value.begin(), k.value.end(), [](double v) { return v == 0; });
-    return material_of(name, std::move(n), is_real ? std::nullopt : std::optional(std::move(k)),
-                       {});
-}
-
-std::string index_text(double n, double k) {
-    if (k == 0) return to_text(n);
-    return to_text(n) + (k > 0 ? "+" : "") + to_text(k) + "i";
-}
-
-// --- equal materials ------------------------------------------------------------------------
-
-void mix(std::uint64_t& hash, double value) {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value + 0.0);  // -0 equals 0
-    hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
-    hash ^= hash >> 32U;
-}
-
-struct HashOf {
-    std::uint64_t hash = 0;
-
-    void operator()(const Constant& constant) { mix(hash, constant.value); }
-    void operator()(const Formula& formula) {
-        for (const double c : formula.coefficients) mix(hash, c);
-    }
-    void operator()(const Table& table) {
-        constexpr std::size_t enough = 16;  // of long tables only some, as all are compared later
-        const std::size_t step = std::max<std::size_t>(table.value.size() / enough, 1);
-        for (std::size_t i = 0; i < table.value.size(); i += step) mix(hash, table.value[i]);
-    }
-    void operator()(const RefractiveIndex& index) {
-        std::visit(*this, index.n);
-        std::visit(*this, index.k);
-    }
-    void operator()(const LorentzDrude& model) {
-        mix(hash, model.plasma_ev);
-        for (const auto& oscillator : model.oscillators) mix(hash, oscillator.strength);
-    }
-};
-
-std::uint64_t hash_of(const Material& material) {
-    HashOf hash;
-    std::visit(std::ref(hash), material.model);
-    return hash.hash;
-}
-
 /// Values of a document by what they are, not by where.
 struct JsonHash {
     std::size_t operator()(const json* value) const { return std::hash<json>{}(*value); }
@@ -139,10 +48,6 @@ struct JsonHash {
 struct JsonEqual {
     bool operator()(const json* a, const json* b) const { return *a == *b; }
 };
-
-bool same_physics(const Material& a, const Material& b) {
-    return a.model == b.model && a.outside == b.outside;
-}
 
 // --- the reader -----------------------------------------------------------------------------
 
@@ -174,6 +79,7 @@ public:
         if (document_.contains("substrate")) {
             stack.substrate = material(document_["substrate"], "/substrate");
         }
+        if (broken_.empty() && problems.empty() && has_rough_faces(document_)) roughen();
         if (layers_ > kMostLayers) {
             report("/layers", "must hold at most 1e6 layers (got " + std::to_string(layers_) + ")");
         }
@@ -217,6 +123,8 @@ private:
             const auto layers = array[i].find("layers");
             if (layers != array[i].end()) {
                 result.push_back({group(array[i], *layers, place)});
+            } else if (array[i].contains("graded")) {
+                result.push_back({graded_layer_of(array[i], place)});
             } else {
                 result.push_back({layer(array[i], place)});
             }
@@ -240,10 +148,101 @@ private:
             result.material = material(*found, pointer + "/material");
         }
         if (is_broken(pointer)) return result;
-        result.thickness_nm = object["thickness_nm"].get<double>();
+        result.thickness_nm =
+            object.contains("qwot")
+                ? quarter_waves(object["qwot"].get<double>(), result.material, pointer + "/qwot")
+                : object["thickness_nm"].get<double>();
         result.thickness_sigma_nm = number_or(object, "thickness_sigma_nm", 0);
         result.coherent = object.value("coherent", true);
+        if (!result.coherent && is_uniaxial(result_.stack.materials[result.material]))
+            report(pointer, "a uniaxial layer must be coherent");
         return result;
+    }
+
+    /// A graded layer is a group of its parts that occurs once.
+    Group graded_layer_of(const json& object, const std::string& pointer) {
+        ++layers_;
+        Group result;
+        if (is_broken(pointer)) return result;
+        if (!object.value("coherent", true)) report(pointer, "a graded layer must be coherent");
+        const json& graded = object["graded"];
+        const std::string place = pointer + "/graded";
+        const double thickness_nm = object["thickness_nm"].get<double>();
+        try {
+            const GradedLayer parts = graded_layer(isotropic(graded["from"], place + "/from"),
+                                                   isotropic(graded["to"], place + "/to"),
+                                                   graded_profile(graded.value("profile", "n")),
+                                                   thickness_nm, incident_index(), place);
+            constexpr double kPoor = 1e-5;
+            if (!(parts.error <= kPoor))
+                report(place, "changes too much over " + to_text(thickness_nm) +
+                                  " nm for parts of an error below " + to_text(kPoor));
+            else if (parts.error > kGradedError)
+                result_.notes.push_back(file_ + ": " + place + ": the error of r and t is up to " +
+                                        to_text(parts.error) + " at 380 nm");
+            Layer part;
+            part.thickness_nm = thickness_nm / static_cast<double>(parts.parts.size());
+            for (const Material& material : parts.parts) {
+                part.material = add(material, place);
+                ++part.part;
+                result.elements.push_back({part});
+            }
+        } catch (const DomainError& error) {
+            report(place, error.what());
+        }
+        return result;
+    }
+
+    /// Of the incident medium about where graded layers are measured.
+    double incident_index() const {
+        Material incident = result_.stack.materials[result_.stack.incident];
+        incident.outside = Outside::clamp;
+        return std::max(1e-3, index_at(incident, kGradedWavelength_nm).real());
+    }
+
+    /// The layers with those of rough faces.
+    void roughen() {
+        Stack& stack = result_.stack;
+        const FaceReader faces{
+            [&](const json& layer, const std::string& pointer, bool top) {
+                const char* const end = top ? "from" : "to";
+                return material(layer["graded"][end], pointer + "/graded/" + end);
+            },
+            [&](std::size_t above, std::size_t below, bool centred, const std::string& pointer) {
+                const Material &upper = stack.materials[above], &lower = stack.materials[below];
+                if (is_uniaxial(upper) || is_uniaxial(lower)) {
+                    report(pointer, "a face of a uniaxial medium cannot be rough");
+                    return above;
+                }
+                return add({centred ? "roughness, centred" : "roughness, added",
+                            Mixture{MixingRule::bruggeman, 0.5, {upper, lower}}, Outside::refuse},
+                           pointer);
+            },
+            [&](const std::string& pointer, const std::string& message) {
+                report(pointer, message);
+            }};
+        stack.elements =
+            with_rough_faces(document_, stack.elements, stack.incident, stack.substrate, faces);
+    }
+
+    /// Thickness of that many quarter waves of a material, at normal incidence.
+    double quarter_waves(double count, std::size_t material, const std::string& pointer) {
+        if (!document_.contains("reference_nm")) {
+            report(pointer, "requires the stack's reference_nm (or --reference NM)");
+            return 0;
+        }
+        if (is_broken("/reference_nm")) return 0;
+        const double reference_nm = document_["reference_nm"].get<double>();
+        try {
+            const double n = index_at(result_.stack.materials[material], reference_nm).real();
+            const double thickness_nm = count * (reference_nm / (4 * n));
+            if (thickness_nm <= kLargestThickness_nm) return thickness_nm;
+            report(pointer, "must be a thickness in [0, 1e9] nm (got " + to_text(count) +
+                                " quarter waves of index " + to_text(n) + ")");
+        } catch (const DomainError& error) {
+            report(pointer, error.what());
+        }
+        return 0;
     }
 
     /// The place of a material in the stack's list, where it is put if it is new.
@@ -282,7 +281,8 @@ private:
     }
 
     Material from_object(const json& object, const std::string& pointer) {
-        constexpr std::array kModels{"n", "file", "table", "cauchy", "sellmeier", "lorentz_drude"};
+        constexpr std::array kModels{"n",         "file",          "table",   "cauchy",
+                                     "sellmeier", "lorentz_drude", "mixture", "ordinary"};
         const bool has_model = std::any_of(kModels.begin(), kModels.end(), [&](const char* model) {
             return object.contains(model);
         });
@@ -313,7 +313,32 @@ private:
         if (object.contains("sellmeier")) {
             return {pointer, RefractiveIndex{read_sellmeier(object["sellmeier"])}};
         }
+        if (object.contains("ordinary")) return {pointer, uniaxial(object, pointer)};
+        if (object.contains("mixture"))
+            return {pointer, mixture(object["mixture"], pointer + "/mixture")};
         return {pointer, read_lorentz_drude(object["lorentz_drude"])};
+    }
+
+    Uniaxial uniaxial(const json& object, const std::string& pointer) {
+        Uniaxial medium;
+        for (const std::string key : {"ordinary", "extraordinary"})
+            medium.parts.push_back(isotropic(object[key], pointer + "/" + key));
+        return medium;
+    }
+
+    /// A material that is no uniaxial one.
+    Material isotropic(const json& value, const std::string& pointer) {
+        Material result = build(value, pointer);
+        if (!is_uniaxial(result)) return result;
+        report(pointer, "must be isotropic");
+        return {result.name, RefractiveIndex{}};
+    }
+
+    Mixture mixture(const json& object, const std::string& pointer) {
+        return {mixing_rule(object.value("model", "bruggeman")),
+                object["fraction"].get<double>(),
+                {isotropic(object["inclusion"], pointer + "/inclusion"),
+                 isotropic(object["host"], pointer + "/host")}};
     }
 
     Material constant(double n, double k, const std::string& pointer) {
@@ -376,8 +401,9 @@ private:
     void require_real(std::size_t incident) {
         if (is_broken("/incident") || result_.stack.materials.empty()) return;
         const Material& medium = result_.stack.materials[incident];
+        if (is_uniaxial(medium)) return report("/incident", "must be isotropic");
         if (!is_constant(medium)) return;
-        const double k = std::get<Constant>(std::get<RefractiveIndex>(medium.model).k).value;
+        const double k = index_at(medium, kAllWavelengths.first_nm).imag();
         if (std::abs(k) >= kTransparentBelow_k)
             report("/incident", "must be transparent, |k| below 1e-3 (got " + to_text(k) + ")");
         else if (k != 0)
@@ -396,27 +422,6 @@ private:
     std::unordered_multimap<std::uint64_t, std::size_t> by_hash_;
 };
 
-std::string folder_of(const std::string& path) {
-    return std::filesystem::path(path).parent_path().string();
-}
-
-/// Adds NAME=MATERIAL to the document's materials.
-void add_medium(StackSource& source, const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-        throw InputError("--material", "",
-                         "must be NAME=MATERIAL, as in H=2.35 (got " + short_text(text) + ")");
-    if (!source.document.is_object()) return;  // said where it is read
-    json& media = source.document["materials"];
-    if (media.is_null()) media = json::object();
-    if (!media.is_object()) return;
-    try {
-        media[text.substr(0, equals)] = value_from_text("material", text.substr(equals + 1));
-    } catch (const InputError& error) {
-        throw InputError("--material " + text, error.where, error.message);
-    }
-}
-
 }  // namespace
 
 std::string incident_note(double k) {
@@ -428,72 +433,6 @@ const char* stack_schema_text() {
     return
 #include "stack_schema.inc"
         ;
-}
-
-StackSource load_stack(const StackRequest& request) {
-    StackSource source;
-    source.reverse = request.reverse;
-    if (request.stack.find('|') != std::string::npos) {
-        source.file = "\"" + request.stack + "\"";
-        if (!is_well_formed(request.stack)) throw InputError(well_formed(source.file), "", kNoText);
-        source.document = parse_stack_expression(request.stack);
-    } else {
-        std::error_code ignored;
-        if (request.stack != "-" && request.stack.find('.') == std::string::npos &&
-            !std::filesystem::exists(request.stack, ignored))
-            throw InputError("", "",
-                             "there is no file '" + request.stack +
-                                 "', and an expression must contain '|' (see --help)");
-        source.file = shown_path(request.stack);
-        source.folder = folder_of(request.stack);
-        source.document = parse_json(read_text(request.stack), source.file);
-    }
-    for (const std::string& text : request.media) add_medium(source, text);
-    for (const std::string& text : request.set) {
-        try {
-            set_value(source.document, text);
-        } catch (const InputError& error) {
-            throw InputError(error.file.empty() ? "--set" : "--set " + error.file, error.where,
-                             error.message);
-        }
-    }
-    return source;
-}
-
-namespace {
-
-/// Calls visit(material) for every material of a list of layers and groups.
-void for_each_material(json& layers, const std::function<void(json&)>& visit) {
-    if (!layers.is_array()) return;
-    for (json& element : layers) {
-        if (!element.is_object()) continue;
-        if (element.contains("material")) visit(element["material"]);
-        if (element.contains("layers")) for_each_material(element["layers"], visit);
-    }
-}
-
-}  // namespace
-
-void move_files(json& document, const std::string& from, const std::string& to) {
-    const json own = document.value("materials", json::object());
-    const auto move = [&](json& name) {
-        const std::string path = name.is_string() ? name.get<std::string>() : "";
-        if (!is_material_file(path) || std::filesystem::path(path).is_absolute()) return;
-        const auto place = std::filesystem::absolute(std::filesystem::path(from) / path);
-        name = place.lexically_normal()
-                   .lexically_relative(
-                       std::filesystem::absolute(to.empty() ? "." : to).lexically_normal())
-                   .string();
-    };
-    const auto visit = [&](json& material) {
-        if (material.is_string() && !own.contains(material.get<std::string>())) move(material);
-        if (material.is_object() && material.contains("file")) move(material["file"]);
-    };
-    for (const char* key : {"incident", "substrate"})
-        if (document.contains(key)) visit(document[key]);
-    if (document.contains("layers")) for_each_material(document["layers"], visit);
-    if (own.is_object() && !own.empty())
-        for (json& material : document["materials"]) visit(material);
 }
 
 StackDocument read_stack(const json& document, const std::string& file, const std::string& folder) {
@@ -521,6 +460,8 @@ namespace {
 void reverse(StackDocument& document) {
     document.stack = reversed(std::move(document.stack));
     const Material& incident = document.stack.materials[document.stack.incident];
+    if (is_uniaxial(incident))
+        throw InputError(document.file, "/substrate", "must be isotropic for --reverse");
     if (!is_constant(incident)) return;  // said at the wavelengths that are asked for
     const double k = index_at(incident, kAllWavelengths.first_nm).imag();
     if (std::abs(k) >= kTransparentBelow_k)
@@ -565,7 +506,8 @@ std::vector<std::string> validate_stack_file(const std::string& path) {
     } catch (const InputError& error) {
         return {error.what()};
     }
-    return stack_problems(document, shown_path(path), folder_of(path));
+    return stack_problems(document, shown_path(path),
+                          std::filesystem::path(path).parent_path().string());
 }
 
 }  // namespace irido::schemas

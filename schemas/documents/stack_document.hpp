@@ -14,6 +14,7 @@ struct StackRequest {
     std::string stack;             ///< a file, "-" for standard input, or an expression (has a '|')
     std::vector<std::string> set;  ///< PATH=VALUE, applied in this order
     std::vector<std::string> media = {};  ///< NAME=MATERIAL, added to the document's materials
+    std::string reference_nm = {};        ///< wavelength of quarter waves, "" for the document's
     bool reverse = false;                 ///< light comes from the substrate
 };
 

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/stack/reversed.hpp"
 #include "schemas/documents/json_document.hpp"
+#include "schemas/documents/rough_faces.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido::schemas {
@@ -69,8 +70,9 @@ VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
     nlohmann::json document = source_.document;
     for (const std::string& path : paths_) set_value(document, path, nullptr);
     Stack written = as_written(own_.stack);
-    varies_thickness_only_ = std::ranges::all_of(
-        paths_, [&](const std::string& path) { return layer_at(written, path) != nullptr; });
+    varies_thickness_only_ = std::ranges::all_of(paths_, [&](const std::string& path) {
+        return layer_at(written, path) != nullptr && !has_other_effects(source_.document, path);
+    });
 }
 
 StackDocument VariedStack::document(std::span<const nlohmann::json> values) const {
@@ -123,6 +125,12 @@ LayerPlace VariedStack::place_of(std::string_view path) {
 
 bool VariedStack::is_thickness(std::string_view path) {
     return !place_of(path).empty();
+}
+
+bool VariedStack::has_other_effects(const nlohmann::json& document, std::string_view path) {
+    if (has_rough_faces(document)) return true;
+    const std::string layer(path.substr(0, path.rfind('.') + 1));
+    return has_value(document, layer + "graded") || has_value(document, layer + "qwot");
 }
 
 Layer* VariedStack::layer_at(Stack& stack, std::string_view path) {

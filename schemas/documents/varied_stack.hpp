@@ -37,6 +37,10 @@ public:
     /// any depth.
     static bool is_thickness(std::string_view path);
 
+    /// Whether a path of this shape does more in a document than to set the thickness of one layer
+    /// of the stack: where it is graded, in quarter waves, or where any face is rough.
+    static bool has_other_effects(const nlohmann::json& document, std::string_view path);
+
     /// The indices I, J, ... of such a path; nothing for one of another shape.
     static LayerPlace place_of(std::string_view path);
 

@@ -68,6 +68,12 @@ std::optional<double> parse_thickness(std::string_view text) {
     return take_number(rest);
 }
 
+/// The number of "1Q".
+std::optional<double> parse_quarter_waves(std::string_view text) {
+    const std::optional<double> count = take_number(text);
+    return text == "Q" ? count : std::nullopt;
+}
+
 json complex_index(double n, double k) {
     return {{"n", n}, {"k", k}};
 }
@@ -170,14 +176,17 @@ private:
         if (peek() != '@') fail("\"@\" and the thickness of the layer");
         ++at_;
         const std::string word = next_word();
-        const std::optional<double> thickness_nm = parse_thickness(word);
-        if (!thickness_nm) {
+        json result{{"material", std::move(material)}};
+        if (const std::optional<double> quarters = parse_quarter_waves(word)) {
+            result["qwot"] = *quarters;
+        } else if (const std::optional<double> thickness_nm = parse_thickness(word)) {
+            result["thickness_nm"] = *thickness_nm;
+        } else {
             std::string_view rest = word;
-            fail(take_number(rest) ? "a thickness such as 100, 100nm, 0.1um or 1mm"
+            fail(take_number(rest) ? "a thickness such as 100, 100nm, 0.1um, 1mm or 1Q"
                                    : "a thickness in nm");
         }
         at_ += word.size();
-        json result{{"material", std::move(material)}, {"thickness_nm", *thickness_nm}};
         if (peek() == '!') {
             ++at_;
             result["coherent"] = false;
@@ -250,7 +259,10 @@ private:
                 lose(material.name + ": extrapolate");
             return quoted_where_needed(material.name);
         }
-        if (!is_constant(material)) lose(material.name + ": written as its index at 550 nm");
+        if (is_uniaxial(material))
+            lose(material.name + ": uniaxial, written as its ordinary index at 550 nm");
+        else if (!is_constant(material))
+            lose(material.name + ": written as its index at 550 nm");
         Material clamped = material;
         clamped.outside = Outside::clamp;
         const auto index = index_at(clamped, 550);

@@ -14,7 +14,7 @@ namespace irido::schemas {
 /// follows it,
 /// "!" for a layer that is not coherent; groups nest up to 30 deep.
 ///     stack  = medium "|" { item "|" } medium
-///     item   = medium "@" number [ "nm" | "um" | "mm" ] [ "!" ]
+///     item   = medium "@" number [ "nm" | "um" | "mm" | "Q" ] [ "!" ]
 ///            | "(" item { "|" item } ")" [ "^" repeat ]
 ///     medium = name  |  real  |  real +- imaginary "i"  |  imaginary "i"     ("j" is "i")
 /// A name is that of a material or a material file, in double quotes where it has one of |@()^!.

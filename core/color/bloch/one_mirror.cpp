@@ -33,6 +33,7 @@ Pair pair_of(const std::vector<Element>& elements) {
 std::string mirror_fault(const Stack& stack) {
     const Pair pair = pair_of(stack.elements);
     if (!pair.first) return "other layers";
+    if (first_uniaxial(stack.materials)) return "a uniaxial medium";
     for (const Layer* layer : {pair.first, pair.second}) {
         if (!layer->coherent) return "an incoherent layer";
         if (layer->thickness_sigma_nm != 0) return "a spread thickness";

@@ -159,6 +159,7 @@ private:
 }  // namespace
 
 std::string film_fault(const Stack& stack) {
+    if (first_uniaxial(stack.materials)) return "a uniaxial medium";
     if (stack.elements.empty()) return "";
     const Layer* layer = only_layer(stack);
     if (!layer) return "more than one layer";

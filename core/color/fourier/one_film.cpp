@@ -31,6 +31,8 @@ void require_film(std::string_view method_name, const Stack& stack, const ColorR
     if (!film || !film->coherent || film->thickness_sigma_nm != 0)
         throw DomainError("method " + method +
                           " must have one coherent film of one thickness over a substrate");
+    if (first_uniaxial(stack.materials))
+        throw DomainError("method " + method + " must have isotropic media only");
     if (std::ranges::count(request.sides, Side::transmitted) > 0)
         throw DomainError("method " + method + " must have reflected light only");
 }

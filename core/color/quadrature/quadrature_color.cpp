@@ -135,8 +135,21 @@ std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
     return wavelengths;
 }
 
+/// kz/k0 of the polarization that turns more in a medium.
+Complex longest_normal(const IndexTable& table, std::size_t material, std::size_t wavelength,
+                       IncidentAngle incidence) {
+    const Complex s =
+        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::s).q2);
+    if (table.extraordinary(material) == material) return s;
+    const Complex p =
+        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::p).q2);
+    return std::abs(p.real()) > std::abs(s.real()) ? p : s;
+}
+
 /// Whether a material's k is known between the wavelengths of the survey from what it is there.
 bool is_surveyed(const Material& material) {
+    const std::span<const Material> parts = parts_of(material);
+    if (!parts.empty()) return std::ranges::all_of(parts, is_surveyed);
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     return index != nullptr && !std::holds_alternative<Formula>(index->k);
 }
@@ -260,9 +273,8 @@ private:
         const std::size_t count =
             constant_ && gaps == Gaps::attenuate ? 1 : on_path_.wavelength_nm().size();
         for (std::size_t w = 0; w < count; ++w) {
-            const double n0 = on_path_.n(on_path_.incident())[w];
             for (std::size_t m = 0; m < normal.size(); ++m)
-                normal[m] = std::sqrt(medium(on_path_.index(m, w), n0, incidence).q2);
+                normal[m] = longest_normal(on_path_, m, w, incidence);
             Path path;
             add_path(elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance), gaps,
                      path);
@@ -393,10 +405,10 @@ private:
         const std::size_t sides = request_.sides.size();
         std::vector<Medium>& media = scratch.media;
         for (std::size_t j = 0; j < samples.points(); ++j) {
-            set_media(indices, j, incidence, media);
             for (std::size_t side = 0; side < sides; ++side) samples.row(side)[j] = 0;
             for (std::size_t k = 0; k < polarizations; ++k) {
                 const auto polarization = needs_.s && k == 0 ? Polarization::s : Polarization::p;
+                set_media(indices, j, incidence, polarization, media);
                 const FringeMean mean =
                     fringe_mean(stack, fast, media, indices.k0()[j], polarization);
                 scratch.left_out[k].add(indices.wavelength_nm()[j], mean);
@@ -534,8 +546,7 @@ double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_
     constexpr double kUsualTolerance = 1e-6;
     std::vector<Complex> normal(indices.materials());
     for (std::size_t m = 0; m < normal.size(); ++m)
-        normal[m] =
-            std::sqrt(medium(indices.index(m, 0), indices.n(indices.incident())[0], incidence).q2);
+        normal[m] = longest_normal(indices, m, 0, incidence);
     Path path;
     add_path(stack.elements, normal, indices.k0()[0], opaque_exponent(kUsualTolerance),
              Gaps::attenuate, path);

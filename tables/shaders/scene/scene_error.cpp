@@ -137,12 +137,21 @@ Triple film_xyz(const Film& film, double cos_theta, int orders, double sigma_nm,
     return xyz;
 }
 
+RefractiveIndex constant_index(Complex index) {
+    return {Constant{index.real()}, Constant{index.imag()}};
+}
+
 /// With the indices that shaders take, whatever the wavelength.
 Stack without_dispersion(Stack stack, const Sensitivity& sensitivity) {
     const Stack held = held_stack(stack, sensitivity);
     for (std::size_t m = 0; m < stack.materials.size(); ++m) {
-        const Complex index = index_at(held.materials[m], kShaderIndices_nm);
-        stack.materials[m].model = RefractiveIndex{Constant{index.real()}, Constant{index.imag()}};
+        const Material& material = held.materials[m];
+        stack.materials[m].model = constant_index(index_at(material, kShaderIndices_nm));
+        if (!is_uniaxial(material)) continue;
+        Uniaxial medium{{Material{material.name, stack.materials[m].model},
+                         Material{material.name, constant_index(extraordinary_index_at(
+                                                     material, kShaderIndices_nm))}}};
+        stack.materials[m].model = std::move(medium);
     }
     return stack;
 }

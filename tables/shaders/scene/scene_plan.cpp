@@ -138,6 +138,7 @@ private:
         const auto& second = std::get<Layer>(group->elements[1].value);
         if (first.material != stack.incident || first.material != stack.substrate)
             return "the first layer's material on both sides of the mirror";
+        if (first_uniaxial(stack.materials)) return "isotropic media";
         if (IndexTable(stack, {kMiddle_nm}).index(second.material, 0).imag() != 0)
             return "layers that do not absorb";
         return "";

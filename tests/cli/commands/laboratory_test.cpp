@@ -194,5 +194,128 @@ TEST_CASE("wavelengths in other units", "[cli][spectrum]") {
     CHECK(wavenumber[0].at("R") == rows_of({"spectrum", kOxide, "-w", "500"})[0].at("R"));
     check_refused(run_irido({"spectrum", kOxide, "--unit", "furlong"}), "--unit: must be one of");
     check_refused(run_irido({"spectrum", kOxide, "-w", "2000", "--unit", "eV"}),
-                  "--wavelengths, eV: must be in");
+                  "--wavelengths, eV: must be in [0.000123984, 1239.84] (got 2000)");
+    // without -w, the usual range, in the unit
+    const auto usual = rows_of({"spectrum", kOxide, "--unit", "um"});
+    REQUIRE(usual.size() == 401);
+    CHECK(usual[0].at("wavelength_um") == "0.38");
+    CHECK(usual[0].at("R") == nm[1].at("R"));
+    CHECK_THAT(number(rows_of({"spectrum", kOxide, "--unit", "eV"}).back(), "energy_eV"),
+               WithinAbs(1239.8419843320026 / 780, 1e-12));
+    const auto field = rows_of({"profile", kOxide, "--z", "0", "--unit", "um"});
+    CHECK(field[0].at("wavelength_um") == "0.55");
+    check_refused(run_irido({"spectrum", kOxide, "--f-number", "0"}),
+                  "--f-number: must be at least 1/(2 n), which is 0.5 in air (got 0)");
+    check_refused(run_irido({"spectrum", kOxide, "--f-number", "0.4"}),
+                  "an f-number must be at least 1/(2 n), here 0.5 (got 0.4)");
+}
+
+TEST_CASE("delays at 90 degrees are the limits of those before", "[cli][spectrum]") {
+    const auto rows = rows_of({"spectrum", "1 | 1.5@200 | 3", "-w", "550", "-a", "89.9999,90", "-p",
+                               "s,p", "--columns", "phase_r_deg,gd_r_fs,phase_t_deg,gd_t_fs"});
+    REQUIRE(rows.size() == 4);
+    for (const std::string column : {"phase_r_deg", "gd_r_fs", "phase_t_deg", "gd_t_fs"})
+        for (std::size_t p = 0; p < 2; ++p)
+            CHECK_THAT(number(rows[2 + p], column), WithinAbs(number(rows[p], column), 1e-3));
+}
+
+// Reference values: 40-digit evaluations.
+TEST_CASE("a rough face of silicon", "[cli][spectrum]") {
+    const std::vector<std::string> request{
+        "spectrum", "1 | 1.457@100 | 3.88+0.019i", "-w", "632.8", "-a", "70", "-p", "s",
+        "--set",    "substrate_roughness_nm=3"};
+    const auto added = rows_of(request);
+    CHECK_THAT(number(added[0], "R"), WithinAbs(0.2933708200673089, 1e-12));
+    CHECK_THAT(number(added[0], "T"), WithinAbs(0.7063802760179255, 1e-12));
+    auto other = request;
+    other.insert(other.end(), {"--set", "roughness_placement=centred", "--columns", "A_layers"});
+    const auto centred = rows_of(other);
+    CHECK(std::abs(number(centred[0], "R") - number(added[0], "R")) > 1e-4);
+    CHECK(centred[0].at("A_1") == "0");
+    CHECK(number(centred[0], "A_2") > 0);
+}
+
+TEST_CASE("a graded layer is one layer everywhere", "[cli][spectrum]") {
+    const std::string graded = R"({"incident": 1.5, "layers": [{"graded": {"from": 1.5, "to": 2.5,
+        "profile": "inverse-n"}, "thickness_nm": 150}], "substrate": 2.5})";
+    const auto closed = rows_of({"spectrum", "-", "-w", "550", "-p", "s,p"}, graded);
+    for (const Row& row : closed)
+        CHECK_THAT(number(row, "R"), WithinAbs(0.00010394353233271342, 1e-10));
+    std::string lossy = graded;
+    lossy.replace(lossy.find("\"to\": 2.5"), 9, "\"to\": {\"n\": 2.5, \"k\": 0.2}");
+    const auto by_layer =
+        rows_of({"spectrum", "-", "-w", "550", "-a", "30", "--columns", "A_layers"}, lossy);
+    CHECK(by_layer[0].size() == 7);
+    CHECK_THAT(number(by_layer[0], "A_1"), WithinAbs(number(by_layer[0], "A"), 1e-12));
+    const auto summary = rows_of({"profile", "-", "-p", "p", "-a", "30", "--summary"}, lossy);
+    REQUIRE(summary.size() == 2);
+    CHECK(summary[1].at("medium") == "2");
+    const auto absorbed = rows_of({"spectrum", "-", "-w", "550", "-a", "30", "-p", "p"}, lossy);
+    CHECK_THAT(number(summary[0], "absorbed"), WithinAbs(number(absorbed[0], "A"), 1e-12));
+    const auto field = rows_of({"profile", "-", "--z", "75,149.9,150"}, lossy);
+    CHECK(field[0].at("medium") == "1");
+    CHECK(field[1].at("medium") == "1");
+    CHECK(field[2].at("medium") == "2");
+    // a thickness that varies reads the document again
+    const Outcome swept = run_irido({"sweep", "-", "--vary", "layers.0.thickness_nm=150,200",
+                                     "--compute", "spectrum", "-w", "550", "--quiet"},
+                                    graded);
+    const auto rows = parse_csv(swept.out);
+    REQUIRE(rows.size() == 3);
+    CHECK_THAT(std::stod(rows[1][4]), WithinAbs(0.00010394353233271342, 1e-10));
+    CHECK(rows[2][4] != rows[1][4]);
+}
+
+TEST_CASE("delays and colours of graded layers and crystals", "[cli][spectrum]") {
+    const std::string crystal = R"({"incident": 1, "layers": [{"material": {"ordinary": 1.658,
+        "extraordinary": 1.486}, "thickness_nm": 1000}], "substrate": 1.5})";
+    const auto delays = rows_of({"spectrum", "-", "-w", "550,551", "-a", "60", "-p", "s,p",
+                                 "--columns", "phase_t_deg,gd_t_fs"},
+                                crystal);
+    // the same media without dispersion: the phase is proportional to the frequency but for r
+    CHECK(number(delays[0], "gd_t_fs") > 4);
+    CHECK(delays[0].at("gd_t_fs") != delays[2].at("gd_t_fs"));
+    const Outcome color = run_irido({"color", "-", "-a", "0,60", "--stats"}, crystal);
+    CHECK(color.status == 0);
+    CHECK_THAT(color.out, Contains("quadrature"));
+    const auto psi =
+        rows_of({"spectrum", "-", "-w", "550", "-a", "60", "--columns", "psi_deg"}, crystal);
+    CHECK(number(psi[0], "psi_deg") > 0);
+    for (const auto& [command, error] :
+         {std::pair{"cm", "a uniaxial medium"}, std::pair{"bands", "isotropic media"}}) {
+        const std::string mirror = R"({"incident": 1, "layers": [{"repeat": 4, "layers": [
+            {"material": {"ordinary": 1.6, "extraordinary": 1.5}, "thickness_nm": 100},
+            {"material": 2, "thickness_nm": 80}]}], "substrate": 1.5})";
+        check_refused(run_irido({command, "-"}, command == std::string("cm") ? crystal : mirror),
+                      error);
+    }
+    check_refused(run_irido({"color", "-", "--method", "fourier"}, crystal), "uniaxial");
+    const auto back = rows_of({"spectrum", "-", "-w", "550", "--reverse"}, crystal);
+    CHECK_THAT(number(back[0], "T"),
+               WithinAbs(number(rows_of({"spectrum", "-", "-w", "550"}, crystal)[0], "T"), 1e-12));
+}
+
+TEST_CASE("quarter waves and mixtures on the command line", "[cli][spectrum]") {
+    const auto quarter = rows_of({"spectrum", "air | (H@1Q | L@1Q)^8 | 1.52", "--reference", "550",
+                                  "--material", "H=2.35", "--material", "L=1.46", "-w", "550"});
+    // H^16 over L^16: (n0/ns) (H/L)^16 at the centre
+    const double y = std::pow(2.35 / 1.46, 16) * 1.52;
+    CHECK_THAT(number(quarter[0], "R"), WithinAbs(std::pow((1 - y) / (1 + y), 2), 1e-12));
+    check_refused(run_irido({"spectrum", "air | 2@1Q | 1.5", "-w", "550"}),
+                  "/layers/0/qwot: requires the stack's reference_nm (or --reference NM)");
+    const auto mixed = rows_of(
+        {"spectrum", "air | M@100 | 1.5", "-w", "550", "--material",
+         R"(M={"mixture": {"inclusion": "air", "host": 2, "fraction": 0.5, "model": "linear"}})"});
+    const auto plain = rows_of({"spectrum", "1 | M@100 | 1.5", "-w", "550", "--material",
+                                "M=" + std::to_string(std::sqrt((1.0002 * 1.0002 + 4) / 2))});
+    CHECK_THAT(number(mixed[0], "R"), WithinAbs(number(plain[0], "R"), 1e-3));
+    const Outcome varied = run_irido(
+        {"sweep", "air | M@100 | 1.5", "--material",
+         R"(M={"mixture": {"inclusion": 1, "host": 2, "fraction": 0.5}})", "--vary",
+         "materials.M.mixture.fraction=0,1", "--compute", "spectrum", "-w", "550", "--quiet"});
+    const auto rows = parse_csv(varied.out);
+    REQUIRE(rows.size() == 3);
+    CHECK_THAT(
+        std::stod(rows[2][4]),
+        WithinAbs(number(rows_of({"spectrum", "air | 1@100 | 1.5", "-w", "550"})[0], "R"), 1e-13));
 }

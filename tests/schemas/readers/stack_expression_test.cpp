@@ -158,7 +158,7 @@ TEST_CASE("Thicknesses have units, each rounded once") {
         REQUIRE(thickness(um + "mm") == std::stod(um + "e6"));
     }
     CHECK(error_of("1 | 1.5@1px | 1") ==
-          "column 9: expected a thickness such as 100, 100nm, 0.1um or 1mm, found \"1px\"");
+          "column 9: expected a thickness such as 100, 100nm, 0.1um, 1mm or 1Q, found \"1px\"");
     CHECK(error_of("1 | 1.5@1m | 1").starts_with("column 9: expected a thickness such as"));
     CHECK(error_of("1 | 1.5@um | 1") == "column 9: expected a thickness in nm, found \"um\"");
     CHECK(error_of("1 | 1.5@1e308mm | 1").starts_with("column 9: expected a thickness"));
