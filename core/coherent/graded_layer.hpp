@@ -8,7 +8,7 @@
 namespace irido {
 
 /// Error of r and t that the parts of a graded layer stay below, if kMostGradedSteps suffice.
-inline constexpr double kGradedError = 1e-10;
+inline constexpr double kGradedError = 2e-11;
 inline constexpr std::size_t kMostGradedSteps = 4096;
 
 /// Where this is measured, nm: it falls with the fourth power of longer wavelengths.
