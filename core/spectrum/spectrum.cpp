@@ -86,7 +86,7 @@ private:
         Response response;
         set_media(table_, wavelength_, incidence_, polarization, media_);
         try {
-            response = stack_(media_, k0, polarization);
+            response = stack_(media_, k0, polarization, {needs_.T, needs_.A});
             if (needs_.layers) stack_.layer_absorption(media_, k0, polarization, absorbed_);
         } catch (const DomainError& error) {
             const double nm = table_.wavelength_nm()[point % table_.wavelength_nm().size()];
