@@ -7,6 +7,7 @@
 #include "core/math/constants.hpp"
 #include "core/math/sine_integral.hpp"
 #include "core/math/vector_math.hpp"
+#include "core/scratch/scratch.hpp"
 
 namespace irido {
 
@@ -76,84 +77,139 @@ SpectralNodes equal_nodes(const Sensitivity& sensitivity, std::size_t count) {
     return nodes;
 }
 
-SlitColors::SlitColors(const Sensitivity& sensitivity, double largest_u_um,
-                       double largest_depth_um) {
-    require_in_range("u_um", largest_u_um, 0, kLargest_u_um);
-    require_in_range("depth_um", largest_depth_um, 0, 1e2);
-    nodes_ = spectral_nodes(sensitivity, largest_u_um + 2 * largest_depth_um);
+SpectralNodes three_wavelengths() {
+    SpectralNodes nodes;
+    for (const double wavelength_nm : {650.0, 510.0, 475.0})
+        nodes.nu_per_um.push_back(kNmPerUm / wavelength_nm);
+    const ColorMatrix matrix = xyz_from_rgb(rgb_space("srgb"));
+    for (std::size_t c = 0; c < 3; ++c) nodes.weight[c].assign(matrix[c].begin(), matrix[c].end());
+    return nodes;
 }
 
-SlitColors::SlitColors(SpectralNodes nodes) : nodes_(std::move(nodes)) {}
+double published_slit_integral(double x) {
+    constexpr double a0 = 0.66142739, b0 = 0.38272292;
+    const double sign = x < 0 ? -1 : 1, off = x - sign * b0;
+    const double si = kPi / 2 * std::tanh(x) - a0 * x / (1 + off * off) +
+                      sign * (1 - std::cos(x)) / (1 + std::abs(x));
+    return x == 0 ? 0 : si - (1 - std::cos(x)) / x;
+}
 
-/// sum over nodes of weight make(u, nu) 4 sin^2(2 pi D nu)
-template <class Make>
-std::vector<Triple> SlitColors::product(std::span<const double> u_um,
-                                        std::span<const double> depth_um, const Make& make) const {
-    const std::size_t size = nodes_.size();
-    std::vector<double> angle(size), sine(size), cosine(size), of_u(size);
-    std::vector<std::vector<double>> groove;
-    for (const double depth : depth_um) {
-        for (std::size_t i = 0; i < size; ++i) angle[i] = kTwoPi * depth * nodes_.nu_per_um[i];
-        sin_cos(angle, sine, cosine, best_simd_level());
-        for (double& value : sine) value = 4 * value * value;
-        groove.push_back(sine);
+SlitColors::SlitColors(const Sensitivity& sensitivity, double largest_u_um,
+                       double largest_depth_um) {
+    constexpr double kFirst_um = 8, kGrowth = 4;
+    require_in_range("u_um", largest_u_um, 0, kLargest_u_um);
+    require_in_range("depth_um", largest_depth_um, 0, kDeepest_um);
+    double reach_um = 0;
+    while (reach_um < largest_u_um || levels_.empty()) {
+        reach_um = std::min(levels_.empty() ? kFirst_um : kGrowth * reach_um, kLargest_u_um);
+        levels_.push_back({reach_um, spectral_nodes(sensitivity, std::min(reach_um, largest_u_um) +
+                                                                     2 * largest_depth_um)});
     }
-    std::vector<Triple> values;
+}
+
+SlitColors::SlitColors(SpectralNodes nodes) {
+    levels_.push_back({kLargest_u_um, std::move(nodes)});
+}
+
+const SlitColors::Level& SlitColors::level_of(double u_um) const {
+    require_in_range("u_um", u_um, -kLargest_u_um, kLargest_u_um);
+    for (const Level& level : levels_)
+        if (std::abs(u_um) <= level.largest_u_um) return level;
+    throw DomainError("u_um must be within the range prepared for (got " + to_text(u_um) + ")");
+}
+
+/// sum over nodes of of_slit(u, nu) times the waves of each depth, which a function makes for the
+/// nodes of a level: [depth][channel][node].
+template <class Value, class Waves>
+std::vector<Value> SlitColors::products(std::span<const double> u_um,
+                                        std::span<const double> depth_um, OfSlit of_slit,
+                                        const Waves& waves_of) const {
+    std::vector<decltype(waves_of(levels_.front().nodes, 0.0))> waves;
+    const Level* waves_level = nullptr;
+    std::vector<double> slit;
+    std::vector<Value> values;
     for (const double u : u_um) {
-        for (std::size_t i = 0; i < size; ++i) of_u[i] = make(u, nodes_.nu_per_um[i]);
-        std::array<std::vector<double>, 3> weighted = nodes_.weight;
-        for (std::vector<double>& weight : weighted)
-            for (std::size_t i = 0; i < size; ++i) weight[i] *= of_u[i];
-        for (const std::vector<double>& power : groove) {
-            Triple sum{};
+        const Level& level = level_of(u);
+        const std::size_t size = level.nodes.size();
+        if (&level != waves_level) {
+            waves.clear();
+            for (const double depth : depth_um) waves.push_back(waves_of(level.nodes, depth));
+            waves_level = &level;
+        }
+        slit.resize(size);
+        for (std::size_t i = 0; i < size; ++i) slit[i] = of_slit(u, level.nodes.nu_per_um[i]);
+        for (const auto& wave : waves) {
+            Value sum{};
             for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t i = 0; i < size; ++i) sum[c] += weighted[c][i] * power[i];
+                for (std::size_t i = 0; i < size; ++i) sum[c] += slit[i] * wave[c][i];
             values.push_back(sum);
         }
     }
     return values;
 }
 
+std::vector<Triple> SlitColors::grooves(std::span<const double> u_um,
+                                        std::span<const double> depth_um, OfSlit of_slit) const {
+    return products<Triple>(u_um, depth_um, of_slit, [](const SpectralNodes& nodes, double depth) {
+        std::array<std::vector<double>, 3> wave = nodes.weight;
+        std::vector<double> angle(nodes.size()), sine(nodes.size()), cosine(nodes.size());
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            angle[i] = kTwoPi * depth * nodes.nu_per_um[i];
+        sin_cos(angle, sine, cosine, best_simd_level());
+        for (std::vector<double>& channel : wave)
+            for (std::size_t i = 0; i < nodes.size(); ++i) channel[i] *= 4 * sine[i] * sine[i];
+        return wave;
+    });
+}
+
+std::vector<ComplexTriple> SlitColors::carriers(std::span<const double> u_um,
+                                                std::span<const double> depth_um,
+                                                const Triple& carrier_um, OfSlit of_slit) const {
+    return products<ComplexTriple>(
+        u_um, depth_um, of_slit, [&](const SpectralNodes& nodes, double depth) {
+            std::array<std::vector<Complex>, 3> wave;
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < nodes.size(); ++i)
+                    wave[c].push_back(
+                        nodes.weight[c][i] *
+                        std::polar(1.0,
+                                   2 * kTwoPi * depth * (nodes.nu_per_um[i] - 1 / carrier_um[c])));
+            return wave;
+        });
+}
+
+namespace {
+
+double lobe_up_to(double u_um, double nu_per_um) {
+    return slit_integral(kTwoPi * u_um * nu_per_um) / kPi;
+}
+double lobe_at(double u_um, double nu_per_um) {
+    const double x = kPi * u_um * nu_per_um, sinc = sinc_of(x, std::sin(x));
+    return nu_per_um * sinc * sinc;
+}
+
+}  // namespace
+
 std::vector<Triple> SlitColors::power(std::span<const double> u_um,
                                       std::span<const double> depth_um) const {
-    return product(u_um, depth_um,
-                   [](double u, double nu) { return slit_integral(kTwoPi * u * nu) / kPi; });
+    return grooves(u_um, depth_um, lobe_up_to);
 }
 
 std::vector<Triple> SlitColors::slope(std::span<const double> u_um,
                                       std::span<const double> depth_um) const {
-    return product(u_um, depth_um, [](double u, double nu) {
-        const double x = kPi * u * nu, sinc = sinc_of(x, std::sin(x));
-        return nu * sinc * sinc;
-    });
+    return grooves(u_um, depth_um, lobe_at);
 }
 
 std::vector<ComplexTriple> SlitColors::carried(std::span<const double> u_um,
                                                std::span<const double> depth_um,
                                                const Triple& carrier_um) const {
-    const std::size_t size = nodes_.size();
-    std::vector<std::array<std::vector<Complex>, 3>> waves;  // of each depth
-    for (const double depth : depth_um) {
-        std::array<std::vector<Complex>, 3>& wave = waves.emplace_back();
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < size; ++i)
-                wave[c].push_back(nodes_.weight[c][i] *
-                                  std::polar(1.0, 2 * kTwoPi * depth *
-                                                      (nodes_.nu_per_um[i] - 1 / carrier_um[c])));
-    }
-    std::vector<ComplexTriple> values;
-    std::vector<double> of_u(size);
-    for (const double u : u_um) {
-        for (std::size_t i = 0; i < size; ++i)
-            of_u[i] = slit_integral(kTwoPi * u * nodes_.nu_per_um[i]) / kPi;
-        for (const auto& wave : waves) {
-            ComplexTriple sum{};
-            for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t i = 0; i < size; ++i) sum[c] += of_u[i] * wave[c][i];
-            values.push_back(sum);
-        }
-    }
-    return values;
+    return carriers(u_um, depth_um, carrier_um, lobe_up_to);
+}
+
+std::vector<ComplexTriple> SlitColors::carried_slope(std::span<const double> u_um,
+                                                     std::span<const double> depth_um,
+                                                     const Triple& carrier_um) const {
+    return carriers(u_um, depth_um, carrier_um, lobe_at);
 }
 
 PointColors::PointColors(const Sensitivity& sensitivity) : sensitivity_(sensitivity) {}

@@ -29,6 +29,13 @@ SpectralNodes spectral_nodes(const Sensitivity& sensitivity, double path_um);
 SpectralNodes one_panel_nodes(const Sensitivity& sensitivity, std::size_t count);
 SpectralNodes equal_nodes(const Sensitivity& sensitivity, std::size_t count);
 
+/// Three wavelengths, 650, 510 and 475 nm, as linear sRGB: for comparisons.
+SpectralNodes three_wavelengths();
+
+/// F(x) with the sine integral's fit of VWH18 eq. 29: off by up to 0.05, its tail a third too low,
+/// and not monotonic, so that it takes light away between many pairs of directions.
+double published_slit_integral(double x);
+
 /// Colours that a scratch of depth D diffracts up to u = W q, all widths and directions in one
 /// table; v = 2 D, nu = 1/lambda, F of slit_integral():
 ///     T_j(u, D)  = int s_j 4 sin^2(2 pi D nu) F(2 pi u nu)/pi dlambda,   odd in u
@@ -44,20 +51,37 @@ public:
     /// The same by other nodes.
     explicit SlitColors(SpectralNodes nodes);
 
-    /// T, T' or Q at all combinations, [u][depth]; T' and T as X, Y, Z, Q as three complex numbers.
+    /// At all combinations, [u][depth]: T, T', Q and dQ/du.
     std::vector<Triple> power(std::span<const double> u_um, std::span<const double> depth_um) const;
     std::vector<Triple> slope(std::span<const double> u_um, std::span<const double> depth_um) const;
     std::vector<ComplexTriple> carried(std::span<const double> u_um,
                                        std::span<const double> depth_um,
                                        const Triple& carrier_um) const;
+    std::vector<ComplexTriple> carried_slope(std::span<const double> u_um,
+                                             std::span<const double> depth_um,
+                                             const Triple& carrier_um) const;
 
     static constexpr double kLargest_u_um = 1e3;
 
 private:
-    template <class Make>
-    std::vector<Triple> product(std::span<const double> u_um, std::span<const double> depth_um,
-                                const Make& make) const;
-    SpectralNodes nodes_;
+    /// Nodes for u up to a largest one.
+    struct Level {
+        double largest_u_um;
+        SpectralNodes nodes;
+    };
+    /// What varies with u, F/pi or its derivative, at a node.
+    using OfSlit = double (*)(double u_um, double nu_per_um);
+    const Level& level_of(double u_um) const;
+    template <class Value, class Waves>
+    std::vector<Value> products(std::span<const double> u_um, std::span<const double> depth_um,
+                                OfSlit of_slit, const Waves& waves_of) const;
+    std::vector<Triple> grooves(std::span<const double> u_um, std::span<const double> depth_um,
+                                OfSlit of_slit) const;
+    std::vector<ComplexTriple> carriers(std::span<const double> u_um,
+                                        std::span<const double> depth_um, const Triple& carrier_um,
+                                        OfSlit of_slit) const;
+
+    std::vector<Level> levels_;  ///< ascending
 };
 
 /// lambda_j of the carriers of Q, um: near the centroids of the largest lobes of X, Y, Z in

@@ -185,7 +185,7 @@ TEST_CASE("area lights are sums of point lights", "[scratch]") {
         const double length = std::sqrt(dot(side, side));
         for (double& value : side) value /= length;
         const UnitVector up = cross(axis, side);
-        constexpr int kRings = 700, kTurns = 700;
+        constexpr int kRings = 500, kTurns = 500;
         double sum = 0;
         for (int ring = 0; ring < kRings; ++ring) {
             const double theta = top * (ring + 0.5) / kRings;

@@ -131,3 +131,20 @@ TEST_CASE("few nodes are as exact as stated", "[scratch]") {
     CHECK(equal > 1e-4);
     CHECK(equal < 2e-2);
 }
+
+// The fit of VWH18 eq. 29: its largest error, its slope at 0, its tail, and that it falls.
+TEST_CASE("the published fit of the sine integral is what it is", "[scratch]") {
+    double largest = 0, falls = 0;
+    constexpr double kStep = 1e-3;
+    for (double x = kStep; x < 200; x += kStep) {
+        largest = std::max(largest, std::abs(published_slit_integral(x) - slit_integral(x)));
+        if (x > 10)
+            falls += published_slit_integral(x + kStep) < published_slit_integral(x) ? kStep : 0;
+    }
+    CHECK(std::abs(largest - 0.051) < 5e-4);
+    CHECK(std::abs(falls / 190 - 0.24) < 0.01);
+    const double tail = (kPi / 2 - published_slit_integral(1e5)) * 1e5;
+    CHECK(std::abs(tail - 0.661) < 1e-3);
+    CHECK(std::abs(published_slit_integral(1e-5) / 0.5e-5 - 0.988) < 1e-3);
+    CHECK(published_slit_integral(-2) == -published_slit_integral(2));
+}
