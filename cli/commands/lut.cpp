@@ -435,7 +435,10 @@ void add_shader(CLI::App& lut, Run& run) {
     for (const std::string_view name : tables::shader_names())
         names += (names.empty() ? "" : ", ") + std::string(name);
     shader->add_option("NAME", typed->name, "one of " + names)->required();
-    shader->add_option("--language", typed->language, "glsl or hlsl [glsl]")->type_name("NAME");
+    shader
+        ->add_option("--language", typed->language,
+                     "glsl, hlsl or, for scratch and scratch-nodes, wgsl [glsl]")
+        ->type_name("NAME");
     offer(*shader, "NAME", tables::shader_names);
     offer(*shader, "language", tables::shader_languages);
     set_examples(*shader,
@@ -450,6 +453,10 @@ void add_shader(CLI::App& lut, Run& run) {
                 throw UsageError("NAME: " + not_one_of(known, typed->name));
             if (std::ranges::find(languages, typed->language) == languages.end())
                 throw UsageError("--language: " + not_one_of(languages, typed->language));
+            const auto written = tables::shader_names_in(typed->language);
+            if (std::ranges::find(written, typed->name) == written.end())
+                throw UsageError("NAME: in " + typed->language + " " +
+                                 not_one_of(written, typed->name));
             tables::write_stdout(tables::shader_source(typed->name, typed->language));
             return 0;
         };

@@ -37,8 +37,8 @@ float3 irido_scratch_nodes(TEXTURE2D(nodes), float count, float u0, float u1, fl
     return sum;
 }
 
-// The same for one direction of the light, per steradian and 1/rho times cos theta: many
-// scratches of one width at all angles are rho W / (pi |xi|) of it, with u = W |xi|.
+// T'(u): many scratches of one width at all angles reflect rho W / (pi |xi|) of it per steradian,
+// with u = W |xi|.
 float3 irido_scratch_nodes_slope(TEXTURE2D(nodes), float count, float u, float v)
 {
     float3 sum = float3(0.0, 0.0, 0.0);
