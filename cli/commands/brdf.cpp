@@ -47,7 +47,8 @@ int run_brdf(const BrdfCommand& command) {
 
 void add_brdf_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "brdf", "How a rough surface of thin films scatters light: BRDF, albedo, transmissivity.");
+        "brdf",
+        "How a surface scatters light, rough layers of thin films or scratches: BRDF, albedo.");
     const auto options = std::make_shared<BrdfCommand>();
     add_surface_options(*command, options->surface);
     add_direction_options(*command, options->query.directions);
@@ -61,9 +62,10 @@ void add_brdf_command(CLI::App& program, Run& run) {
                      "albedo: of light from each --light-theta, reflected into all directions,\n"
                      "the coating's mirror among them\n"
                      "transmissivity: of each layer, --light-theta being the angle inside\n"
-                     "sampling: probabilities of the coating (0), each layer and the base [brdf]")
+                     "sampling: probabilities of the coating (0), each layer and the base\n"
+                     "density: of scratches, the share of the area that they cover [brdf]")
         ->type_name("QUANTITY");
-    offer(*command, "quantity", "brdf albedo transmissivity sampling");
+    offer(*command, "quantity", "brdf albedo transmissivity sampling density");
     command
         ->add_option("--paths", options->query.paths,
                      "single: light reflected once, by a layer or the base\n"
@@ -79,6 +81,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
     command->add_flag("--color", options->query.wants_color,
                       "instead of wavelengths columns X,Y,Z,r,g,b,hex: colour of pi times the\n"
                       "BRDF, a white diffuser being 1, or of the albedo");
+    add_scratch_options(*command, options->query.scratch);
     add_light_options(*command, options->query.color);
     add_space_options(*command, options->query.color);
     command
@@ -102,7 +105,9 @@ void add_brdf_command(CLI::App& program, Run& run) {
          "irido brdf schemas/examples/surfaces/green-on-pale.json --light-theta 0:85:5 "
          "--quantity albedo --paths all -w 550",
          "irido brdf schemas/examples/surfaces/blue-over-red.json --light-theta 45 "
-         "--view-theta 0:80:1 --color -o strip.svg"},
+         "--view-theta 0:80:1 --color -o strip.svg",
+         "irido brdf schemas/examples/surfaces/worn-spoon.json --light-theta 19.7 --light-phi "
+         "206.5 --view-theta 20 --view-phi 40 --footprint 150,80,20 --color"},
         "Directions point away from the surface. Rows are every combination, in the order\n"
         "light-theta, light-phi, view-theta, view-phi, wavelength, the last one fastest.");
     command->callback([options, &run] { run = [options] { return run_brdf(*options); }; });

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include "cli/queries/color_query.hpp"
 #include "cli/queries/surface_query.hpp"
+#include "cli/queries/surface_rows.hpp"
 #include "core/error.hpp"
 #include "core/rough/layered/adding.hpp"
 #include "core/rough/layered/layered_color.hpp"
@@ -13,8 +13,6 @@
 namespace irido::cli {
 
 namespace {
-
-constexpr double kMostSurfaceRows = 1e8;
 
 /// Relative, of all paths where there is no closed form.
 constexpr double kDefaultAddingTolerance = 1e-3;
@@ -37,91 +35,6 @@ Crossings parse_crossings(const std::string& text) {
     if (text == names[0]) return Crossings::single;
     if (text == names[1]) return Crossings::multiple;
     throw UsageError("--transmission: " + not_one_of(names, text));
-}
-
-void require_few_rows(double rows) {
-    if (rows > kMostSurfaceRows)
-        throw UsageError("rows: must be at most 1e8 (got " + to_text(rows) + ")");
-}
-
-using Numbers = tables::Column::Numbers;
-
-/// A table of numbers by its columns.
-SurfaceRows rows_of(std::vector<std::pair<std::string, Numbers>> columns, std::size_t keys) {
-    SurfaceRows rows;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        const tables::FigureAxis axis = tables::axis_of_column(columns[c].first);
-        if (c < keys)
-            rows.plot.keys.push_back({columns[c].first, axis});
-        else
-            rows.plot.values.push_back({columns[c].first, axis});
-        rows.records.columns.push_back({columns[c].first, std::move(columns[c].second)});
-    }
-    return rows;
-}
-
-/// Colours under one illuminant, as columns.
-class ColorColumns {
-public:
-    explicit ColorColumns(const ColorOptions& typed)
-        : space_(parse_space(typed.space)),
-          illumination_(
-              typed.illuminant,
-              Sensitivity(parse_observer(typed.observer), parse_illuminant(typed.illuminant)),
-              space_, parse_adaptation(typed.adaptation)),
-          drawn_(rgb_space("srgb"), illumination_.white(), Adaptation::bradford) {}
-
-    const Illumination& illumination() const { return illumination_; }
-
-    /// Rows of keys and colours; keys are columns already.
-    SurfaceRows rows(std::vector<std::pair<std::string, Numbers>> keys,
-                     const std::vector<Triple>& colors) const {
-        const std::size_t key_count = keys.size();
-        std::array<Numbers, 6> numbers;
-        tables::Column::Texts hexes;
-        tables::RowPlot plot;
-        tables::InkMixer mixer(tables::GamutMapping{});
-        for (const Triple& xyz : colors) {
-            const Triple rgb = illumination_.transform(xyz);
-            for (std::size_t c = 0; c < 3; ++c) {
-                numbers[c].push_back(xyz[c] + 0.0);
-                numbers[3 + c].push_back(rgb[c] + 0.0);
-            }
-            hexes.push_back(hex(space_, rgb));
-            plot.inks.push_back(mixer(drawn_(xyz)));
-        }
-        constexpr std::array names{"X", "Y", "Z", "r", "g", "b"};
-        for (std::size_t c = 0; c < names.size(); ++c)
-            keys.emplace_back(names[c], std::move(numbers[c]));
-        SurfaceRows rows = rows_of(std::move(keys), key_count);
-        rows.records.columns.push_back({"hex", std::move(hexes)});
-        rows.plot.values.clear();
-        rows.plot.inks = std::move(plot.inks);
-        if (std::string share = mixer.note(); !share.empty())
-            rows.plot.notes.push_back(std::move(share));
-        return rows;
-    }
-
-private:
-    const RgbSpace& space_;
-    Illumination illumination_;
-    RgbTransform drawn_;
-};
-
-/// Angles of a table, each as often as it has rows.
-std::vector<std::pair<std::string, Numbers>> direction_columns(
-    const std::vector<Directions>& directions, std::size_t times) {
-    std::vector<std::pair<std::string, Numbers>> columns{{"light_theta_deg", {}},
-                                                         {"light_phi_deg", {}},
-                                                         {"view_theta_deg", {}},
-                                                         {"view_phi_deg", {}}};
-    for (const Directions& one : directions) {
-        const std::array<double, 4> row{one.light_theta_deg, one.light_phi_deg, one.view_theta_deg,
-                                        one.view_phi_deg};
-        for (std::size_t c = 0; c < row.size(); ++c)
-            columns[c].second.insert(columns[c].second.end(), times, row[c]);
-    }
-    return columns;
 }
 
 std::vector<ScatterPair> pairs_of(const std::vector<Directions>& directions) {
@@ -171,7 +84,7 @@ SurfaceRows layered_colors(const LayeredSurface& surface, const schemas::Surface
     const LayeredColor color(illumination.tables, surface, parse_crossings(query.transmission),
                              tolerance, query.execution);
     const Paths paths = parse_paths(query.paths);
-    std::vector<std::pair<std::string, Numbers>> keys;
+    KeyColumns keys;
     std::vector<SurfaceColor> colors;
     if (query.quantity == "brdf") {
         const std::vector<Directions> directions = parse_directions(query.directions);
@@ -322,6 +235,8 @@ private:
 
 SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                             const SurfaceQuery& query) {
+    if (const std::string typed = query.scratch.typed(); !typed.empty())
+        throw UsageError(typed + ": takes surfaces with scratches");
     try {
         return query.wants_color ? layered_colors(surface, document, query)
                                  : LayeredAnswers(surface, document, query).rows();

@@ -7,6 +7,7 @@
 #include "core/rough/ggx.hpp"
 #include "schemas/documents/inner_stack.hpp"
 #include "schemas/documents/schema_check.hpp"
+#include "schemas/documents/scratched_document.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido::schemas {
@@ -144,10 +145,14 @@ SurfaceDocument read_checked(const json& document, const std::string& file,
         problems.emplace_back(file, problem.pointer, problem.message);
     SurfaceDocument result;
     if (!problems.empty()) return result;
-    LayeredReader reader(document, file, folder);
-    result.surface = reader.read();
     result.file = file;
     result.name = document.value("name", "");
+    if (is_scratched(document)) {
+        result.surface = read_scratched(document, file, folder, problems, result.notes);
+        return result;
+    }
+    LayeredReader reader(document, file, folder);
+    result.surface = reader.read();
     result.notes = std::move(reader.notes);
     problems = std::move(reader.problems);
     return result;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/rough/layered/layered_surface.hpp"
+#include "core/scratch/scratched_surface.hpp"
 #include "schemas/documents/stack_document.hpp"
 
 namespace irido::schemas {
@@ -18,7 +19,7 @@ struct SurfaceRequest {
 };
 
 /// Every kind of surface that a document describes.
-using Surface = std::variant<LayeredSurface>;
+using Surface = std::variant<LayeredSurface, ScratchedSurface>;
 
 /// A surface document as plain values.
 struct SurfaceDocument {
