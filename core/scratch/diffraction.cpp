@@ -44,10 +44,16 @@ double slit_power(double width_um, double xi2, double wavenumber_per_um) {
 }
 
 double scratch_brdf(const VisibleScratch& scratch, const ScratchPair& pair, double wavelength_um) {
-    const double nu = wavenumber_of(wavelength_um), width = scratch.scratch().width_um;
+    const double nu = wavenumber_of(wavelength_um);
     const double y = kTwoPi * scratch.coherence_radius_um() * pair.xi1 * nu;
+    return scratch_brdf_of_lobe(scratch, pair, wavelength_um, scratch.power(y));
+}
+
+double scratch_brdf_of_lobe(const VisibleScratch& scratch, const ScratchPair& pair,
+                            double wavelength_um, double power) {
+    const double nu = wavenumber_of(wavelength_um), width = scratch.scratch().width_um;
     return 2 * width * width * nu * nu * slit_power(width, pair.xi2, nu) *
-           groove_power(pair.path_um, nu) * scratch.power(y);
+           groove_power(pair.path_um, nu) * power;
 }
 
 Complex scratch_amplitude(const VisibleScratch& scratch, const ScratchPair& pair,

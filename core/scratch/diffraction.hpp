@@ -32,6 +32,10 @@ double slit_power(double width_um, double xi2, double wavenumber_per_um);
 /// (2017). The constant follows from Parseval's theorem: int w^2 = pi sigma^2.
 double scratch_brdf(const VisibleScratch& scratch, const ScratchPair& pair, double wavelength_um);
 
+/// The same with |eta|^2/(2 pi sigma^2) given, as VisibleScratch::power() has it.
+double scratch_brdf_of_lobe(const VisibleScratch& scratch, const ScratchPair& pair,
+                            double wavelength_um, double power);
+
 /// The amplitude whose squared magnitude that is; amplitudes of scratches seen from the same point
 /// add up where their waves are coherent.
 Complex scratch_amplitude(const VisibleScratch& scratch, const ScratchPair& pair,

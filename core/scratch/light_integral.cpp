@@ -161,27 +161,35 @@ double adaptive(std::vector<SmoothPiece> pieces, const Function& at) {
     return sum;
 }
 
-/// Between the light's breaks where the scratch's lobe counts.
-std::vector<SmoothPiece> smooth_pieces(const VisibleScratch& scratch, const LightSlices& light,
-                                       double view_along, double per_xi1) {
-    constexpr double kReach = 6.5, kFirstLength = 3.25;  // of sigma k xi_1
+/// Between the light's breaks where the scratch's lobe counts; far from its middle, where ends
+/// reflect, pieces grow.
+std::vector<SmoothPiece> smooth_pieces(bool has_ends, const LightSlices& light, double view_along,
+                                       double per_xi1) {
+    constexpr double kReach = 6.5, kFirstLength = 3.25;  // of y = sigma k xi_1
     const std::span<const double> breaks = light.breaks();
     const double first = breaks.front() + view_along, last = breaks.back() + view_along;
     const double nearest = first > 0 ? first : last < 0 ? -last : 0;
-    const double limit = scratch.has_ends() ? 3 : std::hypot(nearest, kReach / per_xi1);
+    const double limit = has_ends ? 3 : std::hypot(nearest, kReach / per_xi1);
     std::vector<SmoothPiece> pieces;
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         const double a = breaks[i] + view_along, b = breaks[i + 1] + view_along;
         const double from = std::max(a, -limit), to = std::min(b, limit);
         const double half = (b - a) / 2, middle = a + half;
         if (!(from < to) || !(half > 0)) continue;
-        const double phi = std::asin(std::clamp((from - middle) / half, -1.0, 1.0)),
-                     end = std::asin(std::clamp((to - middle) / half, -1.0, 1.0));
-        const int count =
-            std::clamp(static_cast<int>(std::ceil((to - from) * per_xi1 / kFirstLength)), 1, 1024);
-        for (int k = 0; k < count; ++k)
-            pieces.push_back(
-                {middle, half, phi + (end - phi) * k / count, phi + (end - phi) * (k + 1) / count});
+        const auto phi_of = [&](double xi1) {
+            return std::asin(std::clamp((xi1 - middle) / half, -1.0, 1.0));
+        };
+        for (double at = from; at < to;) {
+            const double y = at * per_xi1;
+            // from outside inwards half of the way, from inside outwards as far again
+            const double length = y < -kReach  ? std::max(kFirstLength, -y / 2)
+                                  : y > kReach ? y
+                                               : kFirstLength;
+            double next = std::min(to, at + length / per_xi1);
+            if (next + 0.1 * length / per_xi1 > to) next = to;
+            pieces.push_back({middle, half, phi_of(at), phi_of(next)});
+            at = next;
+        }
     }
     return pieces;
 }
@@ -221,9 +229,19 @@ std::vector<Interval> band_intervals(const VisibleScratch& scratch, const LightS
     return intervals;
 }
 
+LobeTable lobe_under(const VisibleScratch& scratch, const LightSlices& light,
+                     const UnitVector& view, double shortest_um) {
+    if (light.breaks().empty()) return {scratch, 0, 0};
+    const auto [tx, ty] = scratch.tangent();
+    const double along = view[0] * tx + view[1] * ty;
+    const double per_xi1 = kTwoPi * scratch.coherence_radius_um() / shortest_um;
+    const double first = light.breaks().front() + along, last = light.breaks().back() + along;
+    return {scratch, 0, per_xi1 * std::max(std::abs(first), std::abs(last))};
+}
+
 double light_ratio(const VisibleScratch& scratch, const LightSlices& light, DepthPhase phase,
                    const UnitVector& view, double wavelength_um, const LightIntegral& method,
-                   const AngularReflectance& reflectance) {
+                   const AngularReflectance& reflectance, const LobeTable* lobe) {
     constexpr double kShortest_um = 1e-3, kLongest_um = 1e4;
     require_in_range("wavelength_um", wavelength_um, kShortest_um, kLongest_um);
     if (light.breaks().empty()) return 0;
@@ -241,11 +259,15 @@ double light_ratio(const VisibleScratch& scratch, const LightSlices& light, Dept
         }
         return scratch.share() * (last - first) / 4 * sum;
     }
+    const LobeTable own =
+        lobe ? LobeTable(scratch, 0, 0) : lobe_under(scratch, light, view, wavelength_um);
+    const LobeTable& power_at = lobe ? *lobe : own;
     const auto at = [&](double xi1) {
-        const double power = scratch.power(per_xi1 * xi1);
+        const double power = power_at(per_xi1 * xi1);
         return power == 0 ? 0 : power * across(xi1);
     };
-    const double sum = adaptive(smooth_pieces(scratch, light, across.view_along(), per_xi1), at);
+    const double sum =
+        adaptive(smooth_pieces(power_at.has_ends(), light, across.view_along(), per_xi1), at);
     return scratch.scratch().width_um / (kPi * scratch.coherence_radius_um()) * per_xi1 * sum;
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "core/scratch/light.hpp"
+#include "core/scratch/lobe_table.hpp"
 #include "core/scratch/visible_scratch.hpp"
 
 namespace irido {
@@ -28,13 +29,19 @@ using AngularReflectance = std::function<double(double cos_theta_d)>;
 ///   view           above the horizon
 ///   wavelength_um  [1e-3, 1e4]
 ///   reflectance    of the base; nothing: 1
+///   lobe           of the scratch, for many wavelengths; nothing: made for this one
 /// `points` and `band` take a finite scratch to be an infinite one with its share.
 /// Throws DomainError for arguments out of range.
 /// Source: VWH18 section 3.4 and eq. 27, which is |S|^2: here divided by A_C lambda^2, after which
 /// sigma has cancelled.
 double light_ratio(const VisibleScratch& scratch, const LightSlices& light, DepthPhase phase,
                    const UnitVector& view, double wavelength_um, const LightIntegral& method,
-                   const AngularReflectance& reflectance = nullptr);
+                   const AngularReflectance& reflectance = nullptr,
+                   const LobeTable* lobe = nullptr);
+
+/// The lobe of a scratch for all that a light asks of it at wavelengths from `shortest_um` on.
+LobeTable lobe_under(const VisibleScratch& scratch, const LightSlices& light,
+                     const UnitVector& view, double shortest_um);
 
 /// Intervals of q = xi_2 on the band xi_1 = 0, ascending.
 struct Interval {

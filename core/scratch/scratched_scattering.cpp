@@ -61,6 +61,8 @@ public:
                 sum += values[j] * std::cos(angle(j) * static_cast<double>(k));
             coefficients_[k] = (k == 0 ? 1 : 2) * sum / kCount;
         }
+        constexpr double kLeast = 1e-13;
+        while (used_ > 1 && std::abs(coefficients_[used_ - 1]) < kLeast) --used_;
     }
     static std::vector<double> nodes(double low, double high) {
         std::vector<double> cosines;
@@ -72,7 +74,7 @@ public:
     double operator()(double cosine) const {
         const double x = std::clamp((cosine - middle_) / half_, -1.0, 1.0);
         double first = 0, second = 0;
-        for (std::size_t k = kCount; k-- > 1;) {
+        for (std::size_t k = used_; k-- > 1;) {
             const double next = 2 * x * first - second + coefficients_[k];
             second = first;
             first = next;
@@ -86,6 +88,7 @@ private:
     }
     double middle_, half_;
     std::array<double, kCount> coefficients_{};
+    std::size_t used_ = kCount;
 };
 
 /// Cosines of theta_d that a view and the directions of a light have.
@@ -211,13 +214,29 @@ ScratchBalance ScratchedScattering::balance(double view_rise, double wavenumber_
     return scratch_balance(grooves, wavenumber_per_um, !surface_.fields.empty(), sum_.energy);
 }
 
-double ScratchedScattering::separate(const SkyPair& pair, double wavelength_um) const {
-    double sum = 0;
-    for (const VisibleScratch& scratch : visible_)
-        sum += scratch_brdf(scratch,
-                            pair_of(scratch, surface_.optics.depth_phase, pair.light, pair.view),
-                            wavelength_um);
-    return sum;
+std::vector<double> ScratchedScattering::separate(const SkyPair& pair,
+                                                  const std::vector<double>& wavelength_nm) const {
+    constexpr std::size_t kMany = 256;  // that are worth a table of the lobe
+    const bool is_tabled = wavelength_nm.size() >= kMany;
+    const auto [shortest, longest] = std::ranges::minmax(wavelength_nm);
+    std::vector<double> sums(wavelength_nm.size(), 0.0);
+    for (const VisibleScratch& scratch : visible_) {
+        const ScratchPair seen =
+            pair_of(scratch, surface_.optics.depth_phase, pair.light, pair.view);
+        const double per_wavelength = kTwoPi * scratch.coherence_radius_um() * kNanometres *
+                                      std::abs(seen.xi1);  // y times the wavelength
+        if (!is_tabled || !scratch.has_ends()) {
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i] += scratch_brdf(scratch, seen, wavelength_nm[i] / kNanometres);
+            continue;
+        }
+        const LobeTable lobe(scratch, per_wavelength / longest, per_wavelength / shortest,
+                             kInfinity);
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i] += scratch_brdf_of_lobe(scratch, seen, wavelength_nm[i] / kNanometres,
+                                            lobe(per_wavelength / wavelength_nm[i]));
+    }
+    return sums;
 }
 
 double ScratchedScattering::coherent(const SkyPair& pair, double wavelength_um) const {
@@ -244,17 +263,16 @@ std::vector<double> ScratchedScattering::pair_brdf(const SkyPair& pair,
             base_reflectance(*surface_.base, wavelength_nm, std::span(&cosine, 1), execution_);
     }
     const double rough = surface_.alpha ? rough_factor(*surface_.alpha, pair) : 0;
-    std::vector<double> values(wavelength_nm.size());
+    std::vector<double> values = sum_.kind == ScratchSum::Kind::separate
+                                     ? separate(pair, wavelength_nm)
+                                     : std::vector<double>(wavelength_nm.size(), 0.0);
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double wavelength_um = wavelength_nm[i] / kNanometres;
-        double f = sum_.kind == ScratchSum::Kind::coherent   ? coherent(pair, wavelength_um)
-                   : sum_.kind == ScratchSum::Kind::ensemble ? ensemble(pair, wavelength_um)
-                                                             : separate(pair, wavelength_um);
-        if (surface_.base) {
-            const auto [base, scratches] = balance(pair.view[2], 1 / wavelength_um);
-            f = reflectance[i] * (scratches * f + base * rough);
-        }
-        values[i] = f;
+        if (sum_.kind == ScratchSum::Kind::coherent) values[i] = coherent(pair, wavelength_um);
+        if (sum_.kind == ScratchSum::Kind::ensemble) values[i] = ensemble(pair, wavelength_um);
+        if (!surface_.base) continue;
+        const auto [base, scratches] = balance(pair.view[2], 1 / wavelength_um);
+        values[i] = reflectance[i] * (scratches * values[i] + base * rough);
     }
     return values;
 }
@@ -330,6 +348,14 @@ std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone>
                 base_reflectance(*surface_.base, wavelength_nm,
                                  CosineSeries::nodes(ranges[l].low, ranges[l].high), execution_));
         }
+        std::vector<std::vector<LobeTable>> lobes(lights.size());  // [light][scratch]
+        if (method.kind == LightIntegral::Kind::exact && count > 0) {
+            const double shortest_um = std::ranges::min(wavelength_nm) / kNanometres;
+            for (std::size_t l = 0; l < lights.size(); ++l)
+                for (std::size_t s = 0; s < visible_.size(); ++s)
+                    lobes[l].push_back(
+                        lobe_under(visible_[s], slices[l][s], views[v], shortest_um));
+        }
         parallel_for(count, execution_.threads, [&](std::size_t i) {
             const double wavelength_um = wavelength_nm[i] / kNanometres;
             double sum = 0;
@@ -343,7 +369,8 @@ std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone>
                 }
                 for (std::size_t s = 0; s < visible_.size(); ++s)
                     sum += light_ratio(visible_[s], slices[l][s], surface_.optics.depth_phase,
-                                       views[v], wavelength_um, method, of_angle);
+                                       views[v], wavelength_um, method, of_angle,
+                                       lobes[l].empty() ? nullptr : &lobes[l][s]);
             }
             values[v * count + i] = sum * balance(views[v][2], 1 / wavelength_um).scratches;
         });
@@ -355,13 +382,20 @@ std::vector<Triple> ScratchedScattering::light_colors(std::span<const LightCone>
                                                       std::span<const UnitVector> views,
                                                       const Sensitivity& sensitivity,
                                                       const LightIntegral& method) const {
-    constexpr double kPathOfBase_um = 40;  // for what its films and tables do
+    constexpr double kPathOfBase_um = 12;  // for what its films and tables do
     ScratchedScattering held = *this;
     if (held.surface_.base) held.surface_.base = held_stack(*surface_.base, sensitivity);
-    double longest_um = 0;
+    double largest_q = 0, longest_um = 0;
+    for (const LightCone& light : lights)
+        for (const UnitVector& view : views) {
+            const HalfSpace& bound = light.bound();
+            const double reach = std::acos(std::clamp(bound.least, -1.0, 1.0));
+            const double middle = std::hypot(bound.normal[0] + view[0], bound.normal[1] + view[1]);
+            largest_q = std::max(largest_q, middle + 2 * std::sin(reach / 2));
+        }
     for (const VisibleScratch& scratch : visible_)
-        longest_um =
-            std::max(longest_um, 2 * (scratch.scratch().width_um + scratch.scratch().depth_um));
+        longest_um = std::max(longest_um, scratch.scratch().width_um * std::min(2.0, largest_q) +
+                                              2 * scratch.scratch().depth_um);
     const SpectralNodes nodes =
         spectral_nodes(sensitivity, longest_um + (surface_.base ? kPathOfBase_um : 0));
     std::vector<double> wavelength_nm;

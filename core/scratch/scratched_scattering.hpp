@@ -78,7 +78,8 @@ public:
 
 private:
     ScratchBalance balance(double view_rise, double wavenumber_per_um) const;
-    double separate(const SkyPair& pair, double wavelength_um) const;
+    std::vector<double> separate(const SkyPair& pair,
+                                 const std::vector<double>& wavelength_nm) const;
     double coherent(const SkyPair& pair, double wavelength_um) const;
     double ensemble(const SkyPair& pair, double wavelength_um) const;
     std::vector<double> pair_brdf(const SkyPair& pair,

@@ -135,10 +135,9 @@ Complex VisibleScratch::amplitude(double y, double k_um, double xi2) const {
     return std::polar(std::exp(-s * s / 2), -k_um * offset_ * xi2) * along;
 }
 
-bool VisibleScratch::ends_nearby() const {
-    constexpr double kNear = 3;
-    return middle_ + reach_ + scratch_.start_um > -kNear * sigma_ ||
-           middle_ - reach_ + scratch_.end_um < kNear * sigma_;
+bool VisibleScratch::ends_within(double radii) const {
+    return middle_ + reach_ + scratch_.start_um > -radii * sigma_ ||
+           middle_ - reach_ + scratch_.end_um < radii * sigma_;
 }
 
 }  // namespace irido

@@ -35,8 +35,10 @@ public:
     /// eta/sqrt(2 pi sigma^2) at a point (not a footprint): exp(-s_b^2/(2 sigma^2) - i k s_b xi_2)
     /// times exp(-y^2/2), or (E(end) - E(start))/2. `k_um` is 2 pi/wavelength.
     Complex amplitude(double y, double k_um, double xi2) const;
-    /// Whether an end lies nearer than 3 sigma to what is seen.
-    bool ends_nearby() const;
+    /// Whether an end lies nearer than so many sigma to what is seen.
+    bool ends_within(double radii) const;
+    /// Nearer than 3, where formulas of infinite scratches are off.
+    bool ends_nearby() const { return ends_within(3); }
 
 private:
     /// Ends as seen from a place along the axis, in units of sigma; weights sum to weight().

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "core/scratch/diffraction.hpp"
+#include "core/scratch/lobe_table.hpp"
 #include "tests/core/scratch/support.hpp"
 
 using namespace irido;
@@ -104,4 +105,32 @@ TEST_CASE("means of BRDFs over footprints are those of many points", "[scratch]"
     CHECK_THROWS_AS(
         VisibleScratch(worked_scratch(), {}, Footprint{Footprint::Kind::ellipse, {}, 0}),
         DomainError);
+}
+
+TEST_CASE("tables of lobes hold what the lobes are", "[scratch]") {
+    Random random(10);
+    for (int i = 0; i < 6; ++i) {
+        Scratch scratch = random_scratch(random);
+        scratch.start_um = random.uniform(-150, 50);
+        scratch.end_um = i % 3 ? scratch.start_um + random.uniform(20, 200) : 5000;
+        const Footprint footprint{Footprint::Kind::ellipse,
+                                  {},
+                                  random.uniform(1, 90),
+                                  random.uniform(1, 90),
+                                  random.uniform(-180, 180)};
+        const ScratchOptics optics{40, DepthPhase::slanted};
+        const VisibleScratch seen = i % 2 ? VisibleScratch(scratch, optics, footprint)
+                                          : VisibleScratch(scratch, optics, SurfacePoint{});
+        const LobeTable lobe(seen, 0, 300);
+        CHECK(lobe.has_ends());
+        for (int k = 0; k < 60; ++k) {
+            const double y = k % 2 ? random.uniform(-300, 300) : random.uniform(-8, 8);
+            CHECK(std::abs(lobe(y) - seen.power(y)) < 1e-10 * seen.power(y) + 1e-13);
+        }
+        CHECK(lobe(301) == seen.power(301));
+    }
+    const VisibleScratch endless(worked_scratch(), {}, SurfacePoint{});
+    const LobeTable lobe(endless, 0, 300);
+    CHECK_FALSE(lobe.has_ends());
+    CHECK(lobe(1.5) == endless.power(1.5));
 }
