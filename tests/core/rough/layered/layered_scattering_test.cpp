@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "core/coherent/coherent.hpp"
-#include "core/colorimetry/illuminant.hpp"
 #include "core/colorimetry/observer.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
@@ -236,10 +235,10 @@ TEST_CASE("opaque mirrors, absorbers and a billion periods", "[rough][layered]")
 }
 
 TEST_CASE("colours are integrals of the spectra", "[rough][layered][slow]") {
-    const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
+    const ColorTables tables(Sensitivity(observer(2), {{540, 600}, {1, 2}}));
     const Sensitivity& sensitivity = tables.sensitivity();
     std::vector<double> nm;  // Simpson's rule from row to row of the sensitivity
-    for (double at = 360; at <= 830; at += 0.5) nm.push_back(at);
+    for (double at = 540; at <= 600; at += 0.5) nm.push_back(at);
     const auto integrated = [&](std::span<const double> spectrum) {
         Triple xyz{};
         for (std::size_t w = 0; w < nm.size(); ++w) {
@@ -268,5 +267,7 @@ TEST_CASE("colours are integrals of the spectra", "[rough][layered][slow]") {
     };
     check(kGreyBase, Paths::all);
     check(kCoated, Paths::single);
-    check(kTwoLayers, Paths::single);
+    check(R"({"layers": [{"stack": "1 | (1@125 | 1.5@375)^3 | 1", "alpha": 0.1},
+              {"stack": "1 | (1@101 | 1.5@143)^4 | 1", "alpha": 0.1}], "base": {"albedo": 0.2}})",
+          Paths::single);
 }
