@@ -4,6 +4,7 @@
 #include "cli/options/picture_options.hpp"
 #include "cli/options/surface_options.hpp"
 #include "cli/queries/surface_query.hpp"
+#include "tables/pictures/png_file.hpp"
 
 namespace irido::cli {
 
@@ -22,6 +23,11 @@ struct BrdfCommand {
 int run_brdf(const BrdfCommand& command) {
     const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
     if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
+    if (command.query.scatterogram && (!picture || picture->name != "png") &&
+        resolved_format(command.output) != "csv")
+        throw UsageError("--scatterogram: requires --output FILE.png or FILE.csv");
+    if (command.query.scatterogram && command.output.file.empty())
+        throw UsageError("--scatterogram: requires --output FILE.png or FILE.csv");
     SurfaceQuery query = command.query;
     query.wavelengths_nm = parse_list("--wavelengths", command.wavelengths,
                                       kAllWavelengths.first_nm, kAllWavelengths.last_nm);
@@ -34,6 +40,12 @@ int run_brdf(const BrdfCommand& command) {
                    document.surface);
     if (!picture) {
         write_records(rows.records, command.output);
+        return 0;
+    }
+    if (rows.pixels) {
+        for (const std::string& text : rows.plot.notes) query.note(text);
+        const unsigned bits = command.picture.bits == "16" ? 16 : 8;
+        write_bytes(tables::png_file(*rows.pixels, bits), command.output, true);
         return 0;
     }
     rows.plot.title = title_of(document, command.surface);
@@ -69,9 +81,23 @@ void add_brdf_command(CLI::App& program, Run& run) {
     command
         ->add_option("--paths", options->query.paths,
                      "single: light reflected once, by a layer or the base\n"
-                     "all: between layers, base and coating as often as it may be [single]")
+                     "all: between layers, base and coating as often as it may be\n"
+                     "simulation, simulation-single: the same by Monte Carlo; adds the column\n"
+                     "stderr [single]")
         ->type_name("PATHS");
-    offer(*command, "paths", "single all");
+    offer(*command, "paths", "single all simulation simulation-single");
+    command
+        ->add_option("--samples", options->query.samples,
+                     "paths of each direction of the light, of a simulation, [2, 1e12] [1e6]")
+        ->type_name("N");
+    command->add_option("--seed", options->query.seed, "of a simulation, a whole number [1]")
+        ->type_name("SEED");
+    command
+        ->add_option("--facets", options->query.facets,
+                     "of a simulation: sampled (a facet at every crossing) or filter (their\n"
+                     "mean, F_alpha) [sampled]")
+        ->type_name("CHOICE");
+    offer(*command, "facets", "sampled filter");
     command
         ->add_option("--transmission", options->query.transmission,
                      "single: straight light meets one facet of a layer; multiple: as many as\n"
@@ -82,6 +108,9 @@ void add_brdf_command(CLI::App& program, Run& run) {
                       "instead of wavelengths columns X,Y,Z,r,g,b,hex: colour of pi times the\n"
                       "BRDF, a white diffuser being 1, or of the albedo");
     add_scratch_options(*command, options->query.scratch);
+    command->add_flag("--scatterogram", options->query.scatterogram,
+                      "two discs of directions seen from above: in a white environment, and pi\n"
+                      "times the BRDF in a beam from --light-theta; requires -o FILE.png or .csv");
     add_light_options(*command, options->query.color);
     add_space_options(*command, options->query.color);
     command

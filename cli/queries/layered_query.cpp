@@ -3,14 +3,42 @@
 #include <cstdio>
 #include <string_view>
 
+#include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
-#include "cli/queries/surface_rows.hpp"
 #include "core/error.hpp"
 #include "core/rough/layered/adding.hpp"
 #include "core/rough/layered/layered_color.hpp"
+#include "core/rough/walk/simulation.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido::cli {
+
+Paths parse_paths(const std::string& text) {
+    constexpr std::array<std::string_view, 4> names{"single", "all", "simulation",
+                                                    "simulation-single"};
+    if (text == names[0] || text == names[3]) return Paths::single;
+    if (text == names[1] || text == names[2]) return Paths::all;
+    throw UsageError("--paths: " + not_one_of(names, text));
+}
+
+Crossings parse_crossings(const std::string& text) {
+    constexpr std::array<std::string_view, 2> names{"single", "multiple"};
+    if (text == names[0]) return Crossings::single;
+    if (text == names[1]) return Crossings::multiple;
+    throw UsageError("--transmission: " + not_one_of(names, text));
+}
+
+void report_held_layers(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
+                        const Sensitivity& sensitivity, const SurfaceQuery& query) {
+    for (std::size_t l = 0; l < surface.layers.size(); ++l) {
+        schemas::StackDocument layer;
+        layer.stack = surface.layers[l].stack;
+        layer.file = document.file;
+        layer.material_pointers.assign(layer.stack.materials.size(),
+                                       "/layers/" + std::to_string(l) + "/stack");
+        report_held_ranges(layer, sensitivity, false, query.note);
+    }
+}
 
 namespace {
 
@@ -23,19 +51,41 @@ std::string two_digits(double value) {
     return text.data();
 }
 
-Paths parse_paths(const std::string& text) {
-    constexpr std::array<std::string_view, 2> names{"single", "all"};
-    if (text == names[0]) return Paths::single;
-    if (text == names[1]) return Paths::all;
-    throw UsageError("--paths: " + not_one_of(names, text));
+bool is_simulated(const SurfaceQuery& query) {
+    return query.paths.starts_with("simulation");
 }
 
-Crossings parse_crossings(const std::string& text) {
-    constexpr std::array<std::string_view, 2> names{"single", "multiple"};
-    if (text == names[0]) return Crossings::single;
-    if (text == names[1]) return Crossings::multiple;
-    throw UsageError("--transmission: " + not_one_of(names, text));
+SimulationRequest parse_simulation(const SurfaceQuery& query, Crossings crossings) {
+    constexpr double kMostSamples = 1e12, kMostSeed = 9007199254740992;
+    constexpr std::array<std::string_view, 2> choices{"sampled", "filter"};
+    SimulationRequest request;
+    request.paths = parse_paths(query.paths);
+    request.crossings = crossings;
+    if (!query.samples.empty())
+        request.samples = parse_whole_number("--samples", query.samples, 2, kMostSamples);
+    if (!query.seed.empty()) request.seed = parse_whole_number("--seed", query.seed, 0, kMostSeed);
+    if (query.facets == choices[1])
+        request.facets = FacetChoice::filter;
+    else if (!query.facets.empty() && query.facets != choices[0])
+        throw UsageError("--facets: " + not_one_of(choices, query.facets));
+    if (crossings == Crossings::multiple && request.facets == FacetChoice::sampled)
+        throw UsageError("--transmission multiple: a simulation takes it with --facets filter");
+    if (!query.color.tolerance.empty())
+        throw UsageError("--tolerance: a simulation takes --samples instead");
+    return request;
 }
+
+/// Throws UsageError if options of simulations were typed for none.
+void require_no_simulation(const SurfaceQuery& query) {
+    for (const auto& [name, typed] : {std::pair("--samples", &query.samples),
+                                      {"--seed", &query.seed},
+                                      {"--facets", &query.facets}})
+        if (!typed->empty())
+            throw UsageError(std::string(name) +
+                             ": requires --paths simulation or simulation-single");
+}
+
+using Numbers = tables::Column::Numbers;
 
 std::vector<ScatterPair> pairs_of(const std::vector<Directions>& directions) {
     std::vector<ScatterPair> pairs;
@@ -70,21 +120,17 @@ void check_tolerance(const schemas::SurfaceDocument& document, const SurfaceQuer
 /// Colours of a layered surface.
 SurfaceRows layered_colors(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                            const SurfaceQuery& query) {
+    if (is_simulated(query))
+        throw UsageError("--color: takes --paths single or all (got " + query.paths + ")");
+    require_no_simulation(query);
     const ColorColumns columns(query.color);
     const double tolerance = parse_tolerance(query.color.tolerance);
     const Illumination& illumination = columns.illumination();
-    for (std::size_t l = 0; l < surface.layers.size(); ++l) {
-        schemas::StackDocument layer;
-        layer.stack = surface.layers[l].stack;
-        layer.file = document.file;
-        layer.material_pointers.assign(layer.stack.materials.size(),
-                                       "/layers/" + std::to_string(l) + "/stack");
-        report_held_ranges(layer, illumination.tables.sensitivity(), false, query.note);
-    }
+    report_held_layers(surface, document, illumination.tables.sensitivity(), query);
     const LayeredColor color(illumination.tables, surface, parse_crossings(query.transmission),
                              tolerance, query.execution);
     const Paths paths = parse_paths(query.paths);
-    KeyColumns keys;
+    NumberColumns keys;
     std::vector<SurfaceColor> colors;
     if (query.quantity == "brdf") {
         const std::vector<Directions> directions = parse_directions(query.directions);
@@ -112,11 +158,19 @@ public:
         : document_(document),
           query_(query),
           paths_(parse_paths(query.paths)),
-          scattering_(surface, parse_crossings(query.transmission), query.execution) {}
+          scattering_(surface, parse_crossings(query.transmission), query.execution) {
+        if (is_simulated(query))
+            simulation_ = parse_simulation(query, parse_crossings(query.transmission));
+        else
+            require_no_simulation(query);
+    }
 
     SurfaceRows rows() const {
         if (query_.quantity == "brdf") return brdf();
         if (query_.quantity == "albedo") return albedo();
+        if (is_simulated(query_))
+            throw UsageError("--paths " + query_.paths + ": takes --quantity brdf or albedo (got " +
+                             query_.quantity + ")");
         if (query_.quantity == "transmissivity") return transmissivity();
         if (query_.quantity == "sampling") return sampling();
         constexpr std::array<std::string_view, 4> names{"brdf", "albedo", "transmissivity",
@@ -161,6 +215,12 @@ private:
             wavelength.insert(wavelength.end(), wavelengths().begin(), wavelengths().end());
         columns.emplace_back("wavelength_nm", std::move(wavelength));
         const std::vector<ScatterPair> pairs = pairs_of(directions);
+        if (is_simulated(query_)) {
+            LayeredSimulation::Values values = simulation().brdf(pairs);
+            columns.emplace_back("brdf_per_sr", std::move(values.mean));
+            columns.emplace_back("stderr", std::move(values.error));
+            return rows_of(std::move(columns), 5);
+        }
         Numbers f = scattering_.brdf(pairs, wavelengths(), closed_paths());
         if (is_added())
             add(f, [&](const Adding& adding) { return adding.brdf_rest(pairs, wavelengths()); });
@@ -170,19 +230,33 @@ private:
 
     SurfaceRows albedo() const {
         const std::vector<double> thetas = parse_light_thetas(query_.directions);
+        if (is_simulated(query_)) {
+            LayeredSimulation::Values values = simulation().albedo(thetas);
+            return albedo_rows(thetas, std::move(values.mean), std::move(values.error));
+        }
         Numbers a = scattering_.albedo(thetas, wavelengths(), closed_paths());
         if (is_added())
             add(a, [&](const Adding& adding) { return adding.albedo_rest(thetas, wavelengths()); });
+        return albedo_rows(thetas, std::move(a), {});
+    }
+
+    SurfaceRows albedo_rows(const std::vector<double>& thetas, Numbers a, Numbers error) const {
         Numbers theta, wavelength;
         for (const double angle : thetas)
             for (const double nm : wavelengths()) {
                 theta.push_back(angle);
                 wavelength.push_back(nm);
             }
-        return rows_of({{"light_theta_deg", std::move(theta)},
-                        {"wavelength_nm", std::move(wavelength)},
-                        {"albedo", std::move(a)}},
-                       2);
+        std::vector<std::pair<std::string, Numbers>> columns{
+            {"light_theta_deg", std::move(theta)},
+            {"wavelength_nm", std::move(wavelength)},
+            {"albedo", std::move(a)}};
+        if (!error.empty()) columns.emplace_back("stderr", std::move(error));
+        return rows_of(std::move(columns), 2);
+    }
+
+    LayeredSimulation simulation() const {
+        return {scattering_, simulation_, wavelengths(), query_.execution};
     }
 
     SurfaceRows transmissivity() const {
@@ -229,6 +303,7 @@ private:
     const SurfaceQuery& query_;
     Paths paths_;
     LayeredScattering scattering_;
+    SimulationRequest simulation_;
 };
 
 }  // namespace
@@ -238,6 +313,7 @@ SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::Surfac
     if (const std::string typed = query.scratch.typed(); !typed.empty())
         throw UsageError(typed + ": takes surfaces with scratches");
     try {
+        if (query.scatterogram) return layered_scatterogram(surface, document, query);
         return query.wants_color ? layered_colors(surface, document, query)
                                  : LayeredAnswers(surface, document, query).rows();
     } catch (const DomainError& error) {

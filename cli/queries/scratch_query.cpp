@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
-#include "cli/queries/surface_rows.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "schemas/documents/light_document.hpp"
@@ -11,6 +11,14 @@
 namespace irido::cli {
 
 namespace {
+
+using ScratchNumbers = tables::Column::Numbers;
+
+ScratchNumbers repeated(const ScratchNumbers& numbers, std::size_t times) {
+    ScratchNumbers all;
+    for (std::size_t i = 0; i < times; ++i) all.insert(all.end(), numbers.begin(), numbers.end());
+    return all;
+}
 
 std::vector<SkyPair> sky_pairs(const std::vector<Directions>& directions) {
     std::vector<SkyPair> pairs;
@@ -39,6 +47,10 @@ public:
                              " for a scratched surface");
         if (query.paths != "single" || query.transmission != "single")
             throw UsageError("--paths and --transmission: take layered surfaces");
+        if (!query.samples.empty() || !query.facets.empty() || query.scatterogram)
+            throw UsageError("--samples, --facets and --scatterogram: take layered surfaces");
+        if (!query.seed.empty())
+            throw UsageError("--seed: is of simulations; --set seed=N is of fields of scratches");
         if (sum_.kind == ScratchSum::Kind::ensemble && surface.fields.empty())
             throw UsageError("--ensemble: requires fields of scratches");
         if (!query.scratch.area_light.empty() && method_.kind != LightIntegral::Kind::exact &&
@@ -60,9 +72,9 @@ private:
         if (query_.wants_color || !query_.scratch.area_light.empty())
             throw UsageError("--quantity: density has neither colours nor lights");
         const SurfacePoint at = parse_at(query_.scratch);
-        return rows_of({{"x_um", Numbers{at.x_um}},
-                        {"y_um", Numbers{at.y_um}},
-                        {"density", Numbers{scattering_.density()}}},
+        return rows_of({{"x_um", ScratchNumbers{at.x_um}},
+                        {"y_um", ScratchNumbers{at.y_um}},
+                        {"density", ScratchNumbers{scattering_.density()}}},
                        2);
     }
 
@@ -103,8 +115,8 @@ private:
     }
 
     /// Angles of all views, each as often as it has rows.
-    KeyColumns view_columns(std::vector<UnitVector>& views, std::size_t times) const {
-        KeyColumns columns{{"view_theta_deg", {}}, {"view_phi_deg", {}}};
+    NumberColumns view_columns(std::vector<UnitVector>& views, std::size_t times) const {
+        NumberColumns columns{{"view_theta_deg", {}}, {"view_phi_deg", {}}};
         for (const Directions& one : parse_directions(query_.directions)) {
             views.push_back(direction_of(one.view_theta_deg, one.view_phi_deg));
             columns[0].second.insert(columns[0].second.end(), times, one.view_theta_deg);
@@ -118,7 +130,7 @@ private:
         const std::vector<LightCone> cones = lights();
         const std::vector<double>& wavelengths = query_.wavelengths_nm;
         std::vector<UnitVector> views;
-        KeyColumns columns = view_columns(views, wavelengths.size());
+        NumberColumns columns = view_columns(views, wavelengths.size());
         columns.emplace_back("wavelength_nm", repeated(wavelengths, views.size()));
         columns.emplace_back("radiance_ratio",
                              scattering_.light_ratios(cones, views, wavelengths, method_));
@@ -128,7 +140,7 @@ private:
     SurfaceRows light_colors() const {
         const std::vector<LightCone> cones = lights();
         std::vector<UnitVector> views;
-        KeyColumns keys = view_columns(views, 1);
+        NumberColumns keys = view_columns(views, 1);
         const ColorColumns columns(query_.color);
         return columns.rows(
             std::move(keys),

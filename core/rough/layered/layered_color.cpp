@@ -71,6 +71,22 @@ std::vector<double> wavelengths_of(std::span<const SpectralPoints* const> parts)
 
 }  // namespace
 
+std::vector<Triple> sampled_colors(const Sensitivity& sensitivity, const SampleRule& rule,
+                                   std::span<const double> spectra) {
+    const std::size_t W = rule.wavelength_nm.size();
+    std::vector<Triple> colors(spectra.size() / W);
+    for (std::size_t c = 0; c < 3; ++c) {
+        double light = 0;
+        for (const double weight : rule.weight[c]) light += weight;
+        for (std::size_t k = 0; k < colors.size(); ++k) {
+            double sum = 0;
+            for (std::size_t w = 0; w < W; ++w) sum += rule.weight[c][w] * spectra[k * W + w];
+            colors[k][c] = sensitivity.white()[c] * sum / light;
+        }
+    }
+    return colors;
+}
+
 LayeredColor::LayeredColor(const ColorTables& tables, LayeredSurface surface, Crossings crossings,
                            double tolerance, const Execution& execution)
     : tables_(tables),

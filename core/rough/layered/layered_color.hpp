@@ -10,6 +10,10 @@
 
 namespace irido {
 
+/// XYZ of spectra at the wavelengths of a rule, [thing][wavelength].
+std::vector<Triple> sampled_colors(const Sensitivity& sensitivity, const SampleRule& rule,
+                                   std::span<const double> spectra);
+
 struct SurfaceColor {
     Triple xyz{};
     double error = 0;  ///< estimate of the largest of X, Y, Z

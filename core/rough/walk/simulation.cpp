@@ -113,6 +113,9 @@ public:
     }
 
 private:
+    struct Ray {
+        double cos = 1, sin = 0, azimuth = 0;  ///< radians
+    };
     struct Seen {
         double theta_deg;
         IncidentAngle angle;
@@ -277,7 +280,7 @@ private:
     std::size_t W_;
     std::vector<Seen> seen_;
     std::vector<double> weight_, power_, straight_, out_, sample_;
-    Turn ray_;  ///< where the light travels, its azimuth in radians
+    Ray ray_;  ///< where the light travels
     bool reflected_ = false;
 };
 

@@ -101,6 +101,28 @@ TEST_CASE("brdf draws its rows", "[cli][brdf]") {
     }
 }
 
+TEST_CASE("all paths of two layers, and their simulation", "[cli][brdf][slow]") {
+    const std::vector<std::string> surface{"schemas/examples/surfaces/blue-over-red.json",
+                                           "--light-theta",
+                                           "30",
+                                           "--view-theta",
+                                           "30",
+                                           "-w",
+                                           "450"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = surface;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return rows_of(arguments);
+    };
+    const auto all = with({"--paths", "all"});
+    CHECK_THAT(std::stod(all[1][5]), WithinRel(4.95633123942, 1e-3));
+    const auto simulated = with({"--paths", "simulation", "--samples", "2000", "--seed", "3"});
+    CHECK(simulated[0].back() == "stderr");
+    CHECK_THAT(std::stod(simulated[1][5]), WithinRel(4.95633123942, 2e-2));
+    CHECK(with({"--paths", "simulation", "--samples", "2000", "--seed", "3", "-j", "1"}) ==
+          simulated);
+}
+
 TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     const auto refuse = [](const std::vector<std::string>& more, const std::string& error) {
         std::vector<std::string> arguments{"brdf"};
@@ -114,6 +136,11 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--light-theta", "nan"}, "--light-theta");
     refuse({kPale, "--quantity", "colour"}, "--quantity: must be one of brdf, albedo");
     refuse({kPale, "--paths", "few"}, "--paths: must be one of single, all");
+    refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");
+    refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e12]");
+    refuse({kPale, "--paths", "simulation", "--facets", "none"}, "--facets: must be one of");
+    refuse({kPale, "--paths", "simulation", "--color"}, "--color: takes --paths single or all");
+    refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "takes --quantity brdf");
     refuse({kPale, "--transmission", "no"}, "--transmission: must be one of single, multiple");
     refuse({kPale, "--color", "--quantity", "sampling"},
            "--color: takes --quantity brdf or albedo");

@@ -65,7 +65,7 @@ TEST_CASE("surfaces that cannot be are refused", "[schemas][surface]") {
     const auto check = [](const std::string& text, const std::string& what) {
         CHECK_THAT(error_of(text), Contains(what));
     };
-    check("{}", "s.json: must be an object with \"layers\" or \"base\"");
+    check("{}", "s.json: must have the key \"layers\"");
     check(R"({"layers": []})", "/layers: must have a layer where there is no base");
     check(R"({"layers": [{"stack": "1 | 1.5@100 | 1", "alpha": 5e-5}]})",
           "/layers/0/alpha: must be in [1e-4, 1] (got 5e-05)");

@@ -1,4 +1,4 @@
-#include "cli/queries/surface_rows.hpp"
+#include "cli/queries/surface_colors.hpp"
 
 #include <array>
 
@@ -6,18 +6,7 @@
 
 namespace irido::cli {
 
-namespace {
-
-constexpr double kMostSurfaceRows = 1e8;
-
-}  // namespace
-
-void require_few_rows(double rows) {
-    if (rows > kMostSurfaceRows)
-        throw UsageError("rows: must be at most 1e8 (got " + to_text(rows) + ")");
-}
-
-SurfaceRows rows_of(KeyColumns columns, std::size_t keys) {
+SurfaceRows rows_of(NumberColumns columns, std::size_t keys) {
     SurfaceRows rows;
     for (std::size_t c = 0; c < columns.size(); ++c) {
         const tables::FigureAxis axis = tables::axis_of_column(columns[c].first);
@@ -30,11 +19,11 @@ SurfaceRows rows_of(KeyColumns columns, std::size_t keys) {
     return rows;
 }
 
-KeyColumns direction_columns(const std::vector<Directions>& directions, std::size_t times) {
-    KeyColumns columns{{"light_theta_deg", {}},
-                       {"light_phi_deg", {}},
-                       {"view_theta_deg", {}},
-                       {"view_phi_deg", {}}};
+NumberColumns direction_columns(const std::vector<Directions>& directions, std::size_t times) {
+    NumberColumns columns{{"light_theta_deg", {}},
+                          {"light_phi_deg", {}},
+                          {"view_theta_deg", {}},
+                          {"view_phi_deg", {}}};
     for (const Directions& one : directions) {
         const std::array<double, 4> row{one.light_theta_deg, one.light_phi_deg, one.view_theta_deg,
                                         one.view_phi_deg};
@@ -44,11 +33,10 @@ KeyColumns direction_columns(const std::vector<Directions>& directions, std::siz
     return columns;
 }
 
-Numbers repeated(const Numbers& numbers, std::size_t times) {
-    Numbers all;
-    all.reserve(numbers.size() * times);
-    for (std::size_t i = 0; i < times; ++i) all.insert(all.end(), numbers.begin(), numbers.end());
-    return all;
+void require_few_rows(double rows) {
+    constexpr double kMostSurfaceRows = 1e8;
+    if (rows > kMostSurfaceRows)
+        throw UsageError("rows: must be at most 1e8 (got " + to_text(rows) + ")");
 }
 
 ColorColumns::ColorColumns(const ColorOptions& typed)
@@ -58,9 +46,9 @@ ColorColumns::ColorColumns(const ColorOptions& typed)
                     space_, parse_adaptation(typed.adaptation)),
       drawn_(rgb_space("srgb"), illumination_.white(), Adaptation::bradford) {}
 
-SurfaceRows ColorColumns::rows(KeyColumns keys, const std::vector<Triple>& colors) const {
+SurfaceRows ColorColumns::rows(NumberColumns keys, const std::vector<Triple>& colors) const {
     const std::size_t key_count = keys.size();
-    std::array<Numbers, 6> numbers;
+    std::array<tables::Column::Numbers, 6> numbers;
     tables::Column::Texts hexes;
     tables::RowPlot plot;
     tables::InkMixer mixer(tables::GamutMapping{});
