@@ -8,11 +8,12 @@ void add_bench_command(CLI::App& program, Run& run) {
     command->require_subcommand(1);
     add_bench_pareto(*command, run);
     add_bench_scene(*command, run);
+    add_bench_scratch(*command, run);
     add_bench_speed(*command, run);
     add_bench_stability(*command, run);
     set_examples(*command, {"irido bench pareto -o pareto.csv --plot pareto.svg",
                             "irido bench scene --count 100", "irido bench speed --cases film,40",
-                            "irido bench stability --count 10"});
+                            "irido bench scratch", "irido bench stability --count 10"});
 }
 
 }  // namespace irido::cli

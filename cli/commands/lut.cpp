@@ -34,7 +34,7 @@ struct LutCommand {
     std::map<std::string, bool, std::less<>> flags;
     OutputOptions output;
     PictureOptions picture;
-    std::string type = "f32", size, tolerance;
+    std::string type, size, tolerance;
     bool any_size = false;
     tables::LutLayout layout;
     unsigned threads = 0;
@@ -60,11 +60,11 @@ const tables::LutFormat& resolved_lut_format(const OutputOptions& output) {
                      not_one_of(format_names(), name));
 }
 
-tables::LutType parse_type(const std::string& text) {
+tables::LutType parse_type(std::string_view text) {
     for (const tables::LutType type :
          {tables::LutType::f16, tables::LutType::f32, tables::LutType::f64})
         if (name_of(type) == text) return type;
-    throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + text + "')");
+    throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + std::string(text) + "')");
 }
 
 /// "64x512": one number for each axis; one number alone is for all.
@@ -144,14 +144,16 @@ void parse_color(const tables::LutKind& kind, const LutCommand& command,
         request.illuminant = name_or_rows(typed.illuminant, light);
         request.sensitivity = std::make_shared<Sensitivity>(parse_observer(typed.observer), light);
     }
+    if (kind.color || kind.space) {
+        request.space = &parse_space(typed.space);
+        request.adaptation = parse_adaptation(typed.adaptation);
+    }
     if (!kind.color) return;
     request.color.sides = parse_sides(typed.sides);
     if (request.color.sides.size() != 1)
         throw UsageError("--side: must be R or T for a table (got '" + typed.sides + "')");
     request.color.light = parse_light(typed.polarization);
     request.color.simd = request.execution.simd;
-    request.space = &parse_space(typed.space);
-    request.adaptation = parse_adaptation(typed.adaptation);
 }
 
 tables::LutRequest parse(const tables::LutKind& kind, const LutCommand& command) {
@@ -182,8 +184,8 @@ tables::LutPlan plan_of(const tables::LutKind& kind, const tables::LutRequest& r
     }
 }
 
-tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat* format,
-                            std::size_t axes) {
+tables::LutMaking making_of(const tables::LutKind& kind, const LutCommand& command,
+                            const tables::LutFormat* format, std::size_t axes) {
     tables::LutMaking making;
     making.sizing.counts = parse_size(command.size, axes);
     making.sizing.power_of_two = !command.any_size;
@@ -194,7 +196,8 @@ tables::LutMaking making_of(const LutCommand& command, const tables::LutFormat* 
             throw UsageError("--tolerance: cannot be combined with --size");
         making.sizing.tolerance = parse_one_number("--tolerance", command.tolerance, 1e-12, 1e3);
     }
-    making.type = parse_type(command.type);
+    const std::string_view usual = format && format->name == "csv" ? kind.text_type : "f32";
+    making.type = parse_type(command.type.empty() ? usual : command.type);
     making.mips = format && format->name == "ktx2" && !command.layout.layers;
     making.measure = !command.output.file.empty();
     making.threads = command.threads;
@@ -224,7 +227,7 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     if (is_slow(kind, request)) say(kSlowNote);
     tables::LutPlan plan = plan_of(kind, request);
-    tables::LutMaking making = making_of(command, format, plan.axes.size());
+    tables::LutMaking making = making_of(kind, command, format, plan.axes.size());
     if (!is_slow(kind, request))
         note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     Progress progress(command.quiet);
@@ -254,7 +257,7 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
         note("three.js reads only the first array layer of a file", command.quiet);
     if (format->name == "ktx2" || format->name == "exr")
         for (const tables::LutAxis& axis : lut.axes)
-            if (!axis.is_linear() && !(lut.mips && &axis == &lut.axes.front()))
+            if (!axis.is_linear() && axis.half_at == 0 && !(lut.mips && &axis == &lut.axes.front()))
                 note(axis.name + ": samples are not equally spaced: fetch texels, do not filter",
                      command.quiet);
     return 0;
@@ -303,8 +306,12 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
                              : "R (reflected) or T (transmitted) [R]");
     if (kind.color) offer(*command, "side", kind.name == "albedo" ? "R" : "R T");
     if (kind.light) add_light_options(*command, typed->color);
-    if (kind.color) add_space_options(*command, typed->color);
-    command->add_option("--dtype", typed->type, "number format: f16, f32 or f64 [f32]")
+    if (kind.space) typed->color.space = "xyz";
+    if (kind.color || kind.space) add_space_options(*command, typed->color);
+    command
+        ->add_option("--dtype", typed->type,
+                     kind.text_type == "f32" ? "number format: f16, f32 or f64 [f32]"
+                                             : "number format: f16, f32 or f64 [f32; csv: f64]")
         ->type_name("NAME");
     offer(*command, "dtype", "f16 f32 f64");
     command
@@ -428,7 +435,10 @@ void add_shader(CLI::App& lut, Run& run) {
     for (const std::string_view name : tables::shader_names())
         names += (names.empty() ? "" : ", ") + std::string(name);
     shader->add_option("NAME", typed->name, "one of " + names)->required();
-    shader->add_option("--language", typed->language, "glsl or hlsl [glsl]")->type_name("NAME");
+    shader
+        ->add_option("--language", typed->language,
+                     "glsl, hlsl or, for scratch and scratch-nodes, wgsl [glsl]")
+        ->type_name("NAME");
     offer(*shader, "NAME", tables::shader_names);
     offer(*shader, "language", tables::shader_languages);
     set_examples(*shader,
@@ -443,6 +453,10 @@ void add_shader(CLI::App& lut, Run& run) {
                 throw UsageError("NAME: " + not_one_of(known, typed->name));
             if (std::ranges::find(languages, typed->language) == languages.end())
                 throw UsageError("--language: " + not_one_of(languages, typed->language));
+            const auto written = tables::shader_names_in(typed->language);
+            if (std::ranges::find(written, typed->name) == written.end())
+                throw UsageError("NAME: in " + typed->language + " " +
+                                 not_one_of(written, typed->name));
             tables::write_stdout(tables::shader_source(typed->name, typed->language));
             return 0;
         };

@@ -226,7 +226,8 @@ void add_space_options(CLI::App& command, ColorOptions& options) {
     command
         .add_option("--space", options.space,
                     "colour space of the result: srgb, rec2020, display-p3, acescg,\n"
-                    "xyz [srgb]")
+                    "xyz [" +
+                        options.space + "]")
         ->type_name("NAME");
     command
         .add_option("--adaptation", options.adaptation,

@@ -34,7 +34,7 @@ void add_side_options(CLI::App& command, ColorOptions& options, const std::strin
 /// Adds --illuminant and --observer.
 void add_light_options(CLI::App& command, ColorOptions& options);
 
-/// Adds --space and --adaptation.
+/// Adds --space, whose default is the one that `options` has, and --adaptation.
 void add_space_options(CLI::App& command, ColorOptions& options);
 
 /// Adds all options of a colour.

@@ -119,6 +119,15 @@ double AngleSeries::value(std::size_t function, double theta_deg) const {
     return sum_of_products(coefficients(panel, function), polynomials);
 }
 
+void AngleSeries::values(double theta_deg, std::span<double> out) const {
+    const std::size_t panel = panel_of(theta_deg);
+    const double begin = panels_[panel].begin_deg(), end = panels_[panel].end_deg();
+    Coefficients polynomials{};
+    add_polynomials(((theta_deg - begin) - (end - theta_deg)) / (end - begin), 1, polynomials);
+    for (std::size_t f = 0; f < functions_; ++f)
+        out[f] = sum_of_products(coefficients(panel, f), polynomials);
+}
+
 double AngleSeries::error_at(double theta_deg) const {
     const std::size_t panel = panel_of(theta_deg);
     double largest = 0;

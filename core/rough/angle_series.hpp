@@ -50,6 +50,8 @@ public:
     /// Estimate of the series' largest error on a panel: the sum of its last three coefficients.
     double error(std::size_t panel, std::size_t function) const;
     double value(std::size_t function, double theta_deg) const;
+    /// Values of all functions.
+    void values(double theta_deg, std::span<double> out) const;
     /// The largest error() of all functions on the panel of this angle.
     double error_at(double theta_deg) const;
 

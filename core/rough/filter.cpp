@@ -81,8 +81,8 @@ double TransmissionFilter::operator()(double theta_i_deg, double theta_d_deg) co
                    HalfAngles(checked("theta_d_deg", theta_d_deg)));
 }
 
-double TransmissionFilter::operator()(const HalfAngles& i, const HalfAngles& d) const {
-    const double sin_d = 2 * d.sin * d.cos, cos_d = 2 * d.sin_left * d.cos_left;
+TransmissionFilter::Rings TransmissionFilter::rings(const HalfAngles& i,
+                                                    const HalfAngles& d) const {
     const double difference = std::sin((i.deg - d.deg) * kHalfDegree);
     const double sin_sum = i.sin * d.cos + i.cos * d.sin;
     const double cos_sum = i.sin_left * d.cos_left + i.cos_left * d.sin_left;
@@ -97,9 +97,25 @@ double TransmissionFilter::operator()(const HalfAngles& i, const HalfAngles& d) 
     const double A =
         4 * (i.sin_left * i.cos_left * d.sin_left * d.cos_left + i.sin * i.cos * d.sin * d.cos);
     const double mean = std::sqrt(A * B), slope = B > 0 ? mean / A : 0;
-    return scale(i) * cos_d * sin_d *
-           (both_integrals(P, M_minus, s_ * mean, slope) +
-            both_integrals(2 - P, M_plus, -s_ * mean, slope));
+    return {both_integrals(P, M_minus, s_ * mean, slope) +
+                both_integrals(2 - P, M_plus, -s_ * mean, slope),
+            B > 0 ? both_integrals(P, M_minus, 0, 0) + both_integrals(2 - P, M_plus, 0, 0) : 0};
+}
+
+double TransmissionFilter::operator()(const HalfAngles& i, const HalfAngles& d) const {
+    const double sin_d = 2 * d.sin * d.cos, cos_d = 2 * d.sin_left * d.cos_left;
+    return scale(i) * cos_d * sin_d * rings(i, d).seen;
+}
+
+double TransmissionFilter::behind(double theta_i_deg, double theta_d_deg) const {
+    const HalfAngles i(checked("theta_i_deg", theta_i_deg)), d(checked("theta_d_deg", theta_d_deg));
+    const double sin_d = 2 * d.sin * d.cos, cos_d = 2 * d.sin_left * d.cos_left;
+    const Rings ring = rings(i, d);
+    if (ring.whole == 0) return 0;
+    const double ci = 2 * i.sin_left * i.cos_left, tilt = 2 * alpha_ * i.sin * i.cos;
+    const double seen = 2 / (ci + std::sqrt(ci * ci + tilt * tilt));
+    return 2 * seen * alpha_ * alpha_ / (4 * kPi) * cos_d * sin_d *
+           std::max(0.0, ring.whole - ring.seen);
 }
 
 void TransmissionFilter::row(double theta_i_deg, const FilterAxis& theta_d, std::span<double> out,

@@ -73,11 +73,23 @@ public:
     double operator()(double theta_i_deg, double theta_d_deg) const;
     double operator()(const HalfAngles& theta_i, const HalfAngles& theta_d) const;
 
+    /// The same over facets that the straight light meets from behind,
+    ///     2 (G1(ti)/cos ti) cos td sin td  integral D(theta_m) dpsi   over cos theta_m < 0,
+    /// whose integral over theta_d is 1 - G1(theta_i); 0 up to theta_d = 90 - theta_i. Its error is
+    /// 1e-15 of F_alpha's largest value.
+    double behind(double theta_i_deg, double theta_d_deg) const;
+
     /// F_alpha of one theta_i and all theta_d; `out` has as many entries. The same error.
     void row(double theta_i_deg, const FilterAxis& theta_d, std::span<double> out,
              SimdLevel level) const;
 
 private:
+    /// Integrals of D(theta_m) over psi, without alpha^2/pi: where cos theta_m > 0, and over all of
+    /// the ring if a part of it is not; else 0.
+    struct Rings {
+        double seen, whole;
+    };
+    Rings rings(const HalfAngles& theta_i, const HalfAngles& theta_d) const;
     /// What does not depend on theta_d.
     double scale(const HalfAngles& theta_i) const;
 

@@ -16,13 +16,18 @@ Feature feature_at(Complex root) {
 
 }  // namespace
 
-FilterNodes::FilterNodes(const TransmissionFilter& filter, double theta_i_deg, SimdLevel simd)
-    : filter_(filter), theta_i_deg_(theta_i_deg), kink_deg_(90 - theta_i_deg), simd_(simd) {
+FilterNodes::FilterNodes(const TransmissionFilter& filter, double theta_i_deg, SimdLevel simd,
+                         Facets facets)
+    : filter_(filter),
+      theta_i_deg_(theta_i_deg),
+      kink_deg_(90 - theta_i_deg),
+      simd_(simd),
+      facets_(facets) {
     // where P- and M- are zero, at least as far from the axis as alpha
     const double alpha_deg = filter.alpha() / kDegree;
     const std::array<Feature, 2> peaks{Feature{theta_i_deg, alpha_deg},
                                        Feature{-theta_i_deg, alpha_deg}};
-    before_ = graded_panels(0, kink_deg_, peaks);
+    if (facets == Facets::seen) before_ = graded_panels(0, kink_deg_, peaks);
     // the same, M+ and the logarithm at theta_d = 0 in the plane of v
     const std::array<Feature, 3> past{
         feature_at(std::sqrt(Complex(theta_i_deg - kink_deg_, alpha_deg))),
@@ -44,6 +49,11 @@ WeightedAngles FilterNodes::operator()(double begin_deg, double end_deg) const {
         nodes.theta_deg.push_back(std::min(90.0, kink_deg_ + v * v));
         nodes.weight.push_back(kDegree * 2 * v * weight);
     });
+    if (facets_ == Facets::behind) {
+        for (std::size_t i = 0; i < nodes.weight.size(); ++i)
+            nodes.weight[i] *= filter_.behind(theta_i_deg_, nodes.theta_deg[i]);
+        return nodes;
+    }
     const FilterAxis axis(nodes.theta_deg, "theta_d_deg", simd_);
     std::vector<double> filter(axis.count());
     filter_.row(theta_i_deg_, axis, filter, simd_);

@@ -13,7 +13,12 @@ namespace irido {
 /// quarter turn is G1(theta_i) to 1e-13.
 class FilterNodes {
 public:
-    FilterNodes(const TransmissionFilter& filter, double theta_i_deg, SimdLevel simd);
+    /// The facets that straight light meets: those it comes in through, or from behind, with the
+    /// weight TransmissionFilter::behind().
+    enum class Facets { seen, behind };
+
+    FilterNodes(const TransmissionFilter& filter, double theta_i_deg, SimdLevel simd,
+                Facets facets = Facets::seen);
 
     /// Nodes of 16-point Gauss rules and their weights F_alpha dtheta_d, between two angles.
     WeightedAngles operator()(double begin_deg, double end_deg) const;
@@ -22,6 +27,7 @@ private:
     const TransmissionFilter& filter_;
     double theta_i_deg_, kink_deg_;
     SimdLevel simd_;
+    Facets facets_;
     std::vector<double> before_, behind_;  ///< ends of panels: theta_d and v = sqrt(theta_d - kink)
 };
 

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <map>
-#include <memory>
-#include <mutex>
 #include <span>
 #include <vector>
 
-#include "core/color/color_request.hpp"
-#include "core/rough/angle_series.hpp"
+#include "core/rough/facet_series.hpp"
 
 namespace irido {
 
@@ -27,7 +23,6 @@ class RoughTransmissivity {
 public:
     /// Throws DomainError as StackPower does.
     RoughTransmissivity(Stack stack, Light light, SimdLevel simd = best_simd_level());
-    ~RoughTransmissivity();
 
     struct Value {
         double value = 0;
@@ -45,13 +40,8 @@ public:
                                   std::span<const double> wavelength_nm) const;
 
 private:
-    std::shared_ptr<const AngleSeries> series_of(double wavelength_nm) const;
-
-    struct Kernel;
-    std::unique_ptr<const Kernel> kernel_;
+    FacetSeries facets_;
     SimdLevel simd_;
-    mutable std::mutex lock_;
-    mutable std::map<double, std::shared_ptr<const AngleSeries>> series_;
 };
 
 }  // namespace irido

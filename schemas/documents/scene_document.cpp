@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "schemas/documents/inner_stack.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
@@ -91,7 +92,7 @@ private:
                 result.vary.push_back({path, ascending(result, range_of(value),
                                                        pointer + "/vary" + pointer_step(path))});
         try {
-            result.source = source(object["stack"], pointer + "/stack");
+            result.source = inner_stack(object["stack"], pointer + "/stack", folder_);
             // the stack at both ends of what varies
             if (read_at(result, &ValueRange::last)) read_at(result, &ValueRange::first);
         } catch (const std::exception& error) {
@@ -99,27 +100,6 @@ private:
         }
         for (const std::string& note : result.document.notes) scene_.notes.push_back(note);
         return result;
-    }
-
-    /// An inline stack is called by its pointer, a file as the scene calls it.
-    StackSource source(const json& stack, const std::string& pointer) const {
-        if (stack.is_object()) return {stack, pointer, folder_};
-        const std::string text = stack.get<std::string>();
-        if (text.empty() || text == "-")
-            throw InputError("", pointer,
-                             "must be a stack, a file or an expression (got \"" + text + "\")");
-        const bool is_expression = text.find('|') != std::string::npos;
-        const std::string path =
-            is_expression ? text : (std::filesystem::path(folder_) / text).string();
-        try {
-            StackSource loaded = load_stack({path, {}});
-            if (!is_expression) loaded.file = text;
-            if (is_expression) loaded.folder = folder_;  // of the material files that it names
-            return loaded;
-        } catch (const InputError& error) {
-            const std::string file = error.file == path ? text : error.file;
-            throw InputError("", pointer, InputError(file, error.where, error.message).what());
-        }
     }
 
     /// Reads the stack with one end of what varies; false if it has faults there.

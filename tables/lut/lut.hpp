@@ -21,6 +21,8 @@ struct LutAxis {
     std::string name;            ///< column of the CSV: theta_i_deg, cos_theta, opd_nm, ...
     std::string unit;            ///< deg, nm, or "" for a pure number
     std::vector<double> values;  ///< strictly monotonic, at least one
+    /// Above 0: equally spaced in place_of(x) = x/(x + half_at), between which readers interpolate.
+    double half_at = 0;
     bool operator==(const LutAxis&) const = default;
 
     std::size_t count() const { return values.size(); }
@@ -29,6 +31,10 @@ struct LutAxis {
     /// The index of the cell [values[i], values[i + 1]] that contains x or is nearest to it; 0 if
     /// there is none.
     std::size_t cell_of(double x) const;
+    double place_of(double x) const { return half_at > 0 ? x / (x + half_at) : x; }
+    double at_place(double place) const {
+        return half_at > 0 ? half_at * place / (1 - place) : place;
+    }
 };
 
 /// `count` values from one end to the other, both included; count 1 is `first` alone.

@@ -63,6 +63,7 @@ struct LutRequest {
 
     // for kinds with `color`
     ColorRequest color;
+    // for kinds with `color` or `space`
     const RgbSpace* space = nullptr;
     Adaptation adaptation = Adaptation::bradford;
     std::vector<VariedValue> vary;  ///< for kinds with `vary`: at most two
@@ -113,6 +114,8 @@ struct LutKind {
     bool stack = false;                        ///< needs a stack
     bool light = false;                        ///< needs an illuminant and an observer
     bool color = false;                        ///< needs side, polarization and space
+    bool space = false;                        ///< values are colours, without a stack
+    std::string_view text_type = "f32";        ///< number format of CSV, unless --dtype is given
     bool vary = false;                         ///< up to two numbers of the stack may vary
     std::vector<LutOption> options{};
     /// Throws DomainError or InputError for impossible requests.

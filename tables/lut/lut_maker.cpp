@@ -72,7 +72,11 @@ std::vector<double> resampled(const std::vector<double>& values, const std::vect
     for (std::size_t j = 0; j < at.size(); ++j) {
         const std::size_t i = axes[a].cell_of(at[j]);
         const std::size_t next = std::min(i + 1, x.size() - 1);
-        const double w = next == i ? 0 : std::clamp((at[j] - x[i]) / (x[next] - x[i]), 0.0, 1.0);
+        const auto place = [&axis = axes[a]](double value) { return axis.place_of(value); };
+        const double w =
+            next == i ? 0
+                      : std::clamp((place(at[j]) - place(x[i])) / (place(x[next]) - place(x[i])),
+                                   0.0, 1.0);
         for (std::size_t o = 0; o < outer; ++o) {
             const double* const low = values.data() + (o * x.size() + i) * inner;
             const double* const high = values.data() + (o * x.size() + next) * inner;
@@ -83,9 +87,11 @@ std::vector<double> resampled(const std::vector<double>& values, const std::vect
     return result;
 }
 
-std::vector<double> middles(const std::vector<double>& x) {
+std::vector<double> middles(const LutAxis& axis) {
+    const std::vector<double>& x = axis.values;
     std::vector<double> result;
-    for (std::size_t i = 0; i + 1 < x.size(); ++i) result.push_back(0.5 * (x[i] + x[i + 1]));
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+        result.push_back(axis.at_place(0.5 * (axis.place_of(x[i]) + axis.place_of(x[i + 1]))));
     return result;
 }
 
@@ -100,8 +106,10 @@ public:
     std::vector<double> between(std::size_t a) const {
         const LutAxis& planned = plan_.axes[a].axis;
         if (plan_.mips && a == 0) return {};
-        if (plan_.axes[a].fixed && (axes_[a].count() < 3 || !axes_[a].is_linear())) return {};
-        if (axes_[a].count() > 1) return middles(axes_[a].values);
+        if (plan_.axes[a].fixed && axes_[a].half_at == 0 &&
+            (axes_[a].count() < 3 || !axes_[a].is_linear()))
+            return {};
+        if (axes_[a].count() > 1) return middles(axes_[a]);
         if (plan_.axes[a].fixed || planned.count() < 2) return {};
         return equally_spaced(planned.values.front(), planned.values.back(), kDroppedSamples);
     }

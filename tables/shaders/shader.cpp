@@ -20,6 +20,11 @@ constexpr Snippet kSnippets[] = {
 #include "shaders.inc"
 };
 
+/// Those that there are in WGSL, complete.
+constexpr Snippet kWgslSnippets[] = {
+#include "wgsl_shaders.inc"
+};
+
 /// Parts of others, nothing by themselves.
 constexpr std::array<std::string_view, 2> kParts{"common", "complex"};
 
@@ -135,19 +140,31 @@ std::vector<std::string_view> shader_names() {
 }
 
 std::vector<std::string_view> shader_languages() {
-    return {"glsl", "hlsl"};
+    return {"glsl", "hlsl", "wgsl"};
+}
+
+std::vector<std::string_view> shader_names_in(std::string_view language) {
+    if (language != "wgsl") return shader_names();
+    std::vector<std::string_view> names;
+    for (const Snippet& s : kWgslSnippets) names.push_back(s.name);
+    return names;
 }
 
 std::string shader_source(std::string_view name, std::string_view language) {
     std::string body;
     std::vector<std::string_view> there;
-    append(body, name, there);
+    const bool is_wgsl = language == "wgsl";
+    if (is_wgsl)
+        body = "\n" + std::string(std::ranges::find(kWgslSnippets, name, &Snippet::name)->text);
+    else
+        append(body, name, there);
     std::string head = "// irido " + this_build().version + ": " + std::string(name) + ", ";
-    head += language == "glsl" ? "GLSL (ES 3.00 and later; needs highp float)\n"
-                               : "HLSL (shader model 4 and later)\n";
+    head += is_wgsl              ? "WGSL\n"
+            : language == "glsl" ? "GLSL (ES 3.00 and later; needs highp float)\n"
+                                 : "HLSL (shader model 4 and later)\n";
     head += "// SPDX-License-Identifier: MIT-0. No notice is needed where you paste this.\n";
     head += "// Tables: bilinear filtering, clamped to the edge. Lengths in nm.\n";
-    return head + translated(body, language == "glsl");
+    return head + (is_wgsl ? body : translated(body, language == "glsl"));
 }
 
 }  // namespace irido::tables

@@ -39,3 +39,21 @@ TEST_CASE("snippets mix the mip levels on both sides of a level", "[tables][lut]
         CHECK_THAT(body, Contains("floor(level)") && Contains("mix(") && Contains("low + 1.0"));
     }
 }
+
+TEST_CASE("snippets in WGSL have the functions of the others", "[tables][lut]") {
+    const std::regex function(R"((?:^|\n)(?:fn|float3?|void) (irido_scratch\w*|irido_slit\w*)\()");
+    const auto functions = [&](const std::string& source) {
+        std::vector<std::string> names;
+        for (auto at = std::sregex_iterator(source.begin(), source.end(), function);
+             at != std::sregex_iterator(); ++at)
+            names.push_back((*at)[1]);
+        return names;
+    };
+    CHECK(shader_names_in("wgsl").size() == 2);
+    CHECK(shader_names_in("glsl") == shader_names());
+    for (const std::string_view name : shader_names_in("wgsl")) {
+        const auto names = functions(shader_source(name, "wgsl"));
+        CHECK(names.size() >= 3);
+        CHECK(names == functions(shader_source(name, "hlsl")));
+    }
+}

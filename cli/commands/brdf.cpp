@@ -1,0 +1,145 @@
+#include <memory>
+
+#include "cli/options/command.hpp"
+#include "cli/options/picture_options.hpp"
+#include "cli/options/surface_options.hpp"
+#include "cli/queries/surface_query.hpp"
+#include "tables/pictures/png_file.hpp"
+
+namespace irido::cli {
+
+namespace {
+
+struct BrdfCommand {
+    SurfaceOptions surface;
+    SurfaceQuery query;
+    std::string wavelengths = "380:780:1";
+    OutputOptions output;
+    PictureOptions picture;
+    unsigned threads = 0;
+    bool quiet = false;
+};
+
+int run_brdf(const BrdfCommand& command) {
+    const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
+    if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
+    if (command.query.scatterogram && (!picture || picture->name != "png") &&
+        resolved_format(command.output) != "csv")
+        throw UsageError("--scatterogram: requires --output FILE.png or FILE.csv");
+    if (command.query.scatterogram && command.output.file.empty())
+        throw UsageError("--scatterogram: requires --output FILE.png or FILE.csv");
+    SurfaceQuery query = command.query;
+    query.wavelengths_nm = parse_list("--wavelengths", command.wavelengths,
+                                      kAllWavelengths.first_nm, kAllWavelengths.last_nm);
+    query.execution = execution_of(command.threads);
+    query.note = [&](const std::string& text) { note(text, command.quiet); };
+    const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
+    check_writable(command.output);
+    SurfaceRows rows =
+        std::visit([&](const auto& surface) { return rows_of_surface(surface, document, query); },
+                   document.surface);
+    if (!picture) {
+        write_records(rows.records, command.output);
+        return 0;
+    }
+    if (rows.pixels) {
+        for (const std::string& text : rows.plot.notes) query.note(text);
+        const unsigned bits = command.picture.bits == "16" ? 16 : 8;
+        write_bytes(tables::png_file(*rows.pixels, bits), command.output, true);
+        return 0;
+    }
+    rows.plot.title = title_of(document, command.surface);
+    for (const std::string& text : rows.plot.notes) query.note(text);
+    write_picture([&] { return tables::figure_of(rows.records, rows.plot); }, command.picture,
+                  *picture, command.output);
+    return 0;
+}
+
+}  // namespace
+
+void add_brdf_command(CLI::App& program, Run& run) {
+    CLI::App* command = program.add_subcommand(
+        "brdf",
+        "How a surface scatters light, rough layers of thin films or scratches: BRDF, albedo.");
+    const auto options = std::make_shared<BrdfCommand>();
+    add_surface_options(*command, options->surface);
+    add_direction_options(*command, options->query.directions);
+    command
+        ->add_option("-w,--wavelengths", options->wavelengths,
+                     "vacuum wavelengths, nm, [1, 1e7] [380:780:1]")
+        ->type_name("LIST");
+    command
+        ->add_option("--quantity", options->query.quantity,
+                     "brdf: per steradian, without the coating's mirror\n"
+                     "albedo: of light from each --light-theta, reflected into all directions,\n"
+                     "the coating's mirror among them\n"
+                     "transmissivity: of each layer, --light-theta being the angle inside\n"
+                     "sampling: probabilities of the coating (0), each layer and the base\n"
+                     "density: of scratches, the share of the area that they cover [brdf]")
+        ->type_name("QUANTITY");
+    offer(*command, "quantity", "brdf albedo transmissivity sampling density");
+    command
+        ->add_option("--paths", options->query.paths,
+                     "single: light reflected once, by a layer or the base\n"
+                     "all: between layers, base and coating as often as it may be\n"
+                     "simulation, simulation-single: the same by Monte Carlo; adds the column\n"
+                     "stderr [single]")
+        ->type_name("PATHS");
+    offer(*command, "paths", "single all simulation simulation-single");
+    command
+        ->add_option("--samples", options->query.samples,
+                     "paths of each direction of the light, of a simulation, [2, 1e12] [1e6]")
+        ->type_name("N");
+    command->add_option("--seed", options->query.seed, "of a simulation, a whole number [1]")
+        ->type_name("SEED");
+    command
+        ->add_option("--facets", options->query.facets,
+                     "of a simulation: sampled (a facet at every crossing) or filter (their\n"
+                     "mean, F_alpha) [sampled]")
+        ->type_name("CHOICE");
+    offer(*command, "facets", "sampled filter");
+    command
+        ->add_option("--transmission", options->query.transmission,
+                     "single: straight light meets one facet of a layer; multiple: as many as\n"
+                     "Smith's model has on its way, which loses less at grazing [single]")
+        ->type_name("CROSSINGS");
+    offer(*command, "transmission", "single multiple");
+    command->add_flag("--color", options->query.wants_color,
+                      "instead of wavelengths columns X,Y,Z,r,g,b,hex: colour of pi times the\n"
+                      "BRDF, a white diffuser being 1, or of the albedo");
+    add_scratch_options(*command, options->query.scratch);
+    command->add_flag("--scatterogram", options->query.scatterogram,
+                      "two discs of directions seen from above: in a white environment, and pi\n"
+                      "times the BRDF in a beam from --light-theta; requires -o FILE.png or .csv");
+    add_light_options(*command, options->query.color);
+    add_space_options(*command, options->query.color);
+    command
+        ->add_option("--tolerance", options->query.color.tolerance,
+                     "maximum error of X, Y, Z, relative to the larger of 1 and what a mirror's\n"
+                     "facets would give, [" +
+                         to_text(kSmallestTolerance) + ", 1] [" + to_text(kDefaultTolerance) +
+                         "]; of --paths all\n"
+                         "where there is no closed form, relative [0.001]; exit status 1 if a\n"
+                         "tolerance that is given cannot be met")
+        ->type_name("T");
+    add_output_options(*command, options->output,
+                       record_formats_text(RecordTarget::stream_or_picture));
+    add_picture_options(*command, options->picture);
+    add_threads_option(*command, options->threads);
+    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    set_examples(
+        *command,
+        {"irido brdf \"1 | (1@250 | 1.5@250)^10 | 1\" --alpha 0.1 --light-theta 30 "
+         "--view-theta 0:80:5 -w 420:700:10",
+         "irido brdf schemas/examples/surfaces/green-on-pale.json --light-theta 0:85:5 "
+         "--quantity albedo --paths all -w 550",
+         "irido brdf schemas/examples/surfaces/blue-over-red.json --light-theta 45 "
+         "--view-theta 0:80:1 --color -o strip.svg",
+         "irido brdf schemas/examples/surfaces/worn-spoon.json --light-theta 19.7 --light-phi "
+         "206.5 --view-theta 20 --view-phi 40 --footprint 150,80,20 --color"},
+        "Directions point away from the surface. Rows are every combination, in the order\n"
+        "light-theta, light-phi, view-theta, view-phi, wavelength, the last one fastest.");
+    command->callback([options, &run] { run = [options] { return run_brdf(*options); }; });
+}
+
+}  // namespace irido::cli

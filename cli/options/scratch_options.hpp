@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options/command.hpp"
+#include "core/scratch/scratched_scattering.hpp"
+
+namespace irido::cli {
+
+/// Options of scratched surfaces, as typed; "" if not.
+struct ScratchOptions {
+    std::string at, footprint, footprint_shape, area_light, light_integral, energy;
+    bool coherent = false, ensemble = false;
+
+    /// The first that was typed, "" if none was.
+    std::string typed() const;
+};
+
+/// --at, --footprint, --footprint-shape, --coherent, --ensemble, --area-light, --light-integral and
+/// --energy
+void add_scratch_options(CLI::App& command, ScratchOptions& options);
+
+// Values of typed texts; each throws UsageError.
+SurfacePoint parse_at(const ScratchOptions& options);
+std::optional<Footprint> parse_footprint(const ScratchOptions& options);
+ScratchSum parse_scratch_sum(const ScratchOptions& options);
+LightIntegral parse_light_integral(const ScratchOptions& options);
+
+}  // namespace irido::cli

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options/color_options.hpp"
+#include "cli/options/scratch_options.hpp"
+#include "cli/options/surface_options.hpp"
+#include "core/rough/layered/layered_scattering.hpp"
+#include "tables/pictures/raster.hpp"
+#include "tables/pictures/rows_figure.hpp"
+#include "tables/records/records.hpp"
+
+namespace irido::cli {
+
+/// What is asked of a surface, parsed. Each kind of surface takes what it knows and refuses the
+/// rest by name.
+struct SurfaceQuery {
+    std::string quantity = "brdf";  ///< brdf, albedo, transmissivity, sampling, density
+    DirectionOptions directions;
+    std::vector<double> wavelengths_nm;
+    std::string paths = "single";         ///< single, all, simulation, simulation-single
+    std::string transmission = "single";  ///< single, multiple
+    ScratchOptions scratch;
+    std::string samples, seed, facets;  ///< of simulations; "" if not typed
+    bool wants_color = false;
+    bool scatterogram = false;
+    ColorOptions color;  ///< illuminant, observer, space, adaptation and tolerance
+    Execution execution{0};
+    std::function<void(const std::string&)> note = [](const std::string&) {};
+};
+
+/// Rows, and what their columns are in a picture.
+struct SurfaceRows {
+    tables::Records records;
+    tables::RowPlot plot;
+    std::optional<tables::Pixels> pixels = {};  ///< a picture that is no plot of the rows
+};
+
+// Values of typed texts; each throws UsageError.
+Paths parse_paths(const std::string& text);
+Crossings parse_crossings(const std::string& text);
+
+/// Notes materials of the layers that colours clamp to their end values; see report_held_ranges().
+void report_held_layers(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
+                        const Sensitivity& sensitivity, const SurfaceQuery& query);
+
+/// Two discs of directions: in a white environment, where a pixel is the albedo, and in a beam from
+/// the light's direction, pi times the BRDF. Throws as rows_of_surface() does.
+SurfaceRows layered_scatterogram(const LayeredSurface& surface,
+                                 const schemas::SurfaceDocument& document,
+                                 const SurfaceQuery& query);
+
+/// Answers of a layered surface. Throws UsageError and InputError.
+SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
+                            const SurfaceQuery& query);
+
+/// Answers of a scratched surface. Throws UsageError and InputError.
+SurfaceRows rows_of_surface(const ScratchedSurface& surface,
+                            const schemas::SurfaceDocument& document, const SurfaceQuery& query);
+
+}  // namespace irido::cli

@@ -1,0 +1,55 @@
+#include "core/rough/layered/layer_transport.hpp"
+
+#include <algorithm>
+
+#include "core/coherent/coherent.hpp"
+#include "core/rough/filter_nodes.hpp"
+#include "core/rough/ggx.hpp"
+
+namespace irido {
+
+/// Moments of one angle, for one thread at a time.
+struct LayerTransport::Moments {
+    explicit Moments(FilterNodes nodes) : moments(std::move(nodes)) {}
+    std::mutex lock;
+    AngleMoments moments;
+};
+
+LayerTransport::LayerTransport(const RoughLayer& layer, SimdLevel simd)
+    : simd_(simd),
+      filter_(layer.alpha),
+      facets_(layer.stack, Light::unpolarized, {Side::reflected, Side::transmitted}, simd) {}
+
+std::shared_ptr<LayerTransport::Moments> LayerTransport::moments_of(double theta_deg,
+                                                                    bool behind) const {
+    const std::scoped_lock guard(lock_);
+    auto& moments = moments_[{theta_deg, behind}];
+    const auto facets = behind ? FilterNodes::Facets::behind : FilterNodes::Facets::seen;
+    if (!moments)
+        moments = std::make_shared<Moments>(FilterNodes(filter_, theta_deg, simd_, facets));
+    return moments;
+}
+
+std::vector<double> LayerTransport::straight(double theta_deg,
+                                             std::span<const double> wavelength_nm,
+                                             Crossings crossings) const {
+    const auto series = facets_(wavelength_nm);
+    const auto mean_of = [&](bool behind) {
+        const std::shared_ptr<Moments> kept = moments_of(theta_deg, behind);
+        const std::scoped_lock guard(kept->lock);
+        std::vector<double> values;
+        values.reserve(series.size());
+        for (const auto& of_wavelength : series)
+            values.push_back(std::max(0.0, kept->moments(*of_wavelength, kT).value));
+        return values;
+    };
+    std::vector<double> tau = mean_of(false);
+    if (crossings == Crossings::single) return tau;
+    const double G1 = smith_masking(alpha(), cos_of_incidence(theta_deg));
+    const std::vector<double> behind = mean_of(true);  // (1 - G1) Tb
+    if (G1 > 0)
+        for (std::size_t w = 0; w < tau.size(); ++w) tau[w] /= 1 - behind[w] * tau[w] / G1;
+    return tau;
+}
+
+}  // namespace irido

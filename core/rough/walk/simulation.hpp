@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/rough/layered/layered_scattering.hpp"
+#include "core/rough/walk/facet_table.hpp"
+
+namespace irido {
+
+/// How a path crosses rough layers.
+enum class FacetChoice {
+    sampled,  ///< a facet drawn at every crossing, of those that the direction sees
+    filter,   ///< the mean over them, F_alpha: FPB24 eqs. 31 to 35
+};
+
+struct SimulationRequest {
+    Paths paths = Paths::all;
+    FacetChoice facets = FacetChoice::sampled;
+    Crossings crossings = Crossings::single;  ///< of FacetChoice::filter
+    std::uint64_t samples = 1'000'000;        ///< paths of each direction of the light, at least 2
+    std::uint64_t seed = 1;
+};
+
+/// Position-free Monte Carlo of a layered surface: paths of light between coating, layers and base,
+/// with a visible facet (or the filter) at every layer, a cosine lobe at the base, and connections
+/// to the directions asked for at every reflection upwards. All wavelengths follow one path, whose
+/// choices are made with their mean; R comes from tables in steps of 0.01 degrees. Sample n of
+/// light k draws from counters (n, k) of a Philox generator: neither the number of threads nor
+/// other lights change it. Weights, corrected from FPB24 eqs. 31 to 33: a facet that reflects has
+/// R G1(o)/(1 - p), one that lets through T G1(i)/p, the filter f_t cos/p.
+class LayeredSimulation {
+public:
+    /// Refers to the scattering.
+    LayeredSimulation(const LayeredScattering& scattering, const SimulationRequest& request,
+                      const std::vector<double>& wavelength_nm, const Execution& execution);
+
+    /// Means and their standard errors.
+    struct Values {
+        std::vector<double> mean, error;
+    };
+
+    /// BRDF, [pair][wavelength]. Pairs of one theta_i share paths.
+    Values brdf(std::span<const ScatterPair> pairs) const;
+
+    /// Albedo, the coating's mirror included, [angle][wavelength].
+    Values albedo(std::span<const double> theta_i_deg) const;
+
+private:
+    class Walk;
+    Values simulated(std::span<const ScatterPair> pairs, double theta_i_deg, std::uint32_t light,
+                     bool is_albedo) const;
+
+    const LayeredScattering& scattering_;
+    SimulationRequest request_;
+    std::size_t wavelengths_;
+    std::vector<double> base_;  ///< albedo at each wavelength
+    Execution execution_;
+    std::vector<AngleTable> facets_, straight_;
+};
+
+}  // namespace irido

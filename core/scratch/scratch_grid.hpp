@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scratch/scratch.hpp"
+
+namespace irido {
+
+/// Which scratches a place of a rectangle may see: square cells, each with the numbers of all
+/// scratches whose axis comes nearer to the cell than `reach`. One buffer of offsets and one of
+/// numbers, as an engine loads them: VWH18's lists of a triangle, for any surface with texture
+/// coordinates.
+class ScratchGrid {
+public:
+    /// width, height, cell, reach in um, (0, 1e9]; at most 2^24 cells, 2^31 entries, else
+    /// DomainError. `origin` is the corner of cell 0.
+    ScratchGrid(std::span<const Scratch> scratches, SurfacePoint origin, double width_um,
+                double height_um, double cell_um, double reach_um);
+
+    std::uint32_t columns() const { return columns_; }
+    std::uint32_t rows() const { return rows_; }
+    double cell_um() const { return cell_; }
+    /// offsets()[cell] to offsets()[cell + 1] are its entries; cell = row columns() + column.
+    std::span<const std::uint32_t> offsets() const { return offsets_; }
+    std::span<const std::uint32_t> entries() const { return entries_; }
+    /// Entries of the cell of a place, ascending; of the nearest cell outside the rectangle.
+    std::span<const std::uint32_t> near(SurfacePoint at) const;
+
+private:
+    SurfacePoint origin_;
+    double cell_;
+    std::uint32_t columns_ = 0, rows_ = 0;
+    std::vector<std::uint32_t> offsets_, entries_;
+};
+
+}  // namespace irido

@@ -1,0 +1,411 @@
+#include "core/scratch/scratched_scattering.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/color/held_stack.hpp"
+#include "core/colorimetry/sensitivity_transform.hpp"
+#include "core/error.hpp"
+#include "core/math/constants.hpp"
+#include "core/math/gauss.hpp"
+#include "core/math/parallel.hpp"
+#include "core/rough/ggx.hpp"
+#include "core/scratch/slit_color.hpp"
+#include "core/spectrum/spectrum.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kNanometres = 1000;  // in a micrometre
+
+double dot_of(const UnitVector& a, const UnitVector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double half_cosine(const SkyPair& pair) {
+    return std::sqrt(std::clamp((1 + dot_of(pair.light, pair.view)) / 2, 0.0, 1.0));
+}
+
+/// Reflectance of unpolarized light, [angle][wavelength].
+std::vector<double> base_reflectance(const Stack& stack, const std::vector<double>& wavelength_nm,
+                                     std::span<const double> cosines, const Execution& execution) {
+    const StackPower power(stack);
+    const IndexTable table(stack, wavelength_nm);
+    const Needs needs{.T = false, .A = false};
+    Spectra both = spectra(power, table, cosines, needs, execution);
+    for (std::size_t i = 0; i < both.s.R.size(); ++i) both.s.R[i] = (both.s.R[i] + both.p.R[i]) / 2;
+    return std::move(both.s.R);
+}
+
+/// D G1 G1/(4 cos theta_i cos theta_o)
+double rough_factor(double alpha, const SkyPair& pair) {
+    const double i = pair.light[2], o = pair.view[2];
+    if (!(i > 0) || !(o > 0)) return 0;
+    const double half = half_cosine(pair);
+    if (!(half > 0)) return 0;
+    return ggx_distribution(alpha, std::min(1.0, (i + o) / (2 * half))) * smith_masking(alpha, i) *
+           smith_masking(alpha, o) / (4 * i * o);
+}
+
+/// A function of a cosine by its Chebyshev coefficients between two ends.
+class CosineSeries {
+public:
+    static constexpr std::size_t kCount = 33;
+
+    CosineSeries(double low, double high, std::span<const double> values)
+        : middle_((low + high) / 2), half_((high - low) / 2) {
+        for (std::size_t k = 0; k < kCount; ++k) {
+            double sum = 0;
+            for (std::size_t j = 0; j < kCount; ++j)
+                sum += values[j] * std::cos(angle(j) * static_cast<double>(k));
+            coefficients_[k] = (k == 0 ? 1 : 2) * sum / kCount;
+        }
+        constexpr double kLeast = 1e-13;
+        while (used_ > 1 && std::abs(coefficients_[used_ - 1]) < kLeast) --used_;
+    }
+    static std::vector<double> nodes(double low, double high) {
+        std::vector<double> cosines;
+        for (std::size_t j = 0; j < kCount; ++j)
+            cosines.push_back(
+                std::clamp((low + high) / 2 + (high - low) / 2 * std::cos(angle(j)), 0.0, 1.0));
+        return cosines;
+    }
+    double operator()(double cosine) const {
+        const double x = std::clamp((cosine - middle_) / half_, -1.0, 1.0);
+        double first = 0, second = 0;
+        for (std::size_t k = used_; k-- > 1;) {
+            const double next = 2 * x * first - second + coefficients_[k];
+            second = first;
+            first = next;
+        }
+        return x * first - second + coefficients_[0];
+    }
+
+private:
+    static double angle(std::size_t j) {
+        return kPi * (static_cast<double>(j) + 0.5) / static_cast<double>(kCount);
+    }
+    double middle_, half_;
+    std::array<double, kCount> coefficients_{};
+    std::size_t used_ = kCount;
+};
+
+/// Cosines of theta_d that a view and the directions of a light have.
+struct CosineRange {
+    double low, high;
+};
+CosineRange half_cosines(const LightCone& light, const UnitVector& view) {
+    constexpr double kLeast = 1e-6;
+    const double between = std::acos(std::clamp(dot_of(light.bound().normal, view), -1.0, 1.0)),
+                 reach = std::acos(std::clamp(light.bound().least, -1.0, 1.0));
+    const double low = std::cos(std::min(kPi, between + reach) / 2),
+                 high = std::cos(std::max(0.0, between - reach) / 2);
+    return {std::max(0.0, low - kLeast), std::min(1.0, high + kLeast)};
+}
+
+Triple weighted(const std::array<std::vector<double>, 3>& weight, std::span<const double> values) {
+    Triple sum{};
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < values.size(); ++i) sum[c] += weight[c][i] * values[i];
+    return sum;
+}
+
+}  // namespace
+
+std::vector<ScratchEnsemble> ensembles_of(const ScratchField& field) {
+    constexpr double kPerMm2 = 1e-6;
+    require_valid(field);
+    const auto points = [](const DrawnRange& range) {
+        std::vector<GaussNode> nodes;
+        if (range.low == range.high) return std::vector<GaussNode>{{range.low, 1}};
+        for (const GaussNode& node : gauss_legendre<16>())
+            nodes.push_back(
+                {range.low + (range.high - range.low) * (1 + node.x) / 2, node.weight / 2});
+        return nodes;
+    };
+    const double length = (field.length_um.low + field.length_um.high) / 2;
+    std::vector<ScratchEnsemble> parts;
+    for (const GaussNode& width : points(field.width_um))
+        for (const GaussNode& depth : points(field.depth_um)) {
+            ScratchEnsemble part;
+            part.width_um = width.x;
+            part.depth_um = depth.x;
+            part.share =
+                field.count_per_mm2 * kPerMm2 * length * width.x * width.weight * depth.weight;
+            part.angle_low_deg = field.angle_deg.low;
+            part.angle_high_deg = field.angle_deg.high;
+            parts.push_back(part);
+        }
+    return parts;
+}
+
+ScratchedScattering::ScratchedScattering(ScratchedSurface surface, const ScratchSight& sight,
+                                         const ScratchSum& sum, const Execution& execution)
+    : surface_(std::move(surface)), sum_(sum), execution_(execution) {
+    constexpr double kReach = 6, kWaveReach = 9, kGaussianReach = 8;
+    require_valid(surface_.optics);
+    for (const Scratch& scratch : surface_.scratches) require_valid(scratch);
+    for (const ScratchField& field : surface_.fields) require_valid(field);
+    if (sum_.kind == ScratchSum::Kind::ensemble) {
+        for (const ScratchField& field : surface_.fields)
+            for (const ScratchEnsemble& part : ensembles_of(field)) ensembles_.push_back(part);
+        return;
+    }
+    const auto* const footprint = std::get_if<Footprint>(&sight);
+    const bool is_coherent = sum_.kind == ScratchSum::Kind::coherent;
+    double radius = (is_coherent ? kWaveReach : kReach) * surface_.optics.coherence_radius_um;
+    SurfacePoint center;
+    if (footprint) {
+        require_valid(*footprint);
+        center = footprint->center;
+        radius += std::max(footprint->a1_um, footprint->a2_um) *
+                  (footprint->kind == Footprint::Kind::gaussian ? kGaussianReach : 1);
+    } else {
+        center = std::get<SurfacePoint>(sight);
+    }
+    std::vector<Scratch> all = surface_.scratches;
+    for (std::size_t i = 0; i < surface_.fields.size(); ++i) {
+        const auto drawn = scratches_near(surface_.fields[i], surface_.seed,
+                                          static_cast<std::uint32_t>(i), center, radius);
+        all.insert(all.end(), drawn.begin(), drawn.end());
+    }
+    for (const Scratch& scratch : all) {
+        if (footprint)
+            visible_.emplace_back(scratch, surface_.optics, *footprint);
+        else
+            visible_.emplace_back(scratch, surface_.optics, center);
+    }
+    if (!is_coherent) return;
+    const std::vector<FootprintPoint> points =
+        footprint ? footprint_points(*footprint, surface_.optics.coherence_radius_um)
+                  : std::vector<FootprintPoint>{{center, 1}};
+    const double seen = static_cast<double>(points.size()) * static_cast<double>(all.size());
+    if (seen > kMostSeen)
+        throw DomainError("coherent sums over " + to_text(seen) +
+                          " scratches seen by points of a footprint are more than " +
+                          to_text(kMostSeen));
+    for (const FootprintPoint& point : points) {
+        Place& place = places_.emplace_back(Place{point.weight, {}});
+        for (const Scratch& scratch : all)
+            place.visible.emplace_back(scratch, surface_.optics, point.at);
+    }
+}
+
+double ScratchedScattering::density() const {
+    double sum = 0;
+    for (const VisibleScratch& scratch : visible_) sum += scratch.share();
+    for (const ScratchEnsemble& part : ensembles_) sum += part.share;
+    return sum;
+}
+
+bool ScratchedScattering::ends_nearby() const {
+    return std::ranges::any_of(visible_, &VisibleScratch::ends_nearby);
+}
+
+ScratchBalance ScratchedScattering::balance(double view_rise, double wavenumber_per_um) const {
+    if (!surface_.base) return {0, 1};
+    const double rise = surface_.optics.depth_phase == DepthPhase::vertical ? 2 : 2 * view_rise;
+    std::vector<GrooveShare> grooves;
+    for (const VisibleScratch& scratch : visible_)
+        grooves.push_back({scratch.share(), rise * scratch.scratch().depth_um});
+    for (const ScratchEnsemble& part : ensembles_)
+        grooves.push_back({part.share, rise * part.depth_um});
+    return scratch_balance(grooves, wavenumber_per_um, !surface_.fields.empty(), sum_.energy);
+}
+
+std::vector<double> ScratchedScattering::separate(const SkyPair& pair,
+                                                  const std::vector<double>& wavelength_nm) const {
+    constexpr std::size_t kMany = 256;  // that are worth a table of the lobe
+    const bool is_tabled = wavelength_nm.size() >= kMany;
+    const auto [shortest, longest] = std::ranges::minmax(wavelength_nm);
+    std::vector<double> sums(wavelength_nm.size(), 0.0);
+    for (const VisibleScratch& scratch : visible_) {
+        const ScratchPair seen =
+            pair_of(scratch, surface_.optics.depth_phase, pair.light, pair.view);
+        const double per_wavelength = kTwoPi * scratch.coherence_radius_um() * kNanometres *
+                                      std::abs(seen.xi1);  // y times the wavelength
+        if (!is_tabled || !scratch.has_ends()) {
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i] += scratch_brdf(scratch, seen, wavelength_nm[i] / kNanometres);
+            continue;
+        }
+        const LobeTable lobe(scratch, per_wavelength / longest, per_wavelength / shortest,
+                             kInfinity);
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            sums[i] += scratch_brdf_of_lobe(scratch, seen, wavelength_nm[i] / kNanometres,
+                                            lobe(per_wavelength / wavelength_nm[i]));
+    }
+    return sums;
+}
+
+double ScratchedScattering::coherent(const SkyPair& pair, double wavelength_um) const {
+    double sum = 0;
+    for (const Place& place : places_)
+        sum += place.weight * coherent_brdf(place.visible, surface_.optics.depth_phase, pair.light,
+                                            pair.view, wavelength_um);
+    return sum;
+}
+
+double ScratchedScattering::ensemble(const SkyPair& pair, double wavelength_um) const {
+    double sum = 0;
+    for (const ScratchEnsemble& part : ensembles_)
+        sum += ensemble_brdf(part, surface_.optics, pair.light, pair.view, wavelength_um);
+    return sum;
+}
+
+std::vector<double> ScratchedScattering::pair_brdf(const SkyPair& pair,
+                                                   const std::vector<double>& wavelength_nm) const {
+    std::vector<double> reflectance;
+    if (surface_.base) {
+        const double cosine = half_cosine(pair);
+        reflectance =
+            base_reflectance(*surface_.base, wavelength_nm, std::span(&cosine, 1), execution_);
+    }
+    const double rough = surface_.alpha ? rough_factor(*surface_.alpha, pair) : 0;
+    std::vector<double> values = sum_.kind == ScratchSum::Kind::separate
+                                     ? separate(pair, wavelength_nm)
+                                     : std::vector<double>(wavelength_nm.size(), 0.0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double wavelength_um = wavelength_nm[i] / kNanometres;
+        if (sum_.kind == ScratchSum::Kind::coherent) values[i] = coherent(pair, wavelength_um);
+        if (sum_.kind == ScratchSum::Kind::ensemble) values[i] = ensemble(pair, wavelength_um);
+        if (!surface_.base) continue;
+        const auto [base, scratches] = balance(pair.view[2], 1 / wavelength_um);
+        values[i] = reflectance[i] * (scratches * values[i] + base * rough);
+    }
+    return values;
+}
+
+std::vector<double> ScratchedScattering::brdf(std::span<const SkyPair> pairs,
+                                              const std::vector<double>& wavelength_nm) const {
+    const std::size_t count = wavelength_nm.size();
+    std::vector<double> values(pairs.size() * count);
+    parallel_for(pairs.size(), execution_.threads, [&](std::size_t i) {
+        std::ranges::copy(pair_brdf(pairs[i], wavelength_nm),
+                          values.begin() + static_cast<std::ptrdiff_t>(i * count));
+    });
+    return values;
+}
+
+double ScratchedScattering::longest_path_um(const SkyPair& pair) const {
+    double longest = 0, nearest = 0, farthest = 0;
+    for (const VisibleScratch& scratch : visible_) {
+        const ScratchPair seen =
+            pair_of(scratch, surface_.optics.depth_phase, pair.light, pair.view);
+        longest = std::max(longest, scratch.scratch().width_um * std::abs(seen.xi2) + seen.path_um);
+    }
+    for (const Place& place : places_)
+        for (const VisibleScratch& scratch : place.visible) {
+            constexpr double kSeen = 9;
+            if (std::abs(scratch.offset_um()) > kSeen * scratch.coherence_radius_um()) continue;
+            const double phase =
+                scratch.offset_um() *
+                pair_of(scratch, surface_.optics.depth_phase, pair.light, pair.view).xi2;
+            nearest = std::min(nearest, phase);
+            farthest = std::max(farthest, phase);
+        }
+    for (const ScratchEnsemble& part : ensembles_)
+        longest = std::max(longest, 2 * (part.width_um + part.depth_um));
+    return longest + (farthest - nearest);
+}
+
+std::vector<Triple> ScratchedScattering::colors(std::span<const SkyPair> pairs,
+                                                const Sensitivity& sensitivity) const {
+    ScratchedScattering held = *this;
+    if (held.surface_.base) held.surface_.base = held_stack(*surface_.base, sensitivity);
+    double longest_um = 0;
+    for (const SkyPair& pair : pairs) longest_um = std::max(longest_um, longest_path_um(pair));
+    const SensitivityPoints points = sensitivity_points(sensitivity, kNanometres * longest_um);
+    std::vector<double> wavelength_nm;
+    for (const double nu : points.wavenumber) wavelength_nm.push_back(1 / nu);
+    std::vector<Triple> colors(pairs.size());
+    parallel_for(pairs.size(), execution_.threads, [&](std::size_t i) {
+        colors[i] = weighted(points.weight, held.pair_brdf(pairs[i], wavelength_nm));
+    });
+    return colors;
+}
+
+std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone> lights,
+                                                      std::span<const UnitVector> views,
+                                                      const std::vector<double>& wavelength_nm,
+                                                      const LightIntegral& method) const {
+    if (sum_.kind != ScratchSum::Kind::separate)
+        throw DomainError("area lights take the separate sum of scratches only");
+    if (surface_.alpha) throw DomainError("area lights take smooth bases only (got an alpha)");
+    const std::size_t count = wavelength_nm.size();
+    std::vector<std::vector<LightSlices>> slices(lights.size());  // [light][scratch]
+    for (std::size_t l = 0; l < lights.size(); ++l)
+        for (const VisibleScratch& scratch : visible_)
+            slices[l].emplace_back(lights[l], scratch.tangent());
+    std::vector<double> values(views.size() * count);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        std::vector<CosineRange> ranges;
+        std::vector<std::vector<double>> reflectance;  // [light][angle][wavelength]
+        for (std::size_t l = 0; l < lights.size() && surface_.base; ++l) {
+            ranges.push_back(half_cosines(lights[l], views[v]));
+            reflectance.push_back(
+                base_reflectance(*surface_.base, wavelength_nm,
+                                 CosineSeries::nodes(ranges[l].low, ranges[l].high), execution_));
+        }
+        std::vector<std::vector<LobeTable>> lobes(lights.size());  // [light][scratch]
+        if (method.kind == LightIntegral::Kind::exact && count > 0) {
+            const double shortest_um = std::ranges::min(wavelength_nm) / kNanometres;
+            for (std::size_t l = 0; l < lights.size(); ++l)
+                for (std::size_t s = 0; s < visible_.size(); ++s)
+                    lobes[l].push_back(
+                        lobe_under(visible_[s], slices[l][s], views[v], shortest_um));
+        }
+        parallel_for(count, execution_.threads, [&](std::size_t i) {
+            const double wavelength_um = wavelength_nm[i] / kNanometres;
+            double sum = 0;
+            for (std::size_t l = 0; l < lights.size(); ++l) {
+                AngularReflectance of_angle;
+                if (surface_.base) {
+                    std::array<double, CosineSeries::kCount> at{};
+                    for (std::size_t k = 0; k < at.size(); ++k)
+                        at[k] = reflectance[l][k * count + i];
+                    of_angle = CosineSeries(ranges[l].low, ranges[l].high, at);
+                }
+                for (std::size_t s = 0; s < visible_.size(); ++s)
+                    sum += light_ratio(visible_[s], slices[l][s], surface_.optics.depth_phase,
+                                       views[v], wavelength_um, method, of_angle,
+                                       lobes[l].empty() ? nullptr : &lobes[l][s]);
+            }
+            values[v * count + i] = sum * balance(views[v][2], 1 / wavelength_um).scratches;
+        });
+    }
+    return values;
+}
+
+std::vector<Triple> ScratchedScattering::light_colors(std::span<const LightCone> lights,
+                                                      std::span<const UnitVector> views,
+                                                      const Sensitivity& sensitivity,
+                                                      const LightIntegral& method) const {
+    constexpr double kPathOfBase_um = 12;  // for what its films and tables do
+    ScratchedScattering held = *this;
+    if (held.surface_.base) held.surface_.base = held_stack(*surface_.base, sensitivity);
+    double largest_q = 0, longest_um = 0;
+    for (const LightCone& light : lights)
+        for (const UnitVector& view : views) {
+            const HalfSpace& bound = light.bound();
+            const double reach = std::acos(std::clamp(bound.least, -1.0, 1.0));
+            const double middle = std::hypot(bound.normal[0] + view[0], bound.normal[1] + view[1]);
+            largest_q = std::max(largest_q, middle + 2 * std::sin(reach / 2));
+        }
+    for (const VisibleScratch& scratch : visible_)
+        longest_um = std::max(longest_um, scratch.scratch().width_um * std::min(2.0, largest_q) +
+                                              2 * scratch.scratch().depth_um);
+    const SpectralNodes nodes =
+        spectral_nodes(sensitivity, longest_um + (surface_.base ? kPathOfBase_um : 0));
+    std::vector<double> wavelength_nm;
+    for (const double nu : nodes.nu_per_um) wavelength_nm.push_back(kNanometres / nu);
+    const std::vector<double> ratios = held.light_ratios(lights, views, wavelength_nm, method);
+    std::vector<Triple> colors;
+    for (std::size_t v = 0; v < views.size(); ++v)
+        colors.push_back(
+            weighted(nodes.weight, std::span(ratios).subspan(v * nodes.size(), nodes.size())));
+    return colors;
+}
+
+}  // namespace irido

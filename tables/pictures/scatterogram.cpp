@@ -1,0 +1,54 @@
+#include "tables/pictures/scatterogram.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/math/constants.hpp"
+
+namespace irido::tables {
+
+namespace {
+
+constexpr std::array kCircles_deg{5.0, 30.0, 60.0, 90.0};
+constexpr std::size_t kMargin = 8;  ///< pixels
+
+/// Half as dark again, or as bright.
+Ink circle_ink(const Ink& below) {
+    const bool is_bright = int{below.r} + int{below.g} + int{below.b} > 3 * 30000;
+    const auto mixed = [&](std::uint16_t part) {
+        return static_cast<std::uint16_t>(is_bright ? part / 2 : part / 2 + 32767);
+    };
+    return {mixed(below.r), mixed(below.g), mixed(below.b)};
+}
+
+}  // namespace
+
+Pixels scatterogram(
+    std::size_t discs, std::size_t diameter,
+    const std::function<Ink(std::size_t disc, double theta_deg, double phi_deg)>& ink) {
+    Pixels pixels;
+    pixels.width = discs * (diameter + kMargin) + kMargin;
+    pixels.height = diameter + 2 * kMargin;
+    pixels.inks.resize(pixels.width * pixels.height);
+    const double radius = 0.5 * static_cast<double>(diameter);
+    for (std::size_t disc = 0; disc < discs; ++disc)
+        for (std::size_t row = 0; row < diameter; ++row)
+            for (std::size_t column = 0; column < diameter; ++column) {
+                const double x = (static_cast<double>(column) + 0.5 - radius) / radius;
+                const double y = (radius - static_cast<double>(row) - 0.5) / radius;
+                const double theta = 90 * std::hypot(x, y);
+                if (theta > 90) continue;
+                const double turn = std::atan2(y, x) / kDegree;
+                Ink color = ink(disc, theta, turn < 0 ? turn + 360 : turn);
+                const double half = 45 / radius;  // of a pixel, in degrees
+                for (const double circle : kCircles_deg)
+                    if (std::abs(theta - std::min(circle, 90 - half)) <= half)
+                        color = circle_ink(color);
+                pixels.inks[(row + kMargin) * pixels.width + kMargin + disc * (diameter + kMargin) +
+                            column] = color;
+            }
+    return pixels;
+}
+
+}  // namespace irido::tables

@@ -1,0 +1,46 @@
+// Scratches without a table of colours: the spectrum at the nodes of irido lut scratch-nodes, 33 or
+// 49 of them. Lengths are um. u = W q for a scratch of width W, q = dot(light + view, b), b the
+// unit vector across it in the surface.
+
+// F(x) = Si(x) - (1 - cos x)/x, to 1e-6. Source: M. Abramowitz, I. A. Stegun, 5.2.38, 5.2.39.
+fn irido_slit_integral(x: f32) -> f32 {
+    let a = abs(x);
+    let a2 = a * a;
+    var value = a * (0.5 - a2 * (1.0 / 72.0 - a2 * (1.0 / 3600.0 - a2 * (1.0 / 282240.0))));
+    if (a >= 1.0) {
+        let f = ((((a2 + 38.027264) * a2 + 265.187033) * a2 + 335.677320) * a2 + 38.102495)
+            / ((((a2 + 40.021433) * a2 + 322.624911) * a2 + 570.236280) * a2 + 157.105423);
+        let g = ((((a2 + 42.242855) * a2 + 302.757865) * a2 + 352.018498) * a2 + 21.821899)
+            / ((((a2 + 48.196927) * a2 + 482.485984) * a2 + 1114.978885) * a2 + 449.690326);
+        value = 1.57079632679 - (1.0 + (f - 1.0) * cos(a) + g / a * sin(a)) / a;
+    }
+    return select(value, -value, x < 0.0);
+}
+
+// Radiance over a light's that covers q0 to q1, times 1/rho; v is the optical path of the depth D,
+// 2 D or D (cos theta_i + cos theta_o). X, Y, Z of the table's illuminant and observer.
+fn irido_scratch_nodes(nodes: texture_2d<f32>, count: i32, u0: f32, u1: f32, v: f32) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var i = 0; i < count; i++) {
+        let node = textureLoad(nodes, vec2i(i, 0), 0);  // nu, X, Y, Z
+        let groove = sin(3.14159265359 * fract(v * node.x));
+        let lobe = irido_slit_integral(6.28318530718 * u1 * node.x)
+            - irido_slit_integral(6.28318530718 * u0 * node.x);
+        sum += node.yzw * (4.0 * groove * groove * lobe * 0.318309886184);
+    }
+    return sum;
+}
+
+// T'(u): many scratches of one width at all angles reflect rho W / (pi |xi|) of it per steradian,
+// with u = W |xi|.
+fn irido_scratch_nodes_slope(nodes: texture_2d<f32>, count: i32, u: f32, v: f32) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var i = 0; i < count; i++) {
+        let node = textureLoad(nodes, vec2i(i, 0), 0);
+        let groove = sin(3.14159265359 * fract(v * node.x));
+        let x = 3.14159265359 * u * node.x;
+        let s = select(sin(x) / x, 1.0 - x * x / 6.0, abs(x) < 0.01);
+        sum += node.yzw * (4.0 * groove * groove * node.x * s * s);
+    }
+    return sum;
+}

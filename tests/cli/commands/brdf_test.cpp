@@ -1,0 +1,154 @@
+#include <catch2/catch.hpp>
+
+#include "tests/support/program.hpp"
+
+using namespace irido::test;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+const std::string kMirror = "1 | (1@250 | 1.5@250)^10 | 1";
+const std::string kPale = "schemas/examples/surfaces/green-on-pale.json";
+
+std::vector<std::vector<std::string>> rows_of(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"brdf"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_irido(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return parse_csv(outcome.out);
+}
+
+}  // namespace
+
+TEST_CASE("rows of brdf", "[cli][brdf]") {
+    const auto rows = rows_of({kMirror, "--alpha", "0.1", "--light-theta", "30", "--view-theta",
+                               "20,30", "--view-phi", "0,180", "-w", "450,550"});
+    REQUIRE(rows.size() == 9);
+    CHECK(rows[0] == std::vector<std::string>{"light_theta_deg", "light_phi_deg", "view_theta_deg",
+                                              "view_phi_deg", "wavelength_nm", "brdf_per_sr"});
+    CHECK(rows[7][4] == "450");
+    CHECK(rows[7][3] == "180");
+    CHECK_THAT(std::stod(rows[7][5]), WithinRel(1.0713005613365996, 1e-11));
+    CHECK_THAT(std::stod(rows[8][5]), WithinRel(9.789604879615283, 1e-11));
+    // azimuths are relative: the same pair, turned
+    const auto turned = rows_of({kMirror, "--alpha", "0.1", "--light-theta", "30", "--view-theta",
+                                 "30", "--light-phi", "270", "--view-phi", "90", "-w", "450"});
+    CHECK(turned[1][5] == rows[7][5]);
+}
+
+TEST_CASE("a file of directions", "[cli][brdf]") {
+    const TemporaryFolder folder;
+    const std::string header = "view_phi_deg,view_theta_deg,light_phi_deg,light_theta_deg\n";
+    write_text(folder / "d.csv", header + "180,30,0,30\n0,10,0,20\n");
+    const auto rows =
+        rows_of({kMirror, "--alpha", "0.1", "--directions", folder / "d.csv", "-w", "550"});
+    REQUIRE(rows.size() == 3);
+    CHECK_THAT(std::stod(rows[1][5]), WithinRel(9.789604879615283, 1e-11));
+    write_text(folder / "bad.csv", header + "180,95,0,30\n");
+    check_refused(run_irido({"brdf", kPale, "--directions", folder / "bad.csv"}),
+                  "view_theta_deg must be in [0, 90] (got 95)");
+    write_text(folder / "few.csv", "view_phi_deg,view_theta_deg\n0,0\n");
+    check_refused(run_irido({"brdf", kPale, "--directions", folder / "few.csv"}),
+                  "must have the column light_theta_deg");
+}
+
+TEST_CASE("quantities of brdf", "[cli][brdf]") {
+    const auto albedo =
+        rows_of({kPale, "--quantity", "albedo", "--light-theta", "0", "-w", "450,550,650"});
+    CHECK(albedo[0] == std::vector<std::string>{"light_theta_deg", "wavelength_nm", "albedo"});
+    CHECK_THAT(std::stod(albedo[1][2]), WithinRel(0.2896959755831737, 1e-6));
+    const auto tau = rows_of({kPale, "--quantity", "transmissivity", "-w", "450"});
+    CHECK(tau[0] ==
+          std::vector<std::string>{"layer", "theta_deg", "wavelength_nm", "ft_cos", "p_trans"});
+    CHECK_THAT(std::stod(tau[1][3]), WithinRel(0.9363140314426337, 1e-11));
+    const auto sampling = rows_of({kPale, "--quantity", "sampling", "-w", "450"});
+    REQUIRE(sampling.size() == 4);
+    CHECK(sampling[0] ==
+          std::vector<std::string>{"light_theta_deg", "wavelength_nm", "layer", "probability"});
+    const auto color = rows_of({kPale, "--color", "--light-theta", "45", "--view-theta", "45"});
+    CHECK(color[0] == std::vector<std::string>{"light_theta_deg", "light_phi_deg", "view_theta_deg",
+                                               "view_phi_deg", "X", "Y", "Z", "r", "g", "b",
+                                               "hex"});
+    // a white diffuser is white
+    const TemporaryFolder folder;
+    write_text(folder / "white.json", R"({"base": {"albedo": 1}})");
+    const auto white = rows_of({folder / "white.json", "--color", "--view-theta", "80"});
+    CHECK(white[1].back() == "#ffffff");
+    CHECK_THAT(std::stod(white[1][5]), WithinRel(1, 1e-12));
+}
+
+TEST_CASE("the number of threads does not show", "[cli][brdf]") {
+    for (const std::vector<std::string>& what :
+         {std::vector<std::string>{"-w", "400:700:20"}, {"--color"}}) {
+        std::vector<std::string> arguments{"brdf", kPale, "--view-theta", "0:80:10"};
+        arguments.insert(arguments.end(), what.begin(), what.end());
+        const std::string once = run_irido(arguments).out;
+        arguments.insert(arguments.end(), {"-j", "1"});
+        CHECK(run_irido(arguments).out == once);
+    }
+}
+
+TEST_CASE("brdf draws its rows", "[cli][brdf]") {
+    for (const std::vector<std::string>& what :
+         {std::vector<std::string>{"-w", "550"}, {"--color"}}) {
+        std::vector<std::string> arguments{"brdf", kPale, "--view-theta", "0:80:4", "-f", "svg"};
+        arguments.insert(arguments.end(), what.begin(), what.end());
+        const Outcome outcome = run_irido(arguments);
+        INFO(outcome.err);
+        CHECK(outcome.status == 0);
+        CHECK(outcome.out.starts_with("<?xml"));
+    }
+}
+
+TEST_CASE("all paths of two layers, and their simulation", "[cli][brdf][slow]") {
+    const std::vector<std::string> surface{"schemas/examples/surfaces/blue-over-red.json",
+                                           "--light-theta",
+                                           "30",
+                                           "--view-theta",
+                                           "30",
+                                           "-w",
+                                           "450"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = surface;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return rows_of(arguments);
+    };
+    const auto all = with({"--paths", "all"});
+    CHECK_THAT(std::stod(all[1][5]), WithinRel(4.95633123942, 1e-3));
+    const auto simulated = with({"--paths", "simulation", "--samples", "2000", "--seed", "3"});
+    CHECK(simulated[0].back() == "stderr");
+    CHECK_THAT(std::stod(simulated[1][5]), WithinRel(4.95633123942, 2e-2));
+    CHECK(with({"--paths", "simulation", "--samples", "2000", "--seed", "3", "-j", "1"}) ==
+          simulated);
+}
+
+TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
+    const auto refuse = [](const std::vector<std::string>& more, const std::string& error) {
+        std::vector<std::string> arguments{"brdf"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        check_refused(run_irido(arguments), error);
+    };
+    refuse({kMirror}, "a stack requires --alpha");
+    refuse({kMirror, "--alpha", "2"}, "--alpha: must be in [1e-4, 1] (got 2)");
+    refuse({kPale, "--alpha", "0.1"}, "--alpha is for stacks");
+    refuse({kPale, "--view-theta", "91"}, "--view-theta: must be in [0, 90] (got 91)");
+    refuse({kPale, "--light-theta", "nan"}, "--light-theta");
+    refuse({kPale, "--quantity", "colour"}, "--quantity: must be one of brdf, albedo");
+    refuse({kPale, "--paths", "few"}, "--paths: must be one of single, all");
+    refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");
+    refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e12]");
+    refuse({kPale, "--paths", "simulation", "--facets", "none"}, "--facets: must be one of");
+    refuse({kPale, "--paths", "simulation", "--color"}, "--color: takes --paths single or all");
+    refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "takes --quantity brdf");
+    refuse({kPale, "--transmission", "no"}, "--transmission: must be one of single, multiple");
+    refuse({kPale, "--color", "--quantity", "sampling"},
+           "--color: takes --quantity brdf or albedo");
+    refuse({kPale, "--view-theta", "0:90:0.001", "--light-theta", "0:90:0.001"}, "at most 1e7");
+    refuse({"schemas/examples/surfaces/blue-over-red.json", "--set", "layers.1.alpha=0"},
+           "/layers/1/alpha: must be in [1e-4, 1] (got 0)");
+    const TemporaryFolder folder;
+    write_text(folder / "s.json", R"({"layers": [{"stack": "1 | 1.5@100 | 2", "alpha": 0.1}],
+                                      "base": {"albedo": 0.5}})");
+    refuse({folder / "s.json"}, "/base: is not seen");
+}
