@@ -44,6 +44,7 @@ void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
         Command{"profile", simple(add_profile_command)},
         Command{"brdf", simple(add_brdf_command)},
         Command{"scratches", simple(add_scratches_command)},
+        Command{"compare", simple(add_compare_command)},
         Command{"sweep", [&] { add_sweep_command(program, run, words); }},
         Command{"lut", simple(add_lut_command)},
         Command{"plan", simple(add_plan_command)},

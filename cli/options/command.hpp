@@ -27,6 +27,7 @@ void add_bands_command(CLI::App& program, Run& run);
 void add_profile_command(CLI::App& program, Run& run);
 void add_brdf_command(CLI::App& program, Run& run);
 void add_scratches_command(CLI::App& program, Run& run);
+void add_compare_command(CLI::App& program, Run& run);
 /// `arguments` of the program: --compute decides which options there are. Throws UsageError.
 void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments);
 void add_lut_command(CLI::App& program, Run& run);
