@@ -106,7 +106,7 @@ TEST_CASE("includes run one way between the rooms inside a room", "[architecture
     const std::map<std::string, std::vector<std::string>> order{
         {"core",
          {"", "math", "material", "stack", "coherent", "incoherent", "thickness", "film", "vector",
-          "spectrum", "periodic", "colorimetry", "color", "rough", "truth"}},
+          "spectrum", "periodic", "colorimetry", "color", "rough", "design", "truth"}},
         {"schemas", {"", "readers", "documents"}},
         {"tables", {"", "files", "records", "resume", "pictures", "lut", "shaders"}},
         {"cli", {"", "options", "queries", "sweep", "manual", "commands", "bench"}},

@@ -78,7 +78,7 @@ Triple lab(const Triple& xyz, const Triple& white) {
     return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
-double ciede2000(const Triple& lab1, const Triple& lab2) {
+DifferenceParts ciede2000_parts(const Triple& lab1, const Triple& lab2) {
     // Chroma and hue with the a axis stretched for greyish colours.
     const double plain_chroma = (std::hypot(lab1[1], lab1[2]) + std::hypot(lab2[1], lab2[2])) / 2;
     const double g = 0.5 * (1 - chroma_step(plain_chroma));
@@ -95,7 +95,12 @@ double ciede2000(const Triple& lab1, const Triple& lab2) {
     const double l = (lab2[0] - lab1[0]) / s_l;
     const double c = (q.chroma - p.chroma) / s_c;
     const double h = 2 * std::sqrt(p.chroma * q.chroma) * sin_deg(hues.difference_deg / 2) / s_h;
-    return std::sqrt(l * l + c * c + h * h + rotation(chroma, hues.mean_deg) * c * h);
+    return {l, c, h, rotation(chroma, hues.mean_deg)};
+}
+
+double ciede2000(const Triple& lab1, const Triple& lab2) {
+    const auto [l, c, h, rotated] = ciede2000_parts(lab1, lab2);
+    return std::sqrt(l * l + c * c + h * h + rotated * c * h);
 }
 
 }  // namespace irido

@@ -12,6 +12,13 @@ double largest_difference(const Triple& a, const Triple& b);
 /// Source: CIE 15, Colorimetry, section 8.2; ISO/CIE 11664-4.
 Triple lab(const Triple& xyz, const Triple& white);
 
+/// What CIEDE2000 adds up: dE^2 = l^2 + c^2 + h^2 + R c h with the weighted differences of
+/// lightness, chroma and hue, second - first, and the rotation R in (-2, 0].
+struct DifferenceParts {
+    double lightness, chroma, hue, rotation;
+};
+DifferenceParts ciede2000_parts(const Triple& lab1, const Triple& lab2);
+
 /// CIEDE2000 colour difference of two CIELAB colours, kL = kC = kH = 1; symmetric. About 1 is just
 /// noticeable. Hues within 1e-10 degrees of opposite count as opposite.
 /// Source: G. Sharma, W. Wu, E. N. Dalal, Color Res. Appl. 30, 21 (2005).

@@ -1,0 +1,102 @@
+#include "core/design/color_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/color/held_stack.hpp"
+#include "core/colorimetry/difference.hpp"
+
+namespace irido {
+
+namespace {
+
+struct Level {
+    bool with_rows;
+    std::size_t parts, degree;  ///< of each smooth piece
+};
+constexpr std::array<Level, kColorLevels> kLevels{{{false, 1, 32},
+                                                   {false, 1, 64},
+                                                   {false, 1, 128},
+                                                   {false, 2, 128},
+                                                   {true, 1, 16},
+                                                   {true, 2, 16},
+                                                   {true, 4, 32},
+                                                   {true, 8, 64},
+                                                   {true, 16, 128}}};
+
+void append(const PanelRule& rule, ColorNodes& nodes) {
+    for (std::size_t j = 0; j < rule.wavelength_nm.size(); ++j) {
+        nodes.wavelength_nm.push_back(rule.wavelength_nm[j]);
+        for (std::size_t c = 0; c < 3; ++c) nodes.weight[c].push_back(rule.weight[c][j]);
+    }
+}
+
+/// Derivative of CIELAB's curve f, t^(1/3) above (6/29)^3.
+double curve_slope(double t) {
+    constexpr double delta = 6.0 / 29;
+    if (t > delta * delta * delta) return 1 / (3 * std::pow(std::cbrt(t), 2));
+    return 1 / (3 * delta * delta);
+}
+
+Triple numbers_of(const Triple& lab, const Triple& target) {
+    const DifferenceParts parts = ciede2000_parts(target, lab);
+    const double r = parts.rotation;
+    return {parts.lightness, parts.chroma + r * parts.hue / 2,
+            parts.hue * std::sqrt(std::max(0.0, 1 - r * r / 4))};
+}
+
+}  // namespace
+
+ColorNodes color_nodes(const Stack& stack, const Sensitivity& sensitivity, std::size_t level) {
+    const auto [with_rows, base_parts, base_degree] = kLevels.at(level);
+    const std::vector<double> ends = smooth_pieces(stack, sensitivity.support(), with_rows);
+    // without kinks, the levels of rows are those of one piece with as many points
+    std::size_t parts = base_parts, degree = base_degree;
+    if (with_rows && ends.size() < 9) {
+        degree = 128;
+        parts = std::size_t{4} << (level - 4);
+    }
+    ColorNodes nodes;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        for (std::size_t p = 0; p < parts; ++p) {
+            const double a = 1 / ends[i], b = 1 / ends[i + 1], n = static_cast<double>(parts);
+            const auto at = [&](std::size_t k) {
+                if (k == 0) return ends[i];
+                if (k == parts) return ends[i + 1];
+                return 1 / (a + (b - a) * static_cast<double>(k) / n);
+            };
+            append(panel_rule(sensitivity, {at(p), at(p + 1)}, degree), nodes);
+        }
+    return nodes;
+}
+
+LabSlopes lab_slopes(const Triple& xyz, const Triple& white) {
+    const double x = curve_slope(xyz[0] / white[0]) / white[0];
+    const double y = curve_slope(xyz[1] / white[1]) / white[1];
+    const double z = curve_slope(xyz[2] / white[2]) / white[2];
+    return {lab(xyz, white), {{{0, 116 * y, 0}, {500 * x, -500 * y, 0}, {0, 200 * y, -200 * z}}}};
+}
+
+DifferenceSlopes difference_slopes(const Triple& lab, const Triple& target, bool ciede2000) {
+    DifferenceSlopes result{};
+    if (!ciede2000) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            result.number[c] = lab[c] - target[c];
+            result.by_lab[c][c] = 1;
+        }
+        return result;
+    }
+    result.number = numbers_of(lab, target);
+    constexpr double kStep = 1e-4;
+    for (std::size_t c = 0; c < 3; ++c) {
+        Triple more = lab, less = lab;
+        more[c] += kStep;
+        less[c] -= kStep;
+        const Triple above = numbers_of(more, target), below = numbers_of(less, target);
+        for (std::size_t k = 0; k < 3; ++k)
+            result.by_lab[k][c] = (above[k] - below[k]) / (2 * kStep);
+    }
+    return result;
+}
+
+}  // namespace irido
