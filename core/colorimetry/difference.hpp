@@ -19,6 +19,26 @@ struct DifferenceParts {
 };
 DifferenceParts ciede2000_parts(const Triple& lab1, const Triple& lab2);
 
+/// Slope of CIELAB's curve, t^(1/3) above (6/29)^3, at t = X/Xn, Y/Yn or Z/Zn; nowhere larger
+/// above.
+double lab_slope(double t);
+
+/// Bound of how far L*, a* and b* move, each, if X, Y and Z of a colour move by up to `error` >= 0.
+double lab_error(const Triple& xyz, const Triple& white, double error);
+
+/// The error of X, Y and Z, for any colour under this white, below which L*, a*, b* are good to
+/// `tolerance`, and the differences of this file for colours that are not far apart.
+double xyz_tolerance(const Triple& white, double tolerance);
+
+/// CIE 1976 colour difference: the distance in CIELAB.
+double delta_e_76(const Triple& lab1, const Triple& lab2);
+
+/// CMC(l:c) colour difference of a sample from a standard, both CIELAB; not symmetric. l = 2, c = 1
+/// is acceptability, l = c = 1 perceptibility.
+/// Source: F. J. J. Clarke, R. McDonald, B. Rigg, J. Soc. Dyers Colour. 100, 128 (1984);
+/// BS 6923; ISO 105-J03.
+double delta_e_cmc(const Triple& standard, const Triple& sample, double l, double c);
+
 /// CIEDE2000 colour difference of two CIELAB colours, kL = kC = kH = 1; symmetric. About 1 is just
 /// noticeable. Hues within 1e-10 degrees of opposite count as opposite.
 /// Source: G. Sharma, W. Wu, E. N. Dalal, Color Res. Appl. 30, 21 (2005).

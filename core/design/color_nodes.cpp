@@ -31,13 +31,6 @@ void append(const PanelRule& rule, ColorNodes& nodes) {
     }
 }
 
-/// Derivative of CIELAB's curve f, t^(1/3) above (6/29)^3.
-double curve_slope(double t) {
-    constexpr double delta = 6.0 / 29;
-    if (t > delta * delta * delta) return 1 / (3 * std::pow(std::cbrt(t), 2));
-    return 1 / (3 * delta * delta);
-}
-
 Triple numbers_of(const Triple& lab, const Triple& target) {
     const DifferenceParts parts = ciede2000_parts(target, lab);
     const double r = parts.rotation;
@@ -71,9 +64,9 @@ ColorNodes color_nodes(const Stack& stack, const Sensitivity& sensitivity, std::
 }
 
 LabSlopes lab_slopes(const Triple& xyz, const Triple& white) {
-    const double x = curve_slope(xyz[0] / white[0]) / white[0];
-    const double y = curve_slope(xyz[1] / white[1]) / white[1];
-    const double z = curve_slope(xyz[2] / white[2]) / white[2];
+    const double x = lab_slope(xyz[0] / white[0]) / white[0];
+    const double y = lab_slope(xyz[1] / white[1]) / white[1];
+    const double z = lab_slope(xyz[2] / white[2]) / white[2];
     return {lab(xyz, white), {{{0, 116 * y, 0}, {500 * x, -500 * y, 0}, {0, 200 * y, -200 * z}}}};
 }
 

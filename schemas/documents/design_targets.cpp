@@ -6,8 +6,8 @@
 
 #include "core/color/held_stack.hpp"
 #include "core/colorimetry/difference.hpp"
-#include "core/colorimetry/hex_color.hpp"
 #include "core/colorimetry/illuminant.hpp"
+#include "core/colorimetry/space.hpp"
 #include "core/error.hpp"
 #include "core/stack/index_table.hpp"
 #include "schemas/documents/design_parts.hpp"
@@ -245,7 +245,9 @@ private:
         try {
             if (name_ == "hex") {
                 if (!value.is_string()) fail("/target", rule());
-                return lab(xyz_of_hex(value.get<std::string>(), white), white);
+                const RgbSpace& srgb = rgb_space("srgb");
+                const RgbTransform transform(srgb, white, Adaptation::bradford);
+                return lab(transform.xyz_of(rgb_of_hex(srgb, value.get<std::string>())), white);
             }
         } catch (const DomainError& error) {
             fail("/target", error.what());

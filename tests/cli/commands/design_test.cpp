@@ -155,7 +155,7 @@ TEST_CASE("tasks that cannot be are refused in one line", "[cli][design]") {
     refuse({kCoating, free[0], free[1], "--target", "phase_r_deg 500 = 1"},
            "unpolarized light has no phase");
     refuse({kCoating, free[0], free[1], "--target", "hex = #12345"},
-           "/targets/0/target: a colour must be #rrggbb");
+           "/targets/0/target: must be #rrggbb");
     refuse({"1 | SiO2@100 | Si", free[0], free[1], "--target", "R 100:200:50 = 1"},
            "/targets/0/wavelengths_nm");
     refuse({"design.json"}, "design.json");
