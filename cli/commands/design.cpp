@@ -1,16 +1,20 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "cli/options/design_options.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/search_end.hpp"
+#include "cli/options/shard.hpp"
 #include "cli/queries/design_report.hpp"
 #include "core/design/needle.hpp"
 #include "core/design/problem_values.hpp"
 #include "core/error.hpp"
+#include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/text_file.hpp"
 #include "tables/files/atomic_file.hpp"
 
 namespace irido::cli {
@@ -24,6 +28,8 @@ struct DesignCommand {
     OutputOptions output;
     std::string report;
     std::optional<std::string> plot;
+    std::string shard;
+    std::vector<std::string> merge;
     unsigned threads = 0;
     bool quiet = false;
 };
@@ -64,7 +70,8 @@ SearchResult synthesized(schemas::DesignTask& task, const SearchSettings& search
 SearchResult searched(schemas::DesignTask& task, const SearchEnd& end,
                       const DesignCommand& command) {
     Progress progress(command.quiet);
-    const SearchSettings settings = search_settings(task, end, progress, command.threads);
+    SearchSettings settings = search_settings(task, end, progress, command.threads);
+    settings.first_run = kSearchRuns * (parse_shard(command.shard).number - 1);
     try {
         if (task.method == "needle") return synthesized(task, settings, end);
         return task.method == "refine" ? refine(task.problem, settings)
@@ -140,7 +147,44 @@ void check_outputs(const DesignCommand& command) {
     if (!command.report.empty()) resolved_record_format({command.report, ""});
 }
 
+/// The best of the results of shards, with the runs of all.
+int merge_designs(const DesignCommand& command) {
+    if (!command.task.task.empty() || !command.task.refine.empty() || !command.shard.empty())
+        throw UsageError("--merge: takes no task");
+    json best;
+    std::vector<double> runs;
+    double evaluations = 0, run_count = 0;
+    std::string folder;
+    for (const std::string& file : command.merge) {
+        json one = schemas::parse_json(schemas::read_text(file), schemas::shown_path(file));
+        const json design = one.is_object() ? one.value("design", json::object()) : json::object();
+        if (!design.contains("merit") || !design.contains("best_of_runs"))
+            throw schemas::InputError(schemas::shown_path(file), "/design",
+                                      "must be the result of a search by irido design");
+        for (const json& run : design["best_of_runs"])
+            runs.push_back(run.is_number() ? run.get<double>() : run.value("merit", 0.0));
+        evaluations += design.value("evaluations", 0.0);
+        run_count += design.value("runs", 0.0);
+        if (!best.is_null() && design["merit"] >= best["design"]["merit"]) continue;
+        best = std::move(one);
+        folder = std::filesystem::path(file).parent_path().string();
+    }
+    check_writable(command.output);
+    json& design = best["design"];
+    std::ranges::sort(runs);
+    design["evaluations"] = evaluations;
+    design["runs"] = run_count;
+    design["reproducibility"] = std::ranges::count_if(
+        runs, [&](double merit) { return merit <= design["merit"].get<double>() * 1.01 + 1e-12; });
+    schemas::move_files(best, folder,
+                        std::filesystem::path(command.output.file).parent_path().string());
+    schemas::shorten_numbers(best);
+    write_bytes(best.dump(2) + "\n", command.output, false);
+    return 0;
+}
+
 int run_design(const DesignCommand& command) {
+    if (!command.merge.empty()) return merge_designs(command);
     schemas::DesignTask task = read_task(command.task);
     note_task(task, command.quiet);
     check_outputs(command);
@@ -199,6 +243,15 @@ void add_design_command(CLI::App& program, Run& run) {
                      "a table of values beside their targets (.csv, .json, ...)")
         ->type_name("FILE");
     command->add_option("--plot", options->plot, "a picture of the same (.svg, .png, .pdf)")
+        ->type_name("FILE");
+    command
+        ->add_option("--shard", options->shard,
+                     "eight other runs for every K of 1 to N: shards together are one long\n"
+                     "search; for --merge")
+        ->type_name("K/N");
+    command
+        ->add_option("--merge", options->merge,
+                     "write the best of the results of shards, instead of a search")
         ->type_name("FILE");
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "core/color/held_stack.hpp"
 #include "core/colorimetry/difference.hpp"
+#include "core/colorimetry/observer.hpp"
 
 namespace irido {
 
@@ -24,10 +26,11 @@ constexpr std::array<Level, kColorLevels> kLevels{{{false, 1, 32},
                                                    {true, 8, 64},
                                                    {true, 16, 128}}};
 
-void append(const PanelRule& rule, ColorNodes& nodes) {
-    for (std::size_t j = 0; j < rule.wavelength_nm.size(); ++j) {
+void append(const QuadratureRule& rule, ColorNodes& nodes) {
+    for (std::size_t j = 0; j < rule.points; ++j) {
         nodes.wavelength_nm.push_back(rule.wavelength_nm[j]);
-        for (std::size_t c = 0; c < 3; ++c) nodes.weight[c].push_back(rule.weight[c][j]);
+        for (std::size_t c = 0; c < 3; ++c)
+            nodes.weight[c].push_back(rule.weights[c * rule.stride + j]);
     }
 }
 
@@ -40,9 +43,10 @@ Triple numbers_of(const Triple& lab, const Triple& target) {
 
 }  // namespace
 
-ColorNodes color_nodes(const Stack& stack, const Sensitivity& sensitivity, std::size_t level) {
+ColorNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_t level) {
     const auto [with_rows, base_parts, base_degree] = kLevels.at(level);
-    const std::vector<double> ends = smooth_pieces(stack, sensitivity.support(), with_rows);
+    const std::vector<double> ends =
+        smooth_pieces(stack, tables.sensitivity().support(), with_rows);
     // without kinks, the levels of rows are those of one piece with as many points
     std::size_t parts = base_parts, degree = base_degree;
     if (with_rows && ends.size() < 9) {
@@ -58,9 +62,29 @@ ColorNodes color_nodes(const Stack& stack, const Sensitivity& sensitivity, std::
                 if (k == parts) return ends[i + 1];
                 return 1 / (a + (b - a) * static_cast<double>(k) / n);
             };
-            append(panel_rule(sensitivity, {at(p), at(p + 1)}, degree), nodes);
+            append(*tables.rule({at(p), at(p + 1)}, degree), nodes);
         }
     return nodes;
+}
+
+std::shared_ptr<const ColorTables> color_tables_of(int observer_deg, const Table& illuminant) {
+    constexpr std::size_t kMost = 8;
+    struct Known {
+        int observer_deg;
+        Table illuminant;
+        std::shared_ptr<const ColorTables> tables;
+    };
+    static std::mutex lock;
+    static std::vector<Known> all;
+    const std::scoped_lock hold(lock);
+    for (const Known& known : all)
+        if (known.observer_deg == observer_deg && known.illuminant == illuminant)
+            return known.tables;
+    if (all.size() == kMost) all.erase(all.begin());
+    all.push_back(
+        {observer_deg, illuminant,
+         std::make_shared<const ColorTables>(Sensitivity(observer(observer_deg), illuminant))});
+    return all.back().tables;
 }
 
 LabSlopes lab_slopes(const Triple& xyz, const Triple& white) {

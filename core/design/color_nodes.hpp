@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
-#include "core/colorimetry/sensitivity.hpp"
+#include "core/color/color_tables.hpp"
 #include "core/stack/stack.hpp"
 
 namespace irido {
@@ -16,9 +17,13 @@ struct ColorNodes {
 
 inline constexpr std::size_t kColorLevels = 9;
 
-/// Nodes of product quadrature (see PanelRule) over the sensitivity's support, more of them at
-/// every level, [0, kColorLevels): at first as if tables of the stack's materials had no kinks.
-ColorNodes color_nodes(const Stack& stack, const Sensitivity& sensitivity, std::size_t level);
+/// Nodes of product quadrature (see PanelRule) over the support of the tables' sensitivity, more of
+/// them at every level, [0, kColorLevels): at first as if tables of the stack's materials had no
+/// kinks.
+ColorNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_t level);
+
+/// What colours under a light have in common, made once for all models. Safe from many threads.
+std::shared_ptr<const ColorTables> color_tables_of(int observer_deg, const Table& illuminant);
 
 /// CIELAB of XYZ and its derivatives, [L, a, b][X, Y, Z].
 struct LabSlopes {

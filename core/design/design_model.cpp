@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
 
 #include "core/color/held_stack.hpp"
-#include "core/color/stack_color.hpp"
-#include "core/colorimetry/difference.hpp"
 #include "core/design/color_nodes.hpp"
 #include "core/design/material_number.hpp"
 #include "core/design/problem_values.hpp"
+#include "core/design/row_sums.hpp"
 #include "core/design/sheet.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
@@ -22,23 +19,6 @@ namespace irido {
 namespace {
 
 using Quantity = DesignQuantity;
-
-double sum_of_products(const double* a, const double* b, std::size_t count) {
-    constexpr std::size_t kSums = 8;
-    std::array<double, kSums> sums{};
-    std::size_t i = 0;
-    for (; i + kSums <= count; i += kSums)
-        for (std::size_t k = 0; k < kSums; ++k) sums[k] += a[i + k] * b[i + k];
-    for (std::size_t k = 0; i < count; ++i, ++k) sums[k] += a[i] * b[i];
-    return ((sums[0] + sums[4]) + (sums[1] + sums[5])) +
-           ((sums[2] + sums[6]) + (sums[3] + sums[7]));
-}
-
-bool needs_amplitudes(Quantity quantity) {
-    return quantity == Quantity::psi_deg || quantity == Quantity::delta_deg ||
-           quantity == Quantity::delta_nebraska_deg || quantity == Quantity::phase_r_deg ||
-           quantity == Quantity::phase_t_deg;
-}
 
 }  // namespace
 
@@ -51,6 +31,11 @@ public:
         for (const DesignTarget& target : problem_.targets)
             if (target.quantity == Quantity::lab) light_of(target.light);
         prepare();
+        if (analytic_ && !std::ranges::all_of(level().sheets, [&](const Sheet& sheet) {
+                return sheet.has_clear_gaps(written_);
+            }))
+            analytic_ = false;
+        count_rows();
         set_weights();
     }
 
@@ -85,31 +70,7 @@ public:
     double objective_of_rows() const { return objective_of(problem_, rows_); }
 
     void find_gradient(std::span<double> gradient, double* hessian) {
-        const std::size_t count = rows_.residual.size(), size = problem_.free.size();
-        factor_.resize(count);
-        weighted_.resize(hessian ? size * count : 0);
-        const bool is_mean = problem_.merit == MeritKind::mean_abs;
-        factor_ = rows_.weight;
-        if (is_mean)  // |e| is e^2 / |e|
-            for (const auto& [begin, rows] : entries_)
-                for (std::size_t i = begin; i < begin + rows; ++i)
-                    factor_[i] /= 2 * std::max(length(begin, rows), 1e-12);
-        for (std::size_t p = 0; p < size; ++p) {
-            const double* column = rows_.jacobian.data() + p * count;
-            if (hessian)
-                for (std::size_t i = 0; i < count; ++i)
-                    weighted_[p * count + i] = factor_[i] * column[i];
-        }
-        scaled_.resize(count);
-        for (std::size_t i = 0; i < count; ++i) scaled_[i] = 2 * factor_[i] * rows_.residual[i];
-        for (std::size_t p = 0; p < size; ++p) {
-            const double* column = rows_.jacobian.data() + p * count;
-            gradient[p] = sum_of_products(scaled_.data(), column, count);
-            if (!hessian) continue;
-            for (std::size_t q = 0; q <= p; ++q)
-                hessian[p * size + q] = hessian[q * size + p] =
-                    2 * sum_of_products(weighted_.data() + q * count, column, count);
-        }
+        sums_.find(problem_, rows_, gradient, hessian);
     }
 
     Stack stack_at(std::span<const double> x) const { return stack_of(problem_, x); }
@@ -122,25 +83,24 @@ private:
     };
 
     /// A light under which there are colour targets.
-    struct LitGrid {
+    struct Lit {
         TargetLight light;
-        Sensitivity sensitivity;
-        std::array<std::vector<double>, 3> weight{};
-        std::unique_ptr<IndexGrid> grid{};
+        std::shared_ptr<const ColorTables> tables;
     };
 
-    /// Rows of an entry.
-    struct EntryRows {
-        std::size_t begin, size;
+    /// The same at the wavelengths of one level.
+    struct LitGrid {
+        std::array<std::vector<double>, 3> weight;
+        std::unique_ptr<IndexGrid> grid;
     };
 
-    double length(std::size_t begin, std::size_t size) const {
-        if (size == 1) return std::abs(rows_.residual[begin]);
-        double sum = 0;
-        for (std::size_t i = begin; i < begin + size; ++i)
-            sum += rows_.residual[i] * rows_.residual[i];
-        return std::sqrt(sum);
-    }
+    /// Sheets of all targets, with colours of one level.
+    struct Level {
+        std::vector<std::unique_ptr<IndexGrid>> grids;
+        std::vector<LitGrid> lights;  ///< as lights_
+        std::vector<Sheet> sheets;
+        std::vector<std::vector<std::size_t>> places;  ///< of sheets, [target][angle]
+    };
 
     void find_links() {
         slots_.of_layer.assign(written_.layers.size(), kNoSlot);
@@ -161,84 +121,68 @@ private:
             }
     }
 
-    LitGrid& light_of(const TargetLight& light) {
-        for (LitGrid& known : lights_)
-            if (known.light == light) return known;
-        lights_.push_back({light, Sensitivity(observer(light.observer_deg), light.illuminant)});
-        return lights_.back();
+    std::size_t light_of(const TargetLight& light) {
+        for (std::size_t i = 0; i < lights_.size(); ++i)
+            if (lights_[i].light == light) return i;
+        lights_.push_back({light, color_tables_of(light.observer_deg, light.illuminant)});
+        return lights_.size() - 1;
     }
 
-    const IndexGrid& grid_of(const std::vector<double>& wavelengths) {
-        for (const auto& grid : grids_)
+    const IndexGrid& grid_of(Level& level, const std::vector<double>& wavelengths) const {
+        for (const auto& grid : level.grids)
             if (grid->wavelength_nm == wavelengths) return *grid;
-        grids_.push_back(std::make_unique<IndexGrid>(stack_, wavelengths, numbers_));
-        return *grids_.back();
+        level.grids.push_back(std::make_unique<IndexGrid>(stack_, wavelengths, numbers_));
+        return *level.grids.back();
     }
 
-    std::size_t sheet_of(const IndexGrid& grid, double angle_deg) {
-        for (std::size_t i = 0; i < sheets_.size(); ++i)
-            if (&sheets_[i].grid() == &grid && sheets_[i].angle_deg() == angle_deg) return i;
-        sheets_.emplace_back(grid, angle_deg);
-        return sheets_.size() - 1;
+    static std::size_t sheet_of(Level& level, const IndexGrid& grid, double angle_deg) {
+        for (std::size_t i = 0; i < level.sheets.size(); ++i)
+            if (&level.sheets[i].grid() == &grid && level.sheets[i].angle_deg() == angle_deg)
+                return i;
+        level.sheets.emplace_back(grid, angle_deg);
+        return level.sheets.size() - 1;
     }
 
-    static void need(Sheet::Needs& needs, const DesignTarget& target) {
-        const bool amplitudes = needs_amplitudes(target.quantity);
-        needs.amplitudes = needs.amplitudes || amplitudes;
-        for (const Light light : target.polarizations) {
-            const bool both = light == Light::unpolarized || target.quantity == Quantity::psi_deg ||
-                              target.quantity == Quantity::delta_deg ||
-                              target.quantity == Quantity::delta_nebraska_deg;
-            needs.s = needs.s || both || light == Light::s;
-            needs.p = needs.p || both || light == Light::p;
-        }
-        const bool transmits =
-            target.quantity == Quantity::T || target.quantity == Quantity::A ||
-            target.quantity == Quantity::phase_t_deg ||
-            (target.quantity == Quantity::lab && target.light.side == Side::transmitted);
-        needs.transmission = needs.transmission || transmits;
-    }
-
+    /// Levels are prepared when they are first needed.
     void prepare() {
-        if (!analytic_) return count_rows();
-        grids_.clear();
-        sheets_.clear();
-        for (LitGrid& lit : lights_) {
-            ColorNodes nodes = color_nodes(stack_, lit.sensitivity, level_);
-            lit.weight = std::move(nodes.weight);
-            lit.grid = std::make_unique<IndexGrid>(held_stack(stack_, lit.sensitivity),
-                                                   std::move(nodes.wavelength_nm), numbers_);
-            for (std::vector<double>& row : lit.weight) row.resize(lit.grid->stride, 0);
+        if (!analytic_ || levels_[level_]) return;
+        levels_[level_] = std::make_unique<Level>();
+        Level& level = *levels_[level_];
+        for (const Lit& lit : lights_) {
+            ColorNodes nodes = color_nodes(stack_, *lit.tables, level_);
+            level.lights.push_back(
+                {std::move(nodes.weight),
+                 std::make_unique<IndexGrid>(held_stack(stack_, lit.tables->sensitivity()),
+                                             std::move(nodes.wavelength_nm), numbers_)});
+            for (std::vector<double>& row : level.lights.back().weight)
+                row.resize(level.lights.back().grid->stride, 0);
         }
-        sheet_places_.clear();
         for (const DesignTarget& target : problem_.targets) {
             const IndexGrid& grid = target.quantity == Quantity::lab
-                                        ? *light_of(target.light).grid
-                                        : grid_of(target.wavelength_nm);
-            sheet_places_.emplace_back();
+                                        ? *level.lights[light_of(target.light)].grid
+                                        : grid_of(level, target.wavelength_nm);
+            level.places.emplace_back();
             for (const double angle_deg : target.angle_deg) {
-                const std::size_t sheet = sheet_of(grid, angle_deg);
-                need(sheets_[sheet].needs, target);
-                sheet_places_.back().push_back(sheet);
+                const std::size_t sheet = sheet_of(level, grid, angle_deg);
+                Sheet::add_needs(target, level.sheets[sheet].needs);
+                level.places.back().push_back(sheet);
             }
         }
-        for (Sheet& sheet : sheets_) {
+        for (Sheet& sheet : level.sheets) {
             sheet.set_media(stack_);
             sheet.set_layers(stack_, written_, slots_);
         }
-        count_rows();
     }
 
+    Level& level() { return *levels_[level_]; }
+
     void count_rows() {
-        entries_.clear();
-        first_row_.clear();
         std::size_t rows = 0, values = 0;
         for (const DesignTarget& target : problem_.targets) {
             first_row_.push_back(rows);
             first_value_.push_back(values);
             const std::size_t each = target.quantity == Quantity::lab ? 3 : 1;
-            for (std::size_t e = 0; e < entry_count(target); ++e, rows += each)
-                entries_.push_back({rows, each});
+            rows += each * entry_count(target);
             values += each * entry_count(target);
         }
         rows_.value.assign(values, 0);
@@ -260,13 +204,13 @@ private:
         }
         for (std::size_t m = 0; m < stack_.materials.size(); ++m) {
             if (slots_.of_material[m] == kNoSlot) continue;
-            for (const auto& grid : grids_) grid->update(stack_, m, numbers_);
-            for (LitGrid& lit : lights_) {
+            for (const auto& grid : level().grids) grid->update(stack_, m, numbers_);
+            for (LitGrid& lit : level().lights) {
                 Stack held = stack_;  // of a few materials
                 for (Material& material : held.materials) material.outside = Outside::clamp;
                 lit.grid->update(held, m, numbers_);
             }
-            for (Sheet& sheet : sheets_) sheet.set_medium(stack_, m);
+            for (Sheet& sheet : level().sheets) sheet.set_medium(stack_, m);
         }
     }
 
@@ -281,7 +225,7 @@ private:
     }
 
     void compute_rows(bool with_slopes) {
-        for (Sheet& sheet : sheets_) {
+        for (Sheet& sheet : level().sheets) {
             sheet.is_lossless = is_lossless(sheet.grid());
             sheet.compute(written_, slots_, with_slopes, simd_);
         }
@@ -357,7 +301,7 @@ private:
         std::size_t row = first_row_[t], value = first_value_[t];
         const bool is_one = is_of_both(target.quantity);
         for (std::size_t a = 0; a < target.angle_deg.size(); ++a) {
-            const Sheet& sheet = sheets_[sheet_places_[t][a]];
+            const Sheet& sheet = level().sheets[level().places[t][a]];
             const std::size_t lights = is_one ? 1 : target.polarizations.size();
             for (std::size_t l = 0; l < lights; ++l, row += count, value += count) {
                 const Light light = target.polarizations[is_one ? 0 : l];
@@ -457,12 +401,14 @@ private:
 
     void add_colors(std::size_t t, bool with_slopes) {
         const DesignTarget& target = problem_.targets[t];
-        const LitGrid& lit = light_of(target.light);
+        const std::size_t number = light_of(target.light);
+        const LitGrid& lit = level().lights[number];
+        const Triple& white = lights_[number].tables->sensitivity().white();
         const bool transmitted = target.light.side == Side::transmitted;
         std::size_t row = first_row_[t], value = first_value_[t], entry = 0;
         power_.resize(lit.grid->stride);
         for (std::size_t a = 0; a < target.angle_deg.size(); ++a) {
-            const Sheet& sheet = sheets_[sheet_places_[t][a]];
+            const Sheet& sheet = level().sheets[level().places[t][a]];
             for (const Light light : target.polarizations) {
                 const auto xyz_of = [&](const double* power) {
                     Triple xyz;
@@ -480,7 +426,7 @@ private:
                     const std::vector<double>& all = transmitted ? answer.T : answer.R;
                     for (std::size_t w = 0; w < sheet.count(); ++w) power_[w] += share * all[w];
                 });
-                const LabSlopes color = lab_slopes(xyz_of(power_.data()), lit.sensitivity.white());
+                const LabSlopes color = lab_slopes(xyz_of(power_.data()), white);
                 const DifferenceSlopes difference = difference_slopes(
                     color.lab, target.lab[entry], problem_.merit == MeritKind::delta_e_2000);
                 for (std::size_t c = 0; c < 3; ++c) {
@@ -538,8 +484,7 @@ private:
             evaluations_ += 2;
             for (std::size_t i = 0; i < here.residual.size(); ++i) {
                 double change = more.residual[i] - less.residual[i];
-                if (std::abs(change) > 180 && entries_.size() == here.residual.size())
-                    change -= std::copysign(360, change);
+                if (std::abs(change) > 180 && !has_colors()) change -= std::copysign(360, change);
                 column(p)[i] = change / (above - below);
             }
         }
@@ -551,14 +496,12 @@ private:
     SlopeSlots slots_;
     std::vector<std::vector<SlopeLink>> links_;  ///< [free]
     std::vector<MaterialNumber> numbers_;
-    std::vector<std::unique_ptr<IndexGrid>> grids_;
-    std::vector<LitGrid> lights_;
-    std::vector<Sheet> sheets_;
-    std::vector<std::vector<std::size_t>> sheet_places_;  ///< [target][angle]
+    std::vector<Lit> lights_;
+    std::array<std::unique_ptr<Level>, kColorLevels> levels_;
     std::vector<std::size_t> first_row_, first_value_;
-    std::vector<EntryRows> entries_;
     std::array<std::vector<double>, 2> combined_;
-    std::vector<double> power_, factor_, scaled_, weighted_;
+    std::vector<double> power_;
+    RowSums sums_;
 };
 
 DesignModel::DesignModel(const DesignProblem& problem, SimdLevel simd)

@@ -14,7 +14,7 @@ namespace irido {
 
 namespace {
 
-constexpr double kAgreement = 1e-3, kWithin = 0.01, kFineColor = 1e-7, kCoarseColor = 0.5;
+constexpr double kAgreement = 1e-2, kWithin = 0.01, kFineColor = 1e-7, kCoarseColor = 0.5;
 
 /// A normal deviate by adding up twelve uniform ones.
 double normal(Random& random) {
@@ -218,7 +218,8 @@ SearchResult hop_search(const DesignProblem& problem, const SearchSettings& sett
     Teller teller(settings);
     std::vector<std::unique_ptr<Hopper>> hoppers(kSearchRuns);
     for (std::size_t r = 0; r < kSearchRuns; ++r)
-        hoppers[r] = std::make_unique<Hopper>(problem, settings, r, r == 0, teller);
+        hoppers[r] = std::make_unique<Hopper>(problem, settings, settings.first_run + r,
+                                              settings.first_run + r == 0, teller);
     // runs take turns, so that few threads serve all of them
     constexpr std::size_t kRounds = 24, kLongest = 4000;
     const std::size_t share = std::max<std::size_t>(settings.evaluations / kSearchRuns, 1);
@@ -316,7 +317,7 @@ SearchResult integer_search(const DesignProblem& problem, const SearchSettings& 
     Teller teller(settings);
     std::vector<Cell> cells;
     for (std::vector<double>& fixed : combinations(problem))
-        cells.emplace_back(std::move(fixed), cells.size());
+        cells.emplace_back(std::move(fixed), 1000 * settings.first_run + cells.size());
     const std::size_t movable =
         static_cast<std::size_t>(std::ranges::count(problem.free, false, &FreeValue::is_integer));
     const std::size_t samples = movable == 0 ? 1 : 30 * movable, starts = movable == 0 ? 1 : 4;
@@ -342,7 +343,7 @@ SearchResult integer_search(const DesignProblem& problem, const SearchSettings& 
         if (spent >= settings.evaluations) break;
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cells[i].best.merit; });
         const double best = cells[order[0]].best.merit;
-        if (round > 1 && best > before * (1 - kAgreement)) break;
+        if (round > 1 && best > before * (1 - 1e-3)) break;
         before = best;
         std::vector<std::size_t> chosen;
         for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i)

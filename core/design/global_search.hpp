@@ -23,6 +23,8 @@ inline constexpr std::size_t kUsualEvaluations = 300000;
 struct SearchSettings {
     std::uint64_t seed = 1;
     std::size_t evaluations = kUsualEvaluations;  ///< of all runs together
+    std::uint64_t first_run =
+        0;  ///< number of the first run: others are another part of the search
     unsigned threads = 0;
     SimdLevel simd = best_simd_level();
     std::function<bool()> should_stop{};            ///< asked often, from any thread

@@ -351,9 +351,10 @@ NeedleResult needle_search(const DesignProblem& problem, const NeedleSettings& s
     };
     std::vector<std::unique_ptr<Synthesis>> runs(kNeedleRuns);
     parallel_for(kNeedleRuns, settings.search.threads, [&](std::size_t r) {
-        Random random(settings.search.seed * 0xbf58476d1ce4e5b9U + r);
-        runs[r] = std::make_unique<Synthesis>(problem, settings, r, offer);
-        runs[r]->run(r == 0 ? given : random_start(given, settings, random));
+        const std::uint64_t number = settings.search.first_run + r;
+        Random random(settings.search.seed * 0xbf58476d1ce4e5b9U + number);
+        runs[r] = std::make_unique<Synthesis>(problem, settings, number, offer);
+        runs[r]->run(number == 0 ? given : random_start(given, settings, random));
         const std::scoped_lock hold(lock);
         ++finished;
     });

@@ -158,14 +158,24 @@ bool is_of_both(Quantity quantity) {
 }
 
 bool has_differences(const DesignProblem& problem) {
-    if (!StackPower(problem.stack).has_amplitudes()) return true;
-    for (const DesignTarget& target : problem.targets)
-        if (is_delay(target.quantity)) return true;
+    const StackPower power(problem.stack);
+    if (power.spread_layers() > 0) return true;
+    for (const DesignTarget& target : problem.targets) {
+        const bool amplitudes = is_angle(target.quantity) || target.quantity == Quantity::psi_deg;
+        if (is_delay(target.quantity) || (amplitudes && !power.has_amplitudes())) return true;
+    }
+    std::vector<std::size_t> gaps;
+    for (const Element& element : problem.stack.elements) {
+        const Layer* const layer = std::get_if<Layer>(&element.value);
+        if (layer && !layer->coherent) gaps.push_back(layer->material);
+        if (!layer && has_incoherent_layers(std::get<Group>(element.value).elements)) return true;
+    }
     for (const FreeValue& value : problem.free)
         for (const FreePlace& place : value.places) {
             if (std::holds_alternative<Rebuilt>(place)) return true;
             const auto* number = std::get_if<MaterialNumber>(&place);
             if (number && number->material == problem.stack.incident) return true;
+            if (number && std::ranges::find(gaps, number->material) != gaps.end()) return true;
         }
     return false;
 }

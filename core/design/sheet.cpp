@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/design/material_number.hpp"
+#include "core/design/problem_values.hpp"
 #include "core/stack/index_table.hpp"
 
 namespace irido {
@@ -75,6 +76,24 @@ void IndexGrid::update(const Stack& stack, std::size_t material,
     fill_up(n_im[material], count, stride);
 }
 
+bool needs_amplitudes(DesignQuantity quantity) {
+    using enum DesignQuantity;
+    return is_of_both(quantity) || quantity == phase_r_deg || quantity == phase_t_deg;
+}
+
+void Sheet::add_needs(const DesignTarget& target, Needs& needs) {
+    using enum DesignQuantity;
+    needs.amplitudes = needs.amplitudes || needs_amplitudes(target.quantity);
+    for (const Light light : target.polarizations) {
+        const bool both = light == Light::unpolarized || is_of_both(target.quantity);
+        needs.s = needs.s || both || light == Light::s;
+        needs.p = needs.p || both || light == Light::p;
+    }
+    needs.transmission = needs.transmission || target.quantity == T || target.quantity == A ||
+                         target.quantity == phase_t_deg ||
+                         (target.quantity == lab && target.light.side == Side::transmitted);
+}
+
 void Sheet::set_media(const Stack& stack) {
     media_.resize(stack.materials.size());
     for (std::size_t m = 0; m < media_.size(); ++m) set_medium(stack, m);
@@ -128,6 +147,7 @@ MediumRows Sheet::rows_of(std::size_t material, bool p) const {
 }
 
 void Sheet::set_layers(const Stack& stack, const WrittenOut& written, const SlopeSlots& slots) {
+    incident_ = stack.incident;
     substrate_ = stack.substrate;
     for (std::size_t p = 0; p < 2; ++p) {
         layers_[p].clear();
@@ -139,9 +159,25 @@ void Sheet::set_layers(const Stack& stack, const WrittenOut& written, const Slop
     }
 }
 
+SlopeRun Sheet::run_of(const SlopeSlots& slots, bool with_slopes, bool p) const {
+    SlopeRun run;
+    run.stride = grid_->stride;
+    run.k0 = grid_->k0.data();
+    run.is_p = p;
+    run.layers = layers_[p ? 1 : 0];
+    run.incident_y = incident_y_[p ? 1 : 0].data();
+    run.substrate = rows_of(substrate_, p);
+    run.substrate_slot = slots.of_material[substrate_];
+    run.slots = slots.count;
+    run.with_slopes = with_slopes;
+    return run;
+}
+
 void Sheet::compute(const WrittenOut& written, const SlopeSlots& slots, bool with_slopes,
                     SimdLevel simd) {
     const bool both = angle_deg_ > 0;
+    const bool is_chain =
+        std::ranges::any_of(written.layers, [](const Layer& layer) { return !layer.coherent; });
     for (std::size_t p = 0; p < 2; ++p) {
         if (!(p ? both && needs.p : needs.s || (!both && needs.p))) continue;
         for (std::size_t l = 0; l < written.layers.size(); ++l) {
@@ -149,20 +185,79 @@ void Sheet::compute(const WrittenOut& written, const SlopeSlots& slots, bool wit
             layer.thickness_nm = written.layers[l].thickness_nm;
             layer.medium.is_real = media_[written.layers[l].material].is_real;
         }
-        SlopeRun run;
-        run.stride = grid_->stride;
-        run.k0 = grid_->k0.data();
-        run.is_p = p == 1;
-        run.layers = layers_[p];
+        if (is_chain) {
+            compute_chain(written, slots, with_slopes, p == 1, simd);
+            continue;
+        }
+        SlopeRun run = run_of(slots, with_slopes, p == 1);
         run.sequence = written.sequence;
-        run.incident_y = incident_y_[p].data();
-        run.substrate = rows_of(substrate_, p == 1);
-        run.substrate_slot = slots.of_material[substrate_];
-        run.slots = slots.count;
-        run.with_slopes = with_slopes;
         run.of_amplitudes = needs.amplitudes;
         run.with_transmission = needs.transmission && !(is_lossless && !needs.amplitudes);
         layer_slopes(run, answers_[p], memory_, simd);
+    }
+}
+
+bool Sheet::has_clear_gaps(const WrittenOut& written) const {
+    return std::ranges::all_of(written.layers, [&](const Layer& layer) {
+        return layer.coherent || (layer.thickness_nm > 0 && media_[layer.material].is_real);
+    });
+}
+
+/// From the substrate up: each block of coherent layers on what is below it.
+void Sheet::compute_chain(const WrittenOut& written, const SlopeSlots& slots, bool with_slopes,
+                          bool p, SimdLevel simd) {
+    const std::span<const std::uint32_t> sequence = written.sequence;
+    SlopeAnswer& all = answers_[p ? 1 : 0];
+    std::vector<std::uint32_t> upward;
+    bool is_lowest = true;
+    std::size_t below = substrate_;
+    for (std::size_t end = sequence.size();; is_lowest = false) {
+        std::size_t begin = end;
+        while (begin > 0 && written.layers[sequence[begin - 1]].coherent) --begin;
+        const bool is_top = begin == 0;
+        const std::size_t above = is_top ? incident_ : written.layers[sequence[begin - 1]].material;
+        const std::size_t which = p ? 1 : 0;
+        SlopeRun run = run_of(slots, with_slopes, p);
+        run.sequence = sequence.subspan(begin, end - begin);
+        if (!is_top) run.incident_y = media_[above].y[which][0].data();
+        run.substrate = rows_of(below, p);
+        if (!is_lowest) run.substrate_slot = kNoSlot;
+        layer_slopes(run, is_lowest ? all : block_[0], memory_, simd);
+        if (!is_lowest) {
+            upward.assign(run.sequence.rbegin(), run.sequence.rend());
+            run.sequence = upward;
+            run.incident_y = media_[below].y[which][0].data();
+            run.substrate = rows_of(above, p);
+            layer_slopes(run, block_[1], memory_, simd);
+            add_block(block_[0], block_[1], all);
+        }
+        if (is_top) return;
+        below = above;
+        end = begin - 1;
+    }
+}
+
+/// `all` of what is below, R and T of which light meets across a gap, becomes that of block and
+/// below; the block transmits alike both ways:
+///     R1 + T1^2 R/(1 - R1' R),   T1 T/(1 - R1' R)
+void Sheet::add_block(const SlopeAnswer& block, const SlopeAnswer& from_below,
+                      SlopeAnswer& all) const {
+    const std::size_t stride = grid_->stride;
+    const std::size_t rows = all.reflected.size() / stride;
+    for (std::size_t w = 0; w < stride; ++w) {
+        const double R1 = block.R[w], T1 = block.T[w], back = from_below.R[w];
+        const double R = all.R[w], T = all.T[w], inverse = 1 / (1 - back * R);
+        for (std::size_t row = 0; row < rows; ++row) {
+            const std::size_t i = row * stride + w;
+            const double dR1 = block.reflected[i], dT1 = block.transmitted[i];
+            const double dback = from_below.reflected[i];
+            double &dR = all.reflected[i], &dT = all.transmitted[i];
+            const double bounce = inverse * inverse * (back * dR + R * dback);
+            dT = inverse * (dT1 * T + T1 * dT) + T1 * T * bounce;
+            dR = dR1 + inverse * T1 * (2 * dT1 * R + T1 * dR) + T1 * T1 * R * bounce;
+        }
+        all.R[w] = R1 + T1 * T1 * R * inverse;
+        all.T[w] = T1 * T * inverse;
     }
 }
 

@@ -36,7 +36,11 @@ struct SlopeSlots {
     std::size_t count = 0;
 };
 
-/// A stack at one angle and the wavelengths of a grid, both polarizations.
+/// Whether a quantity is that of amplitudes: psi, delta or a phase.
+bool needs_amplitudes(DesignQuantity quantity);
+
+/// A stack at one angle and the wavelengths of a grid, both polarizations. Powers, not amplitudes,
+/// add across incoherent layers; see StackPower.
 class Sheet {
 public:
     struct Needs {
@@ -62,10 +66,16 @@ public:
     void compute(const WrittenOut& written, const SlopeSlots& slots, bool with_slopes,
                  SimdLevel simd);
 
+    /// Whether light travels without loss in every incoherent layer: what compute() needs of them.
+    bool has_clear_gaps(const WrittenOut& written) const;
+
     /// Of s or p; at normal incidence both are those of s.
     const SlopeAnswer& answer(Polarization polarization) const {
         return answers_[is_p(polarization) ? 1 : 0];
     }
+
+    /// Adds what the entries of a target need.
+    static void add_needs(const DesignTarget& target, Needs& needs);
 
 private:
     struct Rows {
@@ -77,14 +87,19 @@ private:
         return polarization == Polarization::p && angle_deg_ > 0;
     }
     MediumRows rows_of(std::size_t material, bool p) const;
+    SlopeRun run_of(const SlopeSlots& slots, bool with_slopes, bool p) const;
+    void compute_chain(const WrittenOut& written, const SlopeSlots& slots, bool with_slopes, bool p,
+                       SimdLevel simd);
+    void add_block(const SlopeAnswer& block, const SlopeAnswer& from_below, SlopeAnswer& all) const;
 
     const IndexGrid* grid_;
     double angle_deg_;
     std::vector<Rows> media_;  ///< [material]
     std::array<std::vector<double>, 2> incident_y_;
     std::array<std::vector<RunLayer>, 2> layers_;
-    std::size_t substrate_ = 0;
+    std::size_t incident_ = 0, substrate_ = 0;
     std::array<SlopeAnswer, 2> answers_;
+    std::array<SlopeAnswer, 2> block_;  ///< of one block for light from above, and from below
     SlopeMemory memory_;
 };
 

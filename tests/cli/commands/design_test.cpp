@@ -178,3 +178,29 @@ TEST_CASE("a search that is interrupted writes its best", "[cli][design][slow]")
     CHECK(result["design"]["end"] == "stopped");
     CHECK(result["design"]["merit"].get<double>() < result["design"]["start_merit"].get<double>());
 }
+
+TEST_CASE("shards are other runs, and the best of them is kept", "[cli][design]") {
+    TemporaryFolder folder;
+    const auto shard = [&](const std::string& which, const std::string& file) {
+        return run_irido({"design", kCoating, "--method", "global", "--free",
+                          "layers.*.thickness_nm=0:250", "--target", "R 450:650:10 = 0",
+                          "--evaluations", "2000", "--shard", which, "-o", file},
+                         "", folder.path())
+            .status;
+    };
+    REQUIRE(shard("1/2", "one.json") == 0);
+    REQUIRE(shard("2/2", "two.json") == 0);
+    const json one = json::parse(read_file(folder / "one.json")),
+               two = json::parse(read_file(folder / "two.json"));
+    CHECK(one["design"]["best_of_runs"] != two["design"]["best_of_runs"]);
+    const Outcome merged =
+        run_irido({"design", "--merge", "one.json", "two.json"}, "", folder.path());
+    INFO(merged.err);
+    REQUIRE(merged.status == 0);
+    const json best = json::parse(merged.out);
+    CHECK(best["design"]["merit"].get<double>() ==
+          std::min(one["design"]["merit"].get<double>(), two["design"]["merit"].get<double>()));
+    CHECK(best["design"]["runs"] == 16);
+    check_refused(run_irido({"design", "--merge", "schemas/examples/soap-bubble.json"}),
+                  "must be the result of a search");
+}

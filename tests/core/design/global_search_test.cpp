@@ -30,7 +30,7 @@ DesignProblem mirror() {
     problem.stack.materials.push_back(problem.stack.materials[1]);
     auto& elements = std::get<Group>(problem.stack.elements[0].value).elements;
     std::get<Layer>(elements[1].value).material = 2;
-    problem.free = {{"N", 10, 4, 24, true, {RepeatOf{{0}}}},
+    problem.free = {{"N", 10, 6, 11, true, {RepeatOf{{0}}}},
                     {"d1", 150, 40, 500, false, {ThicknessOf{{0, 0}}}},
                     {"d2", 150, 40, 500, false, {ThicknessOf{{0, 1}}}},
                     {"n2", 1.5, 1.2, 2.2, false, {MaterialNumber{2, MaterialNumber::Part::n, 0}}}};
