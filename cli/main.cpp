@@ -52,6 +52,8 @@ void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
         Command{"materials", simple(add_materials_command)},
         Command{"validate", simple(add_validate_command)},
         Command{"convert", simple(add_convert_command)},
+        Command{"design", simple(add_design_command)},
+        Command{"fit", simple(add_fit_command)},
         Command{"bench", simple(add_bench_command)},
     };
     if (words.size() == 2 && std::string_view(words[1]) == "--version") return;

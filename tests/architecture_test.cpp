@@ -106,8 +106,8 @@ TEST_CASE("includes run one way between the rooms inside a room", "[architecture
     const std::map<std::string, std::vector<std::string>> order{
         {"core",
          {"", "math", "material", "stack", "coherent", "incoherent", "thickness", "film", "vector",
-          "spectrum", "periodic", "colorimetry", "engines", "color", "comparison", "rough", "scratch",
-          "truth"}},
+          "spectrum", "periodic", "colorimetry", "engines", "color", "comparison", "rough",
+          "scratch", "design", "truth"}},
         {"schemas", {"", "readers", "documents"}},
         {"tables", {"", "files", "records", "resume", "pictures", "lut", "scratch", "shaders"}},
         {"cli", {"", "options", "queries", "sweep", "comparison", "manual", "commands", "bench"}},

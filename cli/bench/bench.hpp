@@ -11,6 +11,7 @@ namespace irido::cli {
 inline constexpr double kLargestSeed = 0x1p53;
 
 /// The subcommands of `irido bench`, each in a file of its own.
+void add_bench_design(CLI::App& bench, Run& run);
 void add_bench_speed(CLI::App& bench, Run& run);
 void add_bench_stability(CLI::App& bench, Run& run);
 void add_bench_pareto(CLI::App& bench, Run& run);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -35,22 +34,10 @@ StackFormat resolved_stack_format(const OutputOptions& output) {
     throw UsageError("--format: must be one of json, expression (got " + name + ")");
 }
 
-/// Turns whole numbers into integers: 100, not 100.0.
-void shorten_numbers(json& value) {
-    constexpr double kLargestWhole = 9007199254740992;
-    if (value.is_structured()) {
-        for (json& item : value) shorten_numbers(item);
-    } else if (value.is_number_float()) {
-        const double number = value.get<double>();
-        if (number == std::floor(number) && std::abs(number) < kLargestWhole)
-            value = static_cast<std::int64_t>(number);
-    }
-}
-
 std::string as_json(schemas::StackSource source, const std::string& file) {
     schemas::move_files(source.document, source.folder,
                         std::filesystem::path(file).parent_path().string());
-    shorten_numbers(source.document);
+    schemas::shorten_numbers(source.document);
     return source.document.dump(2) + "\n";
 }
 

@@ -10,6 +10,7 @@
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/options/picture_options.hpp"
+#include "cli/options/shard.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep/engine.hpp"
 #include "core/error.hpp"
@@ -38,22 +39,6 @@ struct SweepCommand {
     bool has_angles = false, has_wavelengths = false;  ///< typed as options of the kind
     unsigned threads = 0;
 };
-
-/// Shard K of N.
-struct Shard {
-    std::uint64_t number = 1, of = 1;
-};
-
-constexpr double kMostShards = 1e6;
-
-Shard parse_shard(const std::string& text) {
-    if (text.empty()) return {};
-    const std::size_t slash = text.find('/');
-    if (slash == std::string::npos)
-        throw UsageError("--shard: must be K/N, as in 3/8 (got '" + text + "')");
-    const auto of = parse_whole_number("--shard", text.substr(slash + 1), 1, kMostShards);
-    return {parse_whole_number("--shard", text.substr(0, slash), 1, static_cast<double>(of)), of};
-}
 
 /// Whether stacks that differ only in this column have the same structure.
 bool is_shared(const SweptColumn& column) {

@@ -5,6 +5,7 @@
 
 #include "cli/exit_status.hpp"
 #include "cli/options/command.hpp"
+#include "schemas/documents/design_document.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/scene_document.hpp"
 #include "schemas/documents/surface_document.hpp"
@@ -28,8 +29,9 @@ struct SchemaText {
     const char* (*text)();
 };
 
-constexpr std::array<SchemaText, 5> kSchemas{{{"stack", schemas::stack_schema_text},
+constexpr std::array<SchemaText, 6> kSchemas{{{"stack", schemas::stack_schema_text},
                                               {"surface", schemas::surface_schema_text},
+                                              {"design", schemas::design_schema_text},
                                               {"scene", schemas::scene_schema_text},
                                               {"manifest", tables::manifest_schema_text},
                                               {"lut", tables::lut_schema_text}}};
@@ -71,6 +73,7 @@ std::vector<std::string> problems_of(const std::string& path) {
         return {error.what()};
     }
     if (schemas::is_surface(document)) return schemas::surface_problems(document, file, folder);
+    if (schemas::is_design_task(document)) return schemas::design_problems(document, file, folder);
     if (is_stack(document)) return schemas::stack_problems(document, file, folder);
     if (document.contains("tables"))
         return tables::manifest_problems(document, file,
@@ -107,8 +110,9 @@ std::vector<std::string> schema_names() {
 int print_schema(const std::string& name) {
     const auto found = std::ranges::find(kSchemas, name, &SchemaText::name);
     if (found == kSchemas.end())
-        throw UsageError("--schema: must be one of stack, surface, scene, manifest, lut (got '" +
-                         name + "')" + schemas::did_you_mean(name, schema_names()));
+        throw UsageError(
+            "--schema: must be one of stack, surface, design, scene, manifest, lut (got '" + name +
+            "')" + schemas::did_you_mean(name, schema_names()));
     tables::write_stdout(found->text());
     return 0;
 }
@@ -116,24 +120,26 @@ int print_schema(const std::string& name) {
 }  // namespace
 
 void add_validate_command(CLI::App& program, Run& run) {
-    CLI::App* command = program.add_subcommand("validate",
-                                               "Check stacks, surfaces, scenes, manifests and "
-                                               "material files: print every error, or FILE: ok.");
+    CLI::App* command = program.add_subcommand(
+        "validate",
+        "Check stacks, surfaces, designs, scenes, manifests and material files: print every error, "
+        "or FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto schema = std::make_shared<std::string>();
     CLI::Option* option =
         command
             ->add_option("--schema", *schema,
                          "print a JSON Schema, which explains every key: stack, surface,\n"
-                         "scene, manifest or lut (the metadata of a table) [stack]")
+                         "design, scene, manifest or lut (the metadata of a table) [stack]")
             ->type_name("[NAME]")
             ->expected(0, 1);
     offer(*command, "schema", schema_names);
     command
-        ->add_option("FILE", *files,
-                     "stacks, surfaces, scenes or manifests (.json), material files (.csv, .txt,\n"
-                     ".tsv, .dat, .nk, .mat, .yml), expressions, or - for JSON on\n"
-                     "standard input")
+        ->add_option(
+            "FILE", *files,
+            "stacks, surfaces, designs, scenes or manifests (.json), material files (.csv, .txt,\n"
+            ".tsv, .dat, .nk, .mat, .yml), expressions, or - for JSON on\n"
+            "standard input")
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});

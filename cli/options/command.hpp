@@ -36,6 +36,8 @@ void add_bake_command(CLI::App& program, Run& run);
 void add_materials_command(CLI::App& program, Run& run);
 void add_validate_command(CLI::App& program, Run& run);
 void add_convert_command(CLI::App& program, Run& run);
+void add_design_command(CLI::App& program, Run& run);
+void add_fit_command(CLI::App& program, Run& run);
 void add_bench_command(CLI::App& program, Run& run);
 void add_manual_command(CLI::App& program, Run& run);
 void add_completion_command(CLI::App& program, Run& run);

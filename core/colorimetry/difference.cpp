@@ -17,12 +17,6 @@ double lab_curve(double t) {
     return t / (3 * delta * delta) + 4.0 / 29;
 }
 
-/// Largest slope of lab_curve() at t and above.
-double lab_slope(double t) {
-    constexpr double delta = 6.0 / 29;
-    return t > delta * delta * delta ? 1 / (3 * std::cbrt(t * t)) : 1 / (3 * delta * delta);
-}
-
 /// sqrt(C^7 / (C^7 + 25^7)), which rises from 0 to 1 around chroma 25.
 double chroma_step(double chroma) {
     const double power = std::pow(chroma / 25, 7);
@@ -84,6 +78,11 @@ Triple lab(const Triple& xyz, const Triple& white) {
     return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
+double lab_slope(double t) {
+    constexpr double delta = 6.0 / 29;
+    return t > delta * delta * delta ? 1 / (3 * std::cbrt(t * t)) : 1 / (3 * delta * delta);
+}
+
 double lab_error(const Triple& xyz, const Triple& white, double error) {
     Triple moved;
     for (std::size_t i = 0; i < 3; ++i)
@@ -122,7 +121,7 @@ double delta_e_cmc(const Triple& standard, const Triple& sample, double l, doubl
     return std::hypot(d_l / (l * s_l), d_c / (c * s_c), d_h / s_h);
 }
 
-double ciede2000(const Triple& lab1, const Triple& lab2) {
+DifferenceParts ciede2000_parts(const Triple& lab1, const Triple& lab2) {
     // Chroma and hue with the a axis stretched for greyish colours.
     const double plain_chroma = (std::hypot(lab1[1], lab1[2]) + std::hypot(lab2[1], lab2[2])) / 2;
     const double g = 0.5 * (1 - chroma_step(plain_chroma));
@@ -139,7 +138,12 @@ double ciede2000(const Triple& lab1, const Triple& lab2) {
     const double l = (lab2[0] - lab1[0]) / s_l;
     const double c = (q.chroma - p.chroma) / s_c;
     const double h = 2 * std::sqrt(p.chroma * q.chroma) * sin_deg(hues.difference_deg / 2) / s_h;
-    return std::sqrt(l * l + c * c + h * h + rotation(chroma, hues.mean_deg) * c * h);
+    return {l, c, h, rotation(chroma, hues.mean_deg)};
+}
+
+double ciede2000(const Triple& lab1, const Triple& lab2) {
+    const auto [l, c, h, rotated] = ciede2000_parts(lab1, lab2);
+    return std::sqrt(l * l + c * c + h * h + rotated * c * h);
 }
 
 }  // namespace irido

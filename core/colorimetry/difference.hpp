@@ -12,6 +12,17 @@ double largest_difference(const Triple& a, const Triple& b);
 /// Source: CIE 15, Colorimetry, section 8.2; ISO/CIE 11664-4.
 Triple lab(const Triple& xyz, const Triple& white);
 
+/// What CIEDE2000 adds up: dE^2 = l^2 + c^2 + h^2 + R c h with the weighted differences of
+/// lightness, chroma and hue, second - first, and the rotation R in (-2, 0].
+struct DifferenceParts {
+    double lightness, chroma, hue, rotation;
+};
+DifferenceParts ciede2000_parts(const Triple& lab1, const Triple& lab2);
+
+/// Slope of CIELAB's curve, t^(1/3) above (6/29)^3, at t = X/Xn, Y/Yn or Z/Zn; nowhere larger
+/// above.
+double lab_slope(double t);
+
 /// Bound of how far L*, a* and b* move, each, if X, Y and Z of a colour move by up to `error` >= 0.
 double lab_error(const Triple& xyz, const Triple& white, double error);
 

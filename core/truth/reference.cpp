@@ -85,6 +85,48 @@ std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wav
 
 namespace {
 
+/// Layers of the elements, groups written once.
+void add_layers(std::span<const Element> elements, std::vector<Layer>& layers) {
+    for (const Element& element : elements) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            layers.push_back(*layer);
+        } else {
+            add_layers(std::get<Group>(element.value).elements, layers);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<LayerPowerSlopes> reference_slopes(const Stack& stack, double wavelength_nm,
+                                               double angle_deg, Polarization polarization) {
+    check(wavelength_nm, angle_deg);
+    Transfer transfer(stack, wavelength_nm, angle_deg);
+    transfer.set_layers(stack.elements);
+    const auto by_input = transfer.slopes(polarization);
+    std::vector<Layer> layers;
+    add_layers(stack.elements, layers);
+    layers.push_back({stack.substrate});
+    std::vector<LayerPowerSlopes> slopes;
+    std::size_t input = 0;
+    const auto slope = [&](double x, std::size_t i) {
+        const auto& [R, log_T] = by_input[i];
+        if (x == 0) return PowerSlope{};
+        return PowerSlope{static_cast<double>(R / x), static_cast<double>(log_T / x)};
+    };
+    for (std::size_t l = 0; l < layers.size(); ++l) {
+        const Complex index = index_at(stack.materials[layers[l].material], wavelength_nm);
+        const bool is_layer = l + 1 < layers.size();
+        const std::size_t first = is_layer ? input + 2 : input;
+        slopes.push_back({is_layer ? slope(layers[l].thickness_nm, input) : PowerSlope{},
+                          slope(index.real(), first), slope(index.imag(), first + 1)});
+        input = first + 4;
+    }
+    return slopes;
+}
+
+namespace {
+
 /// Whether f, which is positive at three points in a row and least in the middle, gets down to 0
 /// between them, by golden section.
 template <class F>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/coherent/coherent.hpp"
 
@@ -44,6 +45,21 @@ struct ConditionedPower {
 /// have grown, or shrunk. Arguments as above.
 std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wavelength_nm,
                                                   double angle_deg);
+
+/// Derivatives of R and of ln T.
+struct PowerSlope {
+    double R = 0, log_T = 0;
+};
+/// By the thickness in nm (0 of the substrate), n and k of a layer; that of a group is one in all
+/// repetitions. Those by an n, k or thickness that is 0 are left at 0.
+struct LayerPowerSlopes {
+    PowerSlope thickness, n, k;
+};
+
+/// Of every layer of a stack, groups written once, and last of its substrate, to 50 digits by the
+/// adjoint of the transfer matrices. Arguments as above.
+std::vector<LayerPowerSlopes> reference_slopes(const Stack& stack, double wavelength_nm,
+                                               double angle_deg, Polarization polarization);
 
 /// Whether the stack has that R, T or A at inputs that are at most so many 2^-53 of themselves
 /// away, all moved together so that all q2 and all phases grow, or shrink: then the value is the

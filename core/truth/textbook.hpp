@@ -267,6 +267,15 @@ public:
         return Derivatives(*this, polarization).sum();
     }
 
+    /// x times the derivatives of R and of ln T by every input x, in this order: of every layer,
+    /// one of a group being one, its thickness, the wavelength, n, k, n0 and cos(theta); of the
+    /// substrate n, k, n0 and cos(theta); n0 and cos(theta) of the incident medium.
+    std::vector<std::array<R, 2>> slopes(Polarization polarization) const {
+        Derivatives derivatives(*this, polarization);
+        derivatives.sum();
+        return derivatives.all();
+    }
+
 private:
     struct Fields {
         WaveOf<R> in, out;
@@ -436,6 +445,8 @@ public:
         return sum_;
     }
 
+    const std::vector<std::array<R, 2>>& all() const { return all_; }
+
 private:
     using Adjoints = std::array<MatrixOf<R>, 2>;  ///< of r and of ln(1/t)
 
@@ -443,6 +454,7 @@ private:
     void add(const Cx<R>& dr, const Cx<R>& dlog, const R& dflux = R(0)) {
         using std::abs;
         const R reflected = 2 * dot(r_, dr), log_transmitted = dflux - 2 * dlog.re;
+        all_.push_back({reflected, log_transmitted});
         sum_.R += static_cast<double>(R(abs(reflected)));
         sum_.T += static_cast<double>(R(abs(transmitted_ * log_transmitted)));
         sum_.log_T += static_cast<double>(R(abs(log_transmitted)));
@@ -576,6 +588,7 @@ private:
     Cx<R> r_;
     R transmitted_;
     Condition sum_;
+    std::vector<std::array<R, 2>> all_;
 };
 
 }  // namespace irido::textbook

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -289,6 +290,17 @@ void set_value(json& document, std::string_view path_equals_value) {
     const std::string_view path = path_equals_value.substr(0, equals);
     if (!is_well_formed(path_equals_value)) throw InputError(well_formed(path), "", kNoText);
     set_value(document, path, value_from_text(path, path_equals_value.substr(equals + 1)));
+}
+
+void shorten_numbers(json& value) {
+    constexpr double kLargestWhole = 9007199254740992;
+    if (value.is_structured()) {
+        for (json& item : value) shorten_numbers(item);
+    } else if (value.is_number_float()) {
+        const double number = value.get<double>();
+        if (number == std::floor(number) && std::abs(number) < kLargestWhole)
+            value = static_cast<std::int64_t>(number);
+    }
 }
 
 std::vector<std::string_view> split_values(std::string_view text) {

@@ -30,6 +30,9 @@ bool is_part_of(std::string_view path, std::string_view whole);
 /// words) for a text that begins as JSON ({, [ or ") but is not valid.
 nlohmann::json value_from_text(std::string_view path, std::string_view text);
 
+/// Turns whole numbers into integers, so that 100.0 is written as 100.
+void shorten_numbers(nlohmann::json& value);
+
 /// The parts of `Ag,1.9+1.5i,{"n":1.5,"k":0.1}`: split at the commas outside of brackets, braces
 /// and double quotes, blanks at their ends left out, empty ones among them.
 std::vector<std::string_view> split_values(std::string_view text);

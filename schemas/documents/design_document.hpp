@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/design/design_problem.hpp"
+#include "schemas/documents/stack_document.hpp"
+
+namespace irido::schemas {
+
+/// A design task as plain values, with what it needs to write its stack.
+struct DesignTask {
+    DesignProblem problem;
+    std::string file;  ///< its name in messages
+    std::string name;
+    std::string method = "refine";
+    bool has_method = false;  ///< whether the task names it
+    std::uint64_t seed = 1;
+    std::optional<double> time_s;
+    std::optional<std::size_t> evaluations;
+    bool has_merit = false;                       ///< whether the task names one
+    bool has_sigma = false;                       ///< whether any target states its noise
+    StackSource source;                           ///< of the stack
+    std::vector<std::vector<std::string>> paths;  ///< of each free value in that document
+    std::vector<std::string> notes;
+    /// Materials that needles choose from: indices into the stack's, and as the document has them.
+    std::vector<std::size_t> materials;
+    std::vector<nlohmann::json> material_documents;
+    std::size_t max_layers = 20;
+    double min_thickness_nm = 2;
+    /// Of each of problem.targets: its place among the document's.
+    std::vector<std::size_t> target_numbers;
+};
+
+/// Whether a JSON document is a design task and not a stack.
+bool is_design_task(const nlohmann::json& document);
+
+/// Checks a document against design.schema.json and rules beyond it, reads its stack and the files
+/// that it names. Throws InputError for the first problem.
+/// file      its name in messages
+/// folder    where its relative paths start
+DesignTask read_design(const nlohmann::json& document, const std::string& file,
+                       const std::string& folder);
+
+/// The stack's document with these values, one for each free one.
+nlohmann::json designed_stack(const DesignTask& task, const std::vector<double>& values);
+
+/// A layer of another stack of the task: one of the document's, or a new one.
+struct OtherLayer {
+    std::optional<std::size_t> origin;  ///< place among the document's layers
+    std::size_t material = 0;           ///< else index into the stack's materials
+    double thickness_nm = 0;
+};
+
+/// The task with these layers in its stack, those that are not fixed being free, and `problem`.
+DesignTask with_layers(const DesignTask& task, const std::vector<OtherLayer>& layers,
+                       DesignProblem problem);
+
+/// The problems of a document, one line each.
+std::vector<std::string> design_problems(const nlohmann::json& document, const std::string& file,
+                                         const std::string& folder);
+
+/// The text of design.schema.json.
+const char* design_schema_text();
+
+}  // namespace irido::schemas

@@ -1,0 +1,174 @@
+#include "schemas/readers/measured_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "core/error.hpp"
+#include "core/material/material.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/column_text.hpp"
+
+namespace irido::schemas {
+
+namespace {
+
+std::vector<std::string> words_of(std::string_view column) {
+    std::vector<std::string> words{""};
+    for (const char c : plain_words(column)) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            words.back() += c;
+        } else if (!words.back().empty()) {
+            words.emplace_back();
+        }
+    }
+    if (words.back().empty()) words.pop_back();
+    return words;
+}
+
+bool has_word(const std::vector<std::string>& words, std::span<const std::string_view> any) {
+    return std::ranges::any_of(
+        words, [&](const std::string& word) { return std::ranges::find(any, word) != any.end(); });
+}
+
+constexpr std::array<std::string_view, 5> kAngles{"angle", "aoi", "theta", "incidence", "angles"};
+constexpr std::array<std::string_view, 6> kErrors{"sigma",  "error", "stderr",
+                                                  "stddev", "sd",    "uncertainty"};
+constexpr std::array<std::string_view, 4> kReflected{"r", "reflectance", "reflection",
+                                                     "reflectivity"};
+constexpr std::array<std::string_view, 4> kTransmitted{"t", "transmittance", "transmission",
+                                                       "transmissivity"};
+constexpr std::array<std::string_view, 3> kAbsorbed{"a", "absorptance", "absorption"};
+
+/// Whether the words name the quantity; those of psi_deg begin with psi.
+bool names_quantity(const std::vector<std::string>& words, std::string_view quantity) {
+    if (quantity == "R") return has_word(words, kReflected);
+    if (quantity == "T") return has_word(words, kTransmitted);
+    if (quantity == "A") return has_word(words, kAbsorbed);
+    const std::vector<std::string> own = words_of(quantity);
+    if (own.front() == "psi" || own.front() == "delta")
+        return std::ranges::find(words, own.front()) != words.end();
+    return std::ranges::includes(words, own);
+}
+
+bool is_percent(std::string_view column) {
+    const std::vector<std::string> words = words_of(column);
+    return column.find('%') != std::string_view::npos ||
+           std::ranges::find(words, "percent") != words.end();
+}
+
+bool names_columns(const std::vector<std::string>& header) {
+    return std::ranges::any_of(
+        header, [](const std::string& column) { return spectral_column(column).has_value(); });
+}
+
+class MeasuredReader {
+public:
+    MeasuredReader(std::string_view text, const std::string& name, std::string_view quantity,
+                   std::string_view column)
+        : name_(name),
+          lines_(lines_of(text)),
+          table_(read_columns(lines_, name,
+                              {names_columns,
+                               "one of wavelengths with its unit, such as wavelength_nm, and " +
+                                   std::string(column.empty() ? quantity : column),
+                               2, kMostColumns})) {
+        if (table_.header.empty())
+            throw InputError(name, "",
+                             "must have a heading that names its columns and the unit of its "
+                             "wavelengths, such as wavelength_nm," +
+                                 std::string(quantity));
+        find_columns(quantity, column);
+    }
+
+    std::vector<MeasuredRows> read() const {
+        std::vector<MeasuredRows> all;
+        for (const ColumnRow& row : table_.rows) {
+            const std::optional<double> angle_deg =
+                angle_ ? std::optional(row.values[*angle_]) : std::nullopt;
+            if (angle_deg && !(*angle_deg >= 0 && *angle_deg < 90))
+                throw InputError(
+                    name_, place_of(row.line, row.cells[*angle_]),
+                    "an angle must be in [0, 90) degrees (got " + to_text(*angle_deg) + ")");
+            auto rows = std::ranges::find(all, angle_deg, &MeasuredRows::angle_deg);
+            if (rows == all.end()) {
+                all.push_back({angle_deg, {}, {}, {}});
+                rows = all.end() - 1;
+            }
+            rows->wavelength_nm.push_back(wavelength(row));
+            rows->value.push_back(row.values[value_] * scale_);
+            if (sigma_) rows->sigma.push_back(sigma(row));
+        }
+        return all;
+    }
+
+private:
+    static constexpr std::size_t kMostColumns = 64;
+
+    double wavelength(const ColumnRow& row) const {
+        const double nm = to_nm(row.values[spectral_], unit_);
+        if (nm >= kAllWavelengths.first_nm && nm <= kAllWavelengths.last_nm) return nm;
+        throw InputError(name_, place_of(row.line, row.cells[spectral_]),
+                         "wavelength_nm must be in [1, 1e+07] (got " + to_text(nm) + ")");
+    }
+
+    double sigma(const ColumnRow& row) const {
+        const double value = row.values[*sigma_] * scale_;
+        if (value > 0) return value;
+        throw InputError(name_, place_of(row.line, row.cells[*sigma_]),
+                         "a standard deviation must be above 0 (got " + to_text(value) + ")");
+    }
+
+    void find_columns(std::string_view quantity, std::string_view column) {
+        std::optional<std::size_t> spectral, value;
+        for (std::size_t c = 0; c < table_.header.size(); ++c) {
+            const std::string& name = table_.header[c];
+            const std::vector<std::string> words = words_of(name);
+            if (const auto own = spectral_column(name); own && !spectral) {
+                if (!own->unit)
+                    throw InputError(
+                        name_, "",
+                        "the column " + name + " must name its unit: nm, um, angstrom, eV or cm-1");
+                spectral = c;
+                unit_ = *own->unit;
+            } else if (has_word(words, kErrors)) {
+                if (names_quantity(words, quantity)) sigma_ = c;
+            } else if (has_word(words, kAngles)) {
+                angle_ = c;
+            } else if (column.empty() ? !value && names_quantity(words, quantity)
+                                      : name == column) {
+                value = c;
+            }
+        }
+        if (!value)
+            throw InputError(name_, "",
+                             "has no column " + std::string(column.empty() ? quantity : column) +
+                                 " (its columns: " + names() + ")");
+        spectral_ = spectral.value();
+        value_ = *value;
+        scale_ = is_percent(table_.header[value_]) ? 0.01 : 1;
+    }
+
+    std::string names() const {
+        std::string all;
+        for (const std::string& name : table_.header) all += (all.empty() ? "" : ", ") + name;
+        return all;
+    }
+
+    const std::string& name_;
+    std::vector<TextLine> lines_;
+    ColumnText table_;
+    std::size_t spectral_ = 0, value_ = 0;
+    std::optional<std::size_t> angle_, sigma_;
+    SpectralUnit unit_ = SpectralUnit::nm;
+    double scale_ = 1;
+};
+
+}  // namespace
+
+std::vector<MeasuredRows> read_measured_table(std::string_view text, const std::string& name,
+                                              std::string_view quantity, std::string_view column) {
+    return MeasuredReader(text, name, quantity, column).read();
+}
+
+}  // namespace irido::schemas

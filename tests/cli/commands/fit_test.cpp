@@ -1,0 +1,119 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "tests/support/program.hpp"
+
+using namespace irido::test;
+
+namespace {
+
+/// A table of what the program itself prints, with noise that is the same every time.
+std::string measured(const std::string& stack, const std::string& angles, double noise) {
+    const Outcome outcome = run_irido(
+        {"spectrum", stack, "-w", "400:800:10", "-a", angles, "--columns", "psi_deg,delta_deg"});
+    REQUIRE(outcome.status == 0);
+    const auto rows = parse_csv(outcome.out);
+    std::string text = "wavelength_nm,angle_deg,psi_deg,delta_deg\n";
+    double phase = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const double psi = std::stod(rows[i][3]) + noise * std::sin(phase += 7.3);
+        const double delta = std::stod(rows[i][4]) + 5 * noise * std::sin(phase += 3.1);
+        text += rows[i][0] + "," + rows[i][1] + "," + irido::to_text(psi) + "," +
+                irido::to_text(delta) + "\n";
+    }
+    return text;
+}
+
+std::string oxide_task(const std::string& more) {
+    return R"({ "stack": { "incident": 1, "layers": [{ "material": { "cauchy": [1.45, 0.0035] },
+        "thickness_nm": 135 }], "substrate": { "n": 3.88, "k": 0.02 } },
+        "free": [{ "path": "layers.0.thickness_nm", "bounds": [20, 250], "name": "thickness_nm" },
+                 { "path": "layers.0.material.cauchy.0", "bounds": [1.35, 1.6], "name": "A" },
+                 { "path": "layers.0.material.cauchy.1", "bounds": [0, 0.02], "name": "B" }],
+        "targets": [{ "quantity": "psi_deg", "file": "data.csv", "sigma": 0.02 },
+                    { "quantity": "delta_deg", "file": "data.csv", "sigma": 0.1 }])" +
+           more + " }";
+}
+
+}  // namespace
+
+TEST_CASE("a fit finds thickness and dispersion, and how well they are known", "[cli][fit]") {
+    TemporaryFolder folder;
+    write_text(folder / "truth.json", R"({ "incident": 1, "layers": [
+        { "material": { "cauchy": [1.4478, 0.0038] }, "thickness_nm": 103.7 }],
+        "substrate": { "n": 3.88, "k": 0.02 } })");
+    write_text(folder / "data.csv", measured(folder / "truth.json", "65,70,75", 0.02));
+    write_text(folder / "task.json", oxide_task(""));
+    const Outcome outcome = run_irido(
+        {"fit", "task.json", "--correlation", "-o", "fitted.json", "--plot", "residuals.svg"}, "",
+        folder.path());
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const auto rows = parse_csv(outcome.out);
+    REQUIRE(rows.size() == 6);
+    CHECK(rows[0] == std::vector<std::string>{"parameter", "value", "stderr",
+                                              "correlation_thickness_nm", "correlation_A",
+                                              "correlation_B"});
+    const std::vector<double> truth{103.7, 1.4478, 0.0038};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double value = std::stod(rows[i + 1][1]), error = std::stod(rows[i + 1][2]);
+        CHECK(error > 0);
+        CHECK(std::abs(value - truth[i]) < 4 * error);
+        CHECK(std::stod(rows[i + 1][3 + i]) == 1);
+    }
+    CHECK(std::stod(rows[2][5]) == Approx(std::stod(rows[3][4])).epsilon(1e-9));
+    CHECK(rows[4][0] == "chi2");
+    CHECK(rows[4][2].empty());
+    CHECK(rows[5][1] == "243");
+    CHECK(outcome.err.find("the next-best minimum") != std::string::npos);
+    CHECK(run_irido({"validate", "fitted.json"}, "", folder.path()).status == 0);
+}
+
+TEST_CASE("standard errors follow from the stated noise", "[cli][fit]") {
+    TemporaryFolder folder;
+    // R = r^2 of one face is a function of n alone: by hand, dR/dn and sigma give the error
+    write_text(folder / "data.csv", "wavelength (nm), R (%)\n500, 4.1\n600, 3.9\n700, 4.05\n");
+    write_text(folder / "task.json", R"({ "stack": { "incident": 1, "layers": [],
+        "substrate": { "n": 1.6 } }, "free": [{ "path": "substrate.n", "name": "n" }],
+        "targets": [{ "quantity": "R", "file": "data.csv", "sigma": 0.001 }] })");
+    const Outcome outcome = run_irido({"fit", "task.json", "--quiet"}, "", folder.path());
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const auto rows = parse_csv(outcome.out);
+    const double r = std::sqrt((0.041 + 0.039 + 0.0405) / 3), n = (1 + r) / (1 - r);
+    CHECK(std::stod(rows[1][1]) == Approx(n).epsilon(1e-9));
+    const double slope = 2 * r * 2 / std::pow(n + 1, 2);
+    CHECK(std::stod(rows[1][2]) == Approx(0.001 / slope / std::sqrt(3)).epsilon(1e-6));
+    CHECK(std::stod(rows[3][1]) == 2);
+}
+
+TEST_CASE("what the data do not tell is said", "[cli][fit]") {
+    TemporaryFolder folder;
+    write_text(folder / "data.csv", "wavelength_nm,R\n500,0.04\n600,0.04\n");
+    write_text(folder / "task.json", R"({ "stack": "1 | 1.5@100 | 1.5@50 | 1.5",
+        "free": [{ "path": "layers.*.thickness_nm", "bounds": [0, 300] }],
+        "targets": [{ "quantity": "R", "file": "data.csv" }] })");
+    const Outcome outcome = run_irido({"fit", "task.json"}, "", folder.path());
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.out.find("nan") == std::string::npos);
+    CHECK(outcome.out.find("inf") == std::string::npos);
+    CHECK(outcome.err.find("the data do not tell layers.0.thickness_nm") != std::string::npos);
+    CHECK(outcome.err.find("no target states its noise") != std::string::npos);
+}
+
+TEST_CASE("tables without units or with gaps are refused", "[cli][fit]") {
+    TemporaryFolder folder;
+    const auto refuse = [&](const std::string& data, const std::string& error) {
+        write_text(folder / "data.csv", data);
+        write_text(folder / "task.json", oxide_task(""));
+        check_refused(run_irido({"fit", "task.json"}, "", folder.path()), error);
+    };
+    refuse("500,70,30\n600,70,31\n", "must have a heading");
+    refuse("wavelength,angle_deg,psi_deg,delta_deg\n500,70,30,100\n", "must name its unit");
+    refuse("wavelength_nm,angle_deg,psi_deg,delta_deg\n500,70,nan,100\n", "data.csv");
+    refuse("wavelength_nm,angle_deg,psi_deg\n500,70,30\n", "has no column delta_deg");
+    refuse("wavelength_nm,angle_deg,psi_deg,delta_deg\n500,95,30,100\n", "[0, 90) degrees");
+    refuse("wavelength_nm,angle_deg,psi_deg,delta_deg\n0.5,70,30,100\n", "[1, 1e+07]");
+}
