@@ -19,7 +19,7 @@ std::vector<std::size_t> columns_where(const SweepSpace& space, bool thickness) 
     std::vector<std::size_t> columns;
     for (std::size_t c = 0; c < space.columns().size(); ++c) {
         const SweptColumn& column = space.columns()[c];
-        if (!column.is_light() && schemas::VariedStack::is_thickness(column.path) == thickness)
+        if (column.is_of_stack() && schemas::VariedStack::is_thickness(column.path) == thickness)
             columns.push_back(c);
     }
     return columns;
@@ -49,12 +49,12 @@ schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSp
         const SweptColumn& column = space.columns()[c];
         if (column.is_text())
             throw schemas::InputError("", "", space.origin_of(c, 0) + "must be numbers");
-        for (std::size_t i = 0; i < column.size(); ++i)
+        for (std::size_t i = 0; i < column.numbers.size(); ++i)
             from_origin(space, c, i, [&] {
                 schemas::VariedStack::require_thickness(source.file, column.path,
                                                         column.numbers[i]);
             });
-        schemas::set_value(source.document, column.path, column.value(column.size() / 2));
+        schemas::set_value(source.document, column.path, column.middle());
     }
     return source;
 }
@@ -77,7 +77,9 @@ void SweptStacks::read_values() {
     for (std::size_t s = 0; s < structural_.size(); ++s) {
         std::vector<std::size_t> key = first;
         const std::size_t column = structural_[s];
-        const std::size_t values = std::min(space_.columns()[column].size(), kMostChecked);
+        const std::size_t values = space_.columns()[column].scattered
+                                       ? 1
+                                       : std::min(space_.columns()[column].size(), kMostChecked);
         for (key[s] = 0; key[s] < values; ++key[s])
             from_origin(space_, column, key[s], [&] { document(key); });
     }
@@ -148,7 +150,7 @@ const SweptStacks::Walk::Place& SweptStacks::Walk::at(std::uint64_t combination)
     for (std::size_t i = 0; i < stacks_.thicknesses_.size(); ++i) {
         const std::size_t c = stacks_.thicknesses_[i];
         place.varied[i]->thickness_nm =
-            stacks_.space_.columns()[c].numbers[stacks_.space_.at(c, combination)];
+            stacks_.space_.columns()[c].number(stacks_.space_.at(c, combination));
     }
     if (stacks_.is_reversed_) place.stack.elements = reversed(place.written.elements);
     return place;
