@@ -6,7 +6,10 @@
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/stack_expression.hpp"
+#include "schemas/readers/stacks/stack_format.hpp"
+#include "schemas/readers/text_file.hpp"
 #include "tables/files/atomic_file.hpp"
+#include "tables/files/plain_file.hpp"
 
 namespace irido::cli {
 
@@ -16,22 +19,39 @@ using nlohmann::json;
 
 struct ConvertCommand {
     schemas::StackRequest stack;
+    schemas::StackReadOptions reading;
+    std::string primary, range;
     OutputOptions output;
     bool quiet = false;
 };
 
-enum class StackFormat { document, expression };
+/// What is written: JSON, an expression, or a format of another program.
+struct Target {
+    bool is_expression = false;
+    const schemas::StackFormat* other = nullptr;
 
-StackFormat resolved_stack_format(const OutputOptions& output) {
+    bool is_json() const { return !is_expression && other == nullptr; }
+};
+
+Target resolved_target(const OutputOptions& output) {
     const bool is_default = output.format.empty() && output.file.empty();
     const std::string name = is_default ? "json" : resolved_format(output);
-    if (name == "json") return StackFormat::document;
-    if (name == "expression" || (output.format.empty() && name == "txt"))
-        return StackFormat::expression;
-    if (output.format.empty())
-        throw UsageError("--output: the extension must be json, or txt for an expression (got " +
-                         name + ")");
-    throw UsageError("--format: must be one of json, expression (got " + name + ")");
+    if (name == "json") return {};
+    if (name == "expression" || (output.format.empty() && name == "txt")) return {true};
+    if (output.format.empty()) {
+        if (const auto* const format = schemas::stack_format_of(output.file))
+            return {false, format};
+        throw UsageError(
+            "--output: the extension must be json, txt for an expression, dat (Zemax), ofp "
+            "(OpenFilters) or csv (a list of layers) (got " +
+            name + ")");
+    }
+    std::vector<std::string_view> names{"json", "expression"};
+    for (const schemas::StackFormat& format : schemas::stack_formats()) {
+        if (format.name == name) return {false, &format};
+        names.push_back(format.name);
+    }
+    throw UsageError("--format: " + not_one_of(names, name));
 }
 
 std::string as_json(schemas::StackSource source, const std::string& file) {
@@ -72,36 +92,124 @@ void reverse(schemas::StackSource& source) {
     if (document.contains("layers")) reverse_layers(document["layers"], source.file);
 }
 
+/// The stack of a file of another program, or one as every command reads it.
+schemas::StackSource load(const ConvertCommand& command) {
+    const std::string& path = command.stack.stack;
+    const auto* const format =
+        path.find('|') == std::string::npos ? schemas::stack_format_of(path) : nullptr;
+    if (!format) return schemas::load_stack(command.stack);
+    schemas::StackReadOptions reading = command.reading;
+    if (!command.primary.empty())
+        reading.primary_nm = parse_one_number("--primary", command.primary, 1, 1e7);
+    for (const std::string& text : command.stack.media)
+        reading.media.insert(text.substr(0, text.find('=')));
+    schemas::StackFile read = format->read(schemas::read_text(path), path, reading);
+    for (const std::string& text : read.notes) note(text, command.quiet);
+    schemas::StackSource source{std::move(read.document), path,
+                                std::filesystem::path(path).parent_path().string(),
+                                command.stack.reverse};
+    schemas::set_values(source, command.stack);
+    return source;
+}
+
+/// Throws UsageError if a file beside the output is there with something else in it.
+void require_free(const std::string& path, const std::string& text) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && schemas::read_own_file(path) != text)
+        throw UsageError(path + ": exists and differs; choose another folder");
+}
+
+int write_other(const ConvertCommand& command, const schemas::StackFormat& format,
+                const schemas::StackDocument& document) {
+    schemas::StackWriteOptions options{document.name};
+    if (!command.range.empty()) {
+        const std::size_t colon = command.range.find(':');
+        if (colon == std::string::npos)
+            throw UsageError("--range: must be FIRST:LAST in nm (got " + command.range + ")");
+        options.range = {parse_one_number("--range", command.range.substr(0, colon), 1, 1e7),
+                         parse_one_number("--range", command.range.substr(colon + 1), 1, 1e7)};
+    }
+    const schemas::WrittenStack written = format.write(document.stack, options);
+    const bool is_file = !command.output.file.empty();
+    const std::filesystem::path folder = std::filesystem::path(command.output.file).parent_path();
+    for (const auto& [name, text] : written.beside)
+        if (is_file) require_free(folder / name, text);
+    for (const std::string& loss : written.losses)
+        note(std::string(format.program) + " cannot hold: " + loss, command.quiet);
+    for (const auto& [name, text] : written.beside) {
+        if (is_file) {
+            tables::write_file(folder / name, text);
+        } else {
+            note(name + " is not written: it needs --output FILE", command.quiet);
+        }
+    }
+    write_bytes(written.text, command.output, false);
+    return 0;
+}
+
 int run_convert(const ConvertCommand& command) {
-    const StackFormat format = resolved_stack_format(command.output);
-    schemas::StackSource source = schemas::load_stack(command.stack);
+    const Target target = resolved_target(command.output);
+    check_writable(command.output);
+    schemas::StackSource source = load(command);
     const schemas::StackDocument document = schemas::read_source(source);
     for (const std::string& text : document.notes) note(text, command.quiet);
-    if (source.reverse && format == StackFormat::document) reverse(source);
-    const std::string text = format == StackFormat::document
-                                 ? as_json(std::move(source), command.output.file)
-                                 : as_expression(document, command.quiet);
+    if (target.other) return write_other(command, *target.other, document);
+    if (source.reverse && target.is_json()) reverse(source);
+    const std::string text = target.is_json() ? as_json(std::move(source), command.output.file)
+                                              : as_expression(document, command.quiet);
     write_bytes(text, command.output, false);
     return 0;
+}
+
+void add_format_options(CLI::App& command, ConvertCommand& typed) {
+    command
+        .add_option("--coating", typed.reading.coating,
+                    "which coating of a COATING.DAT or filter of a project with several")
+        ->type_name("NAME");
+    command
+        .add_option("--primary", typed.primary,
+                    "wavelength of thicknesses in waves (COATING.DAT) or quarter waves\n"
+                    "(qwot of a list), nm")
+        ->type_name("NM");
+    command.add_flag("--mirror", typed.reading.is_mirror,
+                     "the last layer of a coating of COATING.DAT is the substrate");
+    command
+        .add_option("--material-folder", typed.reading.folder,
+                    "folder of the materials of an OpenFilters project, NAME.mat [the\n"
+                    "project's own]")
+        ->type_name("DIR");
+    command
+        .add_option("--range", typed.range,
+                    "wavelengths of the tables that dispersive materials become, nm\n"
+                    "[300:2500]")
+        ->type_name("FIRST:LAST");
 }
 
 }  // namespace
 
 void add_convert_command(CLI::App& program, Run& run) {
-    CLI::App* command =
-        program.add_subcommand("convert", "Convert a stack to JSON or to an expression.");
+    CLI::App* command = program.add_subcommand(
+        "convert", "Convert a stack to and from the files of other programs.");
     const auto options = std::make_shared<ConvertCommand>();
     add_stack_options(*command, options->stack);
+    command->get_option("STACK")->description(
+        "stack file or expression as for every command; or COATING.DAT of\n"
+        "Zemax (.dat), a project of OpenFilters (.ofp), or a list of layers\n"
+        "(.csv: material, thickness_nm)");
+    add_format_options(*command, *options);
     add_output_options(*command, options->output,
-                       "json, or expression (files: .json, .txt) [json]");
+                       "json, expression, zemax, openfilters or csv (files: .json,\n"
+                       ".txt, .dat, .ofp, .csv) [json]");
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(*command,
                  {"irido convert \"air | (TiO2@58.5 | SiO2@94.2)^10 | BK7@1mm! | air\"",
                   "irido convert stack.json -f expression",
-                  "irido convert stack.json --set substrate=Si -o on-silicon.json"},
-                 "Paths of material files become relative to FILE. What an expression cannot hold\n"
-                 "(thickness_sigma_nm; materials that are neither built in, nor files, nor\n"
-                 "constant) is noted on standard error.");
+                  "irido convert stack.json --set substrate=Si -o on-silicon.json",
+                  "irido convert filter.ofp -o COATING.DAT",
+                  "irido convert COATING.DAT --coating AR --primary 550 --set substrate=BK7"},
+                 "Paths of material files become relative to FILE. What a format cannot hold\n"
+                 "(groups, incoherent layers, the media around, ranges of materials) is noted on\n"
+                 "standard error. An OpenFilters project is written with its materials beside it.");
     command->callback([options, &run] { run = [options] { return run_convert(*options); }; });
 }
 

@@ -13,6 +13,8 @@
 #include "cli/options/shard.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep/engine.hpp"
+#include "cli/sweep/scatter.hpp"
+#include "cli/sweep/summary.hpp"
 #include "core/error.hpp"
 #include "schemas/documents/canonical_stack.hpp"
 #include "schemas/readers/nearest.hpp"
@@ -28,6 +30,7 @@ struct SweepCommand {
     schemas::StackRequest stack;
     std::vector<std::string> vary;
     std::string points;
+    ScatterOptions scatter;
     const QueryKind* kind = nullptr;
     std::unique_ptr<QueryOptions> typed;  ///< options of the kind
     std::string compute;
@@ -42,22 +45,25 @@ struct SweepCommand {
 
 /// Whether stacks that differ only in this column have the same structure.
 bool is_shared(const SweptColumn& column) {
-    return column.is_light() || schemas::VariedStack::is_thickness(column.path);
+    return !column.is_of_stack() || schemas::VariedStack::is_thickness(column.path);
 }
 
 /// Number of stacks per structure, as far as known in advance.
 double stacks_of_structure(const SweepSpace& space) {
-    double stacks = 1, points = 1;
-    bool points_share = true;
+    double stacks = 1, points = 1, samples = 1;
+    bool points_share = true, samples_share = true;
     for (const SweptColumn& column : space.columns()) {
         if (column.of_points) {
             points = static_cast<double>(column.size());
             points_share = points_share && is_shared(column);
+        } else if (column.scattered) {
+            samples = static_cast<double>(column.size());
+            samples_share = samples_share && is_shared(column);
         } else if (is_shared(column)) {
             stacks *= static_cast<double>(column.size());
         }
     }
-    return points_share ? stacks * points : stacks;
+    return stacks * (points_share ? points : 1) * (samples_share ? samples : 1);
 }
 
 std::size_t structures_together(const SweepSpace& space) {
@@ -96,8 +102,13 @@ std::string request_hash(const SweepCommand& command, const Query& query,
                          const schemas::StackSource& source, const schemas::StackDocument& first,
                          const SweepSpace& space) {
     nlohmann::json vary = nlohmann::json::array();
-    for (const SweptColumn& column : space.columns())
+    for (const SweptColumn& column : space.columns()) {
         vary.push_back({column.path, column.numbers, column.texts, column.codes, column.of_points});
+        if (!column.scattered) continue;
+        const ScatteredValue& drawn = *column.scattered;
+        vary.back().push_back({drawn.nominal, drawn.sigma, drawn.lowest, drawn.highest, drawn.seed,
+                               drawn.stream, drawn.samples});
+    }
     const nlohmann::json request{{"compute", command.kind->name},
                                  {"options", command.typed->typed()},
                                  {"data", query.data()},
@@ -222,6 +233,25 @@ std::unique_ptr<tables::RecordStream> open_picture(const SweepCommand& command,
     return tables::collected_rows(engine.layout(), draw);
 }
 
+/// Statistics of the samples, written once all are there.
+std::unique_ptr<tables::RecordStream> open_summary(const SweepCommand& command,
+                                                   const SweepEngine& engine,
+                                                   const SweepSpace& space, const Query& query) {
+    return sample_summary(
+        engine.layout(), space, query, parse_limits(command.scatter.limits),
+        [&command](const tables::Records& records) { write_records(records, command.output); });
+}
+
+/// A summary is of all samples, and no file of rows.
+void require_whole(const SweepCommand& command) {
+    if (!command.scatter.limits.empty() && !command.scatter.summary)
+        throw UsageError("--limit: requires --summary");
+    if (!command.scatter.summary) return;
+    if (command.resume) throw UsageError("--resume: a summary is computed in one go");
+    if (!command.shard.empty())
+        throw UsageError("--shard: a summary is of all samples; shards hold rows");
+}
+
 int run_merge(const SweepCommand& command) {
     if (command.output.file.empty()) throw UsageError("--merge: requires --output FILE");
     tables::merge_streams(command.merge, command.output.file,
@@ -268,13 +298,21 @@ int run_sweep(const SweepCommand& command) {
     if (!command.kind) throw UsageError("--compute: is required: spectrum, color, bands or cm");
     const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
     if (picture) require_no_parts(command);
+    if (picture && !command.scatter.paths.empty())
+        throw UsageError("--output: samples are not drawn; choose csv, json, npy or h5");
+    require_whole(command);
+    const bool is_summary = command.scatter.summary;
+    if (is_summary) resolved_record_format(command.output);
     const tables::RecordFormat& format =
-        picture ? tables::packed_format()
-                : resolved_record_format(command.output, RecordTarget::any_or_picture);
+        picture || is_summary
+            ? tables::packed_format()
+            : resolved_record_format(command.output, RecordTarget::any_or_picture);
     const Shard shard = parse_shard(command.shard);
     check_writable(command.output);
     Notes notes(command.quiet);
-    const SweepSpace space(command.vary, command.points);
+    schemas::StackSource source = schemas::load_stack(command.stack);
+    const SweepSpace space(command.vary, command.points,
+                           scattered_columns(command.scatter, command.vary, source));
     require_once(command, space);
     const Execution machine{1, execution_of(command.threads).simd};
     const auto query = command.typed->parse(
@@ -285,7 +323,6 @@ int run_sweep(const SweepCommand& command) {
          .structures = structures_together(space),
          .varies_wavelength = varies_wavelength(space),
          .is_silent = true});
-    const schemas::StackSource source = schemas::load_stack(command.stack);
     SweptStacks stacks(source, space, *query);
     SweepEngine engine(stacks, space, *query, command.keep_going);
     const std::vector<std::uint64_t> ends =
@@ -300,16 +337,18 @@ int run_sweep(const SweepCommand& command) {
         engine.units(),
         !command.shard.empty()};
     std::optional<OrderlyEnd> orderly;
-    if (!command.output.file.empty() && !picture) orderly.emplace();  // before there is a part
+    if (!command.output.file.empty() && !picture && !is_summary)
+        orderly.emplace();  // before there is a part
     std::error_code ignored;
     if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
         note("discarding " + command.output.file +
                  ".part of an earlier run (use --resume to continue it)",
              command.quiet);
     const std::unique_ptr<tables::RecordStream> stream =
-        picture ? open_picture(command, *picture, engine, space, *query,
-                               title_of(stacks.first(), command.stack), notes)
-                : open_stream(command, format, engine, identity);
+        picture      ? open_picture(command, *picture, engine, space, *query,
+                                    title_of(stacks.first(), command.stack), notes)
+        : is_summary ? open_summary(command, engine, space, *query)
+                     : open_stream(command, format, engine, identity);
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
         note("resuming after " + std::to_string(stream->rows_done()) + " rows", command.quiet);
@@ -365,6 +404,7 @@ void add_sweep_options(CLI::App& command, SweepCommand& typed) {
                     "CSV file of combinations, its columns named by path; each is\n"
                     "computed with every combination of --vary")
         ->type_name("FILE");
+    add_scatter_options(command, typed.scatter);
     command
         .add_option("--compute", typed.compute,
                     "spectrum, color, bands or cm, with the options of that command;\n"
@@ -422,6 +462,8 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
          "--compute spectrum -w 400:700:10 -o sweep.npy",
          "irido sweep \"air | TiO2@0 | Ti\" --vary layers.0.thickness_nm=0:200:1 --vary "
          "angle_deg=0:85:1 --compute color -o map.png",
+         "irido sweep \"air | MgF2@99.6 | BK7\" --scatter layers.0.thickness_nm=2% --compute "
+         "spectrum -w 550 --summary --limit \"R<=0.014\"",
          "irido sweep --merge part-1.csv part-2.csv part-3.csv -o all.csv"},
         "Columns are the varied values, named by path, then those of the command. With -o, rows\n"
         "are in FILE.part until all are done; after Ctrl-C or a crash, --resume continues it.");

@@ -11,6 +11,7 @@
 
 #include "cli/options/picture_options.hpp"
 #include "core/error.hpp"
+#include "schemas/readers/material_database.hpp"
 #include "schemas/readers/number.hpp"
 #include "tables/files/atomic_file.hpp"
 
@@ -47,6 +48,16 @@ void add_stack_options(CLI::App& command, schemas::StackRequest& request) {
     command.add_flag("--reverse", request.reverse,
                      "light from the substrate's side, angles in the substrate, which must\n"
                      "be transparent; paths are those of the stack as it is written");
+    add_database_option(command);
+}
+
+void add_database_option(CLI::App& command) {
+    command
+        .add_option_function<std::string>(
+            "--database", [](const std::string& folder) { schemas::use_material_database(folder); },
+            "folder of a copy of the refractiveindex.info database, whose pages are\n"
+            "materials: rii:main/Ag/Johnson [IRIDO_MATERIALS]")
+        ->type_name("DIR");
 }
 
 schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bool quiet) {

@@ -48,7 +48,10 @@ struct OutputOptions {
     std::string format;  ///< "" to follow the file's extension
 };
 
-/// STACK, --set and --material.
+/// --database
+void add_database_option(CLI::App& command);
+
+/// STACK, --set, --material, --reverse and --database.
 void add_stack_options(CLI::App& command, schemas::StackRequest& request);
 
 /// Reads the stack and says what is to be noted. Throws InputError.

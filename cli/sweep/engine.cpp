@@ -55,7 +55,7 @@ public:
                 append(*texts, rows);
             } else {
                 auto& numbers = std::get<tables::Column::CodedNumbers>(records_.columns[i].values);
-                if (is_new) numbers.values.push_back(column.numbers[index]);
+                if (is_new) numbers.values.push_back(column.number(index));
                 append(numbers, rows);
             }
         }

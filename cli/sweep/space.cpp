@@ -6,6 +6,8 @@
 #include "core/coherent/coherent.hpp"
 #include "core/error.hpp"
 #include "core/material/material.hpp"
+#include "core/math/normal.hpp"
+#include "core/math/philox.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/number.hpp"
@@ -42,29 +44,54 @@ bool SweptColumn::is_light() const {
     return path == kSweptAngle || path == kSweptWavelength;
 }
 
+double ScatteredValue::at(std::uint64_t sample) const {
+    const auto [low, high] = philox_key(sample);
+    const auto [stream_low, stream_high] = philox_key(stream);
+    const auto words = philox({low, high, stream_low, stream_high}, philox_key(seed));
+    const std::uint64_t bits = std::uint64_t{words[1]} << 32 | words[0];
+    return std::clamp(nominal + sigma * normal_deviate(bits), lowest, highest);
+}
+
+std::size_t SweptColumn::size() const {
+    if (scattered) return scattered->samples;
+    return is_text() ? texts.size() : numbers.size();
+}
+
 nlohmann::json SweptColumn::value(std::size_t index) const {
-    if (!is_text()) return numbers[index];
+    if (!is_text()) return number(index);
     return schemas::value_from_text(path, texts[index]);
 }
 
 std::string SweptColumn::text(std::size_t index) const {
-    return is_text() ? texts[index] : to_text(numbers[index]);
+    return is_text() ? texts[index] : to_text(number(index));
 }
 
-SweepSpace::SweepSpace(const std::vector<std::string>& vary, const std::string& points) {
+SweepSpace::SweepSpace(const std::vector<std::string>& vary, const std::string& points,
+                       std::vector<SweptColumn> scattered) {
     if (!points.empty()) add_points(points);
+    for (SweptColumn& column : scattered) columns_.push_back(std::move(column));
     for (const std::string& text : vary) add_list(text);
     if (columns_.empty())
-        throw UsageError("--vary: a sweep requires --vary PATH=LIST or --points FILE");
+        throw UsageError(
+            "--vary: a sweep requires --vary PATH=LIST, --points FILE or --scatter PATH=SIGMA");
     check();
     double size = 1;
     for (auto column = columns_.rbegin(); column != columns_.rend(); ++column) {
-        if (column->of_points) continue;
+        if (column->of_points || column->scattered) continue;
         column->stride = size_;
         size *= static_cast<double>(column->size());
         if (size * static_cast<double>(points_) > kMostCombinations)
             throw UsageError("--vary: must give at most 1e15 combinations");
         size_ *= column->size();
+    }
+    const auto samples = std::ranges::find(columns_, true, &SweptColumn::is_sample);
+    if (samples != columns_.end()) {
+        for (SweptColumn& column : columns_)
+            if (column.scattered) column.stride = size_;
+        size *= static_cast<double>(samples->size());
+        if (size * static_cast<double>(points_) > kMostCombinations)
+            throw UsageError("--samples: must give at most 1e15 combinations");
+        size_ *= samples->size();
     }
     for (SweptColumn& column : columns_)
         if (column.of_points) column.stride = size_;
@@ -80,7 +107,7 @@ std::size_t SweepSpace::at(std::size_t column, std::uint64_t combination) const 
 
 std::string SweepSpace::origin_of(std::size_t column, std::size_t index) const {
     const SweptColumn& of = columns_[column];
-    if (!of.of_points) return "--vary " + of.path + ": ";
+    if (!of.of_points) return (of.scattered ? "--scatter " : "--vary ") + of.path + ": ";
     const auto first = std::ranges::find(of.codes, index);
     const std::size_t row =
         of.codes.empty() ? index : static_cast<std::size_t>(first - of.codes.begin());
@@ -155,8 +182,11 @@ void SweepSpace::check() const {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
         for (std::size_t b = 0; b < columns_.size(); ++b) {
             const std::string &path = columns_[c].path, &other = columns_[b].path;
-            if (b == c || !schemas::is_part_of(path, other)) continue;
-            const std::string by = columns_[c].of_points ? "--points: " : "--vary: ";
+            if (b == c || (columns_[c].scattered && columns_[b].scattered)) continue;
+            if (!schemas::is_part_of(path, other)) continue;
+            const std::string by = columns_[c].of_points   ? "--points: "
+                                   : columns_[c].scattered ? "--scatter: "
+                                                           : "--vary: ";
             if (schemas::is_part_of(other, path)) throw UsageError(by + path + " is varied twice");
             throw UsageError(by + path + " is inside " + other + ", which also varies");
         }

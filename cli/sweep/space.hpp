@@ -2,40 +2,69 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace irido::cli {
 
-inline constexpr std::string_view kSweptAngle = "angle_deg", kSweptWavelength = "wavelength_nm";
+inline constexpr std::string_view kSweptAngle = "angle_deg", kSweptWavelength = "wavelength_nm",
+                                  kSweptSample = "sample";
+
+/// Gaussian errors of one value of the stack, one per sample.
+struct ScatteredValue {
+    double nominal = 0, sigma = 0;
+    double lowest = 0, highest = 0;  ///< values beyond are set to these
+    std::uint64_t seed = 0;
+    std::uint64_t stream = 0;  ///< values of the same stream have the same deviates
+    std::uint64_t samples = 0;
+
+    /// The value of a sample, counted from 0: of the members above and the sample alone.
+    double at(std::uint64_t sample) const;
+};
 
 /// One varied quantity and its values.
 struct SweptColumn {
-    std::string path;                  ///< in the stack document; or angle_deg, wavelength_nm
-    std::vector<double> numbers;       ///< the values, if all are numbers
-    std::vector<std::string> texts;    ///< else the different values, as printed
-    std::vector<std::uint32_t> codes;  ///< of points: indices into texts
-    bool of_points = false;            ///< varies with the points
-    std::uint64_t stride = 1;          ///< consecutive combinations with one value
+    std::string path;                ///< in the stack document; or angle_deg, wavelength_nm, sample
+    std::vector<double> numbers;     ///< the values, if all are numbers
+    std::vector<std::string> texts;  ///< else the different values, as printed
+    std::vector<std::uint32_t> codes;              ///< of points: indices into texts
+    bool of_points = false;                        ///< varies with the points
+    std::optional<ScatteredValue> scattered = {};  ///< drawn instead, one value per sample
+    bool is_sample = false;    ///< the number of the sample, from 1, of `scattered`
+    std::uint64_t stride = 1;  ///< consecutive combinations with one value
 
     bool is_text() const { return !texts.empty(); }
     /// Whether it is an angle or a wavelength, not a value of the stack.
     bool is_light() const;
-    std::size_t size() const { return is_text() ? texts.size() : numbers.size(); }
+    /// Whether it is a value of the stack.
+    bool is_of_stack() const { return !is_light() && !is_sample; }
+    std::size_t size() const;
+    /// The value of a column without texts.
+    double number(std::size_t index) const {
+        if (is_sample) return static_cast<double>(index) + 1;
+        return scattered ? scattered->at(index) : numbers[index];
+    }
+    /// A value in the middle of all.
+    nlohmann::json middle() const {
+        return scattered ? nlohmann::json(scattered->nominal) : value(size() / 2);
+    }
     /// The value as JSON, as --set reads it.
     nlohmann::json value(std::size_t index) const;
     /// The value as printed.
     std::string text(std::size_t index) const;
 };
 
-/// All combinations of varied values: every point with every value of every list; the last list
-/// changes fastest.
+/// All combinations of varied values: every point with every sample with every value of every list;
+/// the last list changes fastest.
 class SweepSpace {
 public:
-    /// vary    PATH=LIST of numbers, or PATH= comma-separated values, strings among them
-    /// points  a CSV file of points; "" for none
+    /// vary       PATH=LIST of numbers, or PATH= comma-separated values, strings among them
+    /// points     a CSV file of points; "" for none
+    /// scattered  the columns of the samples, all with the same number of them; empty for none
     /// Throws UsageError or InputError, also for a path that is varied twice or inside another one.
-    SweepSpace(const std::vector<std::string>& vary, const std::string& points);
+    SweepSpace(const std::vector<std::string>& vary, const std::string& points,
+               std::vector<SweptColumn> scattered = {});
 
     const std::vector<SweptColumn>& columns() const { return columns_; }
     std::uint64_t size() const { return size_; }

@@ -20,7 +20,7 @@ std::vector<std::size_t> columns_where(const SweepSpace& space, const nlohmann::
     std::vector<std::size_t> columns;
     for (std::size_t c = 0; c < space.columns().size(); ++c) {
         const SweptColumn& column = space.columns()[c];
-        if (column.is_light()) continue;
+        if (!column.is_of_stack()) continue;
         const bool is_thickness = schemas::VariedStack::is_thickness(column.path) &&
                                   !schemas::VariedStack::has_other_effects(document, column.path);
         if (is_thickness == thickness) columns.push_back(c);
@@ -52,12 +52,12 @@ schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSp
         const SweptColumn& column = space.columns()[c];
         if (column.is_text())
             throw schemas::InputError("", "", space.origin_of(c, 0) + "must be numbers");
-        for (std::size_t i = 0; i < column.size(); ++i)
+        for (std::size_t i = 0; i < column.numbers.size(); ++i)
             from_origin(space, c, i, [&] {
                 schemas::VariedStack::require_thickness(source.file, column.path,
                                                         column.numbers[i]);
             });
-        schemas::set_value(source.document, column.path, column.value(column.size() / 2));
+        schemas::set_value(source.document, column.path, column.middle());
     }
     return source;
 }
@@ -80,7 +80,9 @@ void SweptStacks::read_values() {
     for (std::size_t s = 0; s < structural_.size(); ++s) {
         std::vector<std::size_t> key = first;
         const std::size_t column = structural_[s];
-        const std::size_t values = std::min(space_.columns()[column].size(), kMostChecked);
+        const std::size_t values = space_.columns()[column].scattered
+                                       ? 1
+                                       : std::min(space_.columns()[column].size(), kMostChecked);
         for (key[s] = 0; key[s] < values; ++key[s])
             from_origin(space_, column, key[s], [&] { document(key); });
     }
@@ -151,7 +153,7 @@ const SweptStacks::Walk::Place& SweptStacks::Walk::at(std::uint64_t combination)
     for (std::size_t i = 0; i < stacks_.thicknesses_.size(); ++i) {
         const std::size_t c = stacks_.thicknesses_[i];
         place.varied[i]->thickness_nm =
-            stacks_.space_.columns()[c].numbers[stacks_.space_.at(c, combination)];
+            stacks_.space_.columns()[c].number(stacks_.space_.at(c, combination));
     }
     if (stacks_.is_reversed_) place.stack.elements = reversed(place.written.elements);
     return place;

@@ -22,25 +22,35 @@ struct Row {
 
 constexpr std::size_t kMostCoefficients = 13;
 
-/// A material as static data. n comes from `nk`, else from `n`, else from the formula, else it is
-/// 1; k comes from `nk`, else from `k`, else it is 0.
+/// A material as static data. n and k come from the oscillators if there are any. Else n comes
+/// from `nk`, else from `n`, else from the formula, else it is 1; k comes from `nk`, else from `k`,
+/// else it is 0.
 struct Entry {
     std::string_view name;
     std::array<std::string_view, 2> aliases = {};
     int year = 0;
+    bool film = false;  ///< measured on a film
     std::string_view source;
     int formula = 0;  ///< number of a dispersion formula, 0 for none
     std::array<double, kMostCoefficients> coefficients = {};  ///< trailing zeros do not count
-    WavelengthRange range = {};                               ///< of the formula
+    WavelengthRange range = {};                               ///< of the formula or model
     bool in_air = false;  ///< formula of a catalogue: index and wavelengths of air of 20 C
     std::span<const Row> nk = {};
     std::span<const Point> n = {};
     std::span<const Point> k = {};
+    double plasma_ev = 0;                                        ///< of the Lorentz-Drude model
+    std::span<const LorentzDrude::Oscillator> oscillators = {};  ///< not empty: that model
     Outside outside = Outside::refuse;
 };
 
+#include "core/material/data/Ag-McPeak.inc"
+#include "core/material/data/Ag-Yang.inc"
 #include "core/material/data/Ag.inc"
+#include "core/material/data/Al-Rakic.inc"
 #include "core/material/data/Al.inc"
+#include "core/material/data/AlGaAs-30.inc"
+#include "core/material/data/AlGaAs-90.inc"
+#include "core/material/data/Au-McPeak.inc"
 #include "core/material/data/Au.inc"
 #include "core/material/data/Cr.inc"
 #include "core/material/data/Cu.inc"
@@ -50,6 +60,7 @@ struct Entry {
 #include "core/material/data/Ge.inc"
 #include "core/material/data/Hg.inc"
 #include "core/material/data/ITO.inc"
+#include "core/material/data/MgF2-film.inc"
 #include "core/material/data/Nb2O5.inc"
 #include "core/material/data/Ni.inc"
 #include "core/material/data/PDMS.inc"
@@ -59,6 +70,7 @@ struct Entry {
 #include "core/material/data/Pt.inc"
 #include "core/material/data/Si-Aspnes.inc"
 #include "core/material/data/Si.inc"
+#include "core/material/data/Si3N4-Vogt.inc"
 #include "core/material/data/SiO-k.inc"
 #include "core/material/data/SiO-n.inc"
 #include "core/material/data/SiO2-film.inc"
@@ -68,13 +80,16 @@ struct Entry {
 #include "core/material/data/TiO2-anatase.inc"
 #include "core/material/data/TiO2.inc"
 #include "core/material/data/W.inc"
+#include "core/material/data/ZnO-film.inc"
 #include "core/material/data/ZnS-k.inc"
 #include "core/material/data/ZnSe-k.inc"
 #include "core/material/data/ZrO2.inc"
 #include "core/material/data/brass.inc"
+#include "core/material/data/lorentz-drude.inc"
 #include "core/material/data/polycarbonate.inc"
 #include "core/material/data/polystyrene.inc"
 #include "core/material/data/silk-k.inc"
+#include "core/material/data/water-Hale.inc"
 
 constexpr std::string_view kSchott =
     "SCHOTT optical glass catalogue (2017-01-20). Glass, 20 C, measured in air, converted to "
@@ -88,6 +103,8 @@ constexpr std::string_view kJohnsonChristy1972 =
 constexpr std::string_view kJohnsonChristy1974 =
     "P. B. Johnson and R. W. Christy, Phys. Rev. B 9, 5056 (1974). Evaporated films, room "
     "temperature.";
+constexpr std::string_view kRakic =
+    "A. D. Rakic et al., Appl. Opt. 37, 5271 (1998). Lorentz-Drude model fitted to published data.";
 constexpr std::string_view kZhang =
     "X. Zhang et al., Appl. Opt. 59, 2337 (2020). Commercial sheet, room temperature. Its very "
     "small k is left out.";
@@ -123,9 +140,13 @@ Formula formula_of(const Entry& entry) {
             {entry.in_air, entry.in_air, 20}};
 }
 
-RefractiveIndex index_of(const Entry& entry) {
+decltype(Material::model) model_of(const Entry& entry) {
+    if (!entry.oscillators.empty())
+        return LorentzDrude{
+            1, entry.plasma_ev, {entry.oscillators.begin(), entry.oscillators.end()}, entry.range};
     RefractiveIndex index;
-    if (!entry.nk.empty()) return {column(entry.nk, &Row::n), column(entry.nk, &Row::k)};
+    if (!entry.nk.empty())
+        return RefractiveIndex{column(entry.nk, &Row::n), column(entry.nk, &Row::k)};
     if (!entry.n.empty())
         index.n = column(entry.n, &Point::value);
     else if (entry.formula != 0)
@@ -146,9 +167,10 @@ std::optional<LibraryMaterial> find_material(std::string_view name) {
     };
     const auto* const entry = std::ranges::find_if(kEntries, answers);
     if (entry == std::end(kEntries) || name.empty()) return std::nullopt;
-    LibraryMaterial found{Material{std::string(entry->name), index_of(*entry), entry->outside},
+    LibraryMaterial found{Material{std::string(entry->name), model_of(*entry), entry->outside},
                           std::string(entry->source),
                           entry->year,
+                          entry->film,
                           {}};
     for (const std::string_view alias : entry->aliases)
         if (!alias.empty()) found.aliases.emplace_back(alias);

@@ -12,9 +12,10 @@ namespace irido {
 
 /// One built-in material.
 struct LibraryMaterial {
-    Material material;   ///< named by its built-in name
-    std::string source;  ///< what it is, who published it where and when, temperature if known
-    int year = 0;        ///< of the publication; 0 where there is none
+    Material material;     ///< named by its built-in name
+    std::string source;    ///< what it is, who published it where and when, temperature if known
+    int year = 0;          ///< of the publication; 0 where there is none
+    bool is_film = false;  ///< measured on a film, whose index is not that of the bulk
     std::vector<std::string> aliases;
 };
 

@@ -28,6 +28,7 @@
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/index_rows.hpp"
+#include "schemas/readers/material_database.hpp"
 #include "schemas/readers/nearest.hpp"
 #include "schemas/readers/number.hpp"
 #include "schemas/readers/stack_expression.hpp"
@@ -277,6 +278,7 @@ private:
     /// A material of the document, of a file or of the library.
     Material named(const std::string& name, const std::string& pointer) {
         if (const auto own = named_.find(name); own != named_.end()) return own->second;
+        if (name.starts_with(kDatabaseMark)) return from_database(name, pointer);
         return is_material_file(name) ? from_file(name, pointer) : built_in(name, pointer);
     }
 
@@ -375,6 +377,19 @@ private:
         } catch (const InputError& error) {
             report(pointer, error.what());
             return {path, RefractiveIndex{}};
+        }
+    }
+
+    Material from_database(const std::string& name, const std::string& pointer) {
+        try {
+            const MaterialFile& read = files_.read(database_file(name));
+            for (const std::string& note : read.notes) result_.notes.push_back(name + ": " + note);
+            Material material = read.material;
+            material.name = name;
+            return material;
+        } catch (const InputError& error) {
+            report(pointer, error.what());
+            return {name, RefractiveIndex{}};
         }
     }
 

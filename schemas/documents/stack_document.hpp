@@ -39,6 +39,9 @@ struct StackDocument {
 /// Reads the text that a request names and sets its values. Throws InputError.
 StackSource load_stack(const StackRequest& request);
 
+/// Adds the request's media to a source and sets its values. Throws InputError.
+void set_values(StackSource& source, const StackRequest& request);
+
 /// Checks a document against stack.schema.json and rules beyond it, and builds its stack. Throws
 /// InputError for the first problem.
 /// document  the stack

@@ -69,6 +69,11 @@ StackSource load_stack(const StackRequest& request) {
         source.folder = folder_of(request.stack);
         source.document = parse_json(read_text(request.stack), source.file);
     }
+    set_values(source, request);
+    return source;
+}
+
+void set_values(StackSource& source, const StackRequest& request) {
     for (const std::string& text : request.media) add_medium(source, text);
     if (!request.reference_nm.empty() && source.document.is_object())
         source.document["reference_nm"] = reference_of(request.reference_nm);
@@ -80,7 +85,6 @@ StackSource load_stack(const StackRequest& request) {
                              error.message);
         }
     }
-    return source;
 }
 
 namespace {

@@ -239,7 +239,8 @@ private:
     char separator_ = ',';
 };
 
-/// value * 10^power, the decimal point moved instead of a product rounded.
+}  // namespace
+
 double shifted(double value, int power) {
     std::array<char, 40> text{};
     char* end =
@@ -250,6 +251,8 @@ double shifted(double value, int power) {
     end = std::to_chars(exponent, text.data() + text.size(), before + power).ptr;
     return parse_number({text.data(), end}).value_or(value);
 }
+
+namespace {
 
 using Spelling = std::pair<std::string_view, std::string_view>;
 

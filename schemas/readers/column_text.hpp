@@ -67,6 +67,9 @@ std::optional<SpectralColumn> spectral_column(std::string_view column);
 /// "eps_1 (-)" gives "eps 1".
 std::string plain_words(std::string_view column);
 
+/// value * 10^power, the decimal point moved instead of a product rounded: 58.5 gives 0.0585.
+double shifted(double value, int power);
+
 /// Vacuum wavelength in nm; decimals stay as they are: 0.57 um gives 570.
 double to_nm(double value, SpectralUnit unit);
 

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/material_database.hpp"
 #include "schemas/readers/material_file.hpp"
 
 namespace irido::schemas {
@@ -234,6 +235,27 @@ json parse_stack_expression(std::string_view text) {
     return Parser(text).stack();
 }
 
+std::string medium_text(const Material& material, std::vector<std::string>& losses) {
+    const auto built_in = find_material(material.name);
+    const bool is_known = built_in && built_in->material.model == material.model;
+    const bool is_of_database = material.name.starts_with(kDatabaseMark);
+    if (is_known || is_of_database || is_material_file(material.name)) {
+        if (material.outside == Outside::clamp &&
+            !(is_known && built_in->material.outside == Outside::clamp))
+            losses.push_back(material.name + ": extrapolate");
+        return material.name;
+    }
+    if (is_uniaxial(material))
+        losses.push_back(material.name + ": uniaxial, written as its ordinary index at 550 nm");
+    else if (!is_constant(material))
+        losses.push_back(material.name + ": written as its index at 550 nm");
+    Material clamped = material;
+    clamped.outside = Outside::clamp;
+    const auto index = index_at(clamped, 550);
+    const std::string n = to_text(index.real()), k = to_text(std::abs(index.imag()));
+    return index.imag() == 0 ? n : n + (index.imag() < 0 ? "-" : "+") + k + "i";
+}
+
 namespace {
 
 /// Writes a stack as an expression and collects what it cannot hold.
@@ -248,26 +270,11 @@ public:
     }
 
 private:
-    /// The name where it leads back to the same material, else the index at 550 nm.
     std::string medium(std::size_t place) {
-        const Material& material = stack_.materials[place];
-        const auto built_in = find_material(material.name);
-        const bool is_known = built_in && built_in->material.model == material.model;
-        if (is_known || is_material_file(material.name)) {
-            if (material.outside == Outside::clamp &&
-                !(is_known && built_in->material.outside == Outside::clamp))
-                lose(material.name + ": extrapolate");
-            return quoted_where_needed(material.name);
-        }
-        if (is_uniaxial(material))
-            lose(material.name + ": uniaxial, written as its ordinary index at 550 nm");
-        else if (!is_constant(material))
-            lose(material.name + ": written as its index at 550 nm");
-        Material clamped = material;
-        clamped.outside = Outside::clamp;
-        const auto index = index_at(clamped, 550);
-        const std::string n = to_text(index.real()), k = to_text(std::abs(index.imag()));
-        return index.imag() == 0 ? n : n + (index.imag() < 0 ? "-" : "+") + k + "i";
+        std::vector<std::string> lost;
+        const std::string text = medium_text(stack_.materials[place], lost);
+        for (const std::string& what : lost) lose(what);
+        return parse_index(text).is_null() ? quoted_where_needed(text) : text;
     }
 
     static std::string quoted_where_needed(const std::string& name) {

@@ -24,6 +24,10 @@ nlohmann::json parse_stack_expression(std::string_view text);
 /// The material that "1.5", "1.9+1.5i", "1.9+1.5j" or "2i" stands for; null for any other text.
 nlohmann::json parse_index(std::string_view text);
 
+/// A medium of a stack in text: the name where it leads back to the same material, else the index
+/// at 550 nm. What that loses is added to `losses`.
+std::string medium_text(const Material& material, std::vector<std::string>& losses);
+
 /// A stack as an expression, and what it cannot hold, one entry each.
 struct StackExpression {
     std::string text;

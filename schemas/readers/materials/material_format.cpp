@@ -5,6 +5,7 @@
 
 #include "schemas/input_error.hpp"
 #include "schemas/readers/column_text.hpp"
+#include "schemas/readers/materials/openfilters_material.hpp"
 #include "schemas/readers/materials/refractiveindex_csv.hpp"
 #include "schemas/readers/materials/refractiveindex_info.hpp"
 #include "schemas/readers/materials/sopra.hpp"
@@ -39,6 +40,7 @@ constexpr std::array kFormats{
     MaterialFormat{"SOPRA .MAT", is_sopra_mat, read_sopra_mat},
     MaterialFormat{"SOPRA .nk", is_sopra_nk, read_sopra_nk},
     MaterialFormat{"Woollam .mat", is_woollam_mat, read_woollam_mat},
+    MaterialFormat{"OpenFilters .mat", is_openfilters_material, read_openfilters_material},
 };
 
 }  // namespace
