@@ -106,9 +106,9 @@ TEST_CASE("includes run one way between the rooms inside a room", "[architecture
     const std::map<std::string, std::vector<std::string>> order{
         {"core",
          {"", "math", "material", "stack", "coherent", "incoherent", "thickness", "film", "vector",
-          "spectrum", "periodic", "colorimetry", "color", "rough", "truth"}},
+          "spectrum", "periodic", "colorimetry", "color", "rough", "render", "truth"}},
         {"schemas", {"", "readers", "documents"}},
-        {"tables", {"", "files", "records", "resume", "pictures", "lut", "shaders"}},
+        {"tables", {"", "files", "records", "resume", "pictures", "lut", "shaders", "view"}},
         {"cli", {"", "options", "queries", "sweep", "manual", "commands", "bench"}},
     };
     for (const auto& [room, inner] : order) {
