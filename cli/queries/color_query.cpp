@@ -55,6 +55,7 @@ struct ColorRows {
     tables::Column::Flags gamut;
     tables::Column::Texts method;
     tables::Column::Numbers evaluations, error;
+    std::vector<tables::Column::Numbers> columns;  ///< those of --columns
     tables::Column::CodedTexts illuminant;
     tables::Column::Numbers delta_e;
 
@@ -80,6 +81,11 @@ struct ColorRows {
 bool is_exact(ColorMethod::Kind kind) {
     using enum ColorMethod::Kind;
     return kind == automatic || kind == quadrature || kind == fourier || kind == bloch;
+}
+
+/// Whether a method's colours are as good as they are asked to be.
+bool is_untruncated(const ColorMethod& method) {
+    return is_exact(method.kind) && method.count == 0;
 }
 
 /// The incident medium's index at every nm that contributes.
@@ -130,6 +136,7 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
       method_(parse_method(typed.color)),
       base_color_(parse_base_color(typed.color)),
       held_to_tolerance_(!typed.color.tolerance.empty()),
+      tolerance_(parse_tolerance(typed.color.tolerance)),
       space_(&parse_space(typed.color.space)),
       stats_(typed.stats),
       strict_(typed.strict),
@@ -140,7 +147,7 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
     if (!cone_.is_none() && !is_exact(method_.kind))
         throw UsageError("--cone and --f-number require an exact --method");
     request_.light = parse_light(typed.color.polarization);
-    request_.tolerance = parse_tolerance(typed.color.tolerance);
+    request_.tolerance = tolerance_;
     request_.colors = static_cast<std::size_t>(
         std::min(1e15, run.stacks * static_cast<double>(angles_deg_.size())));
     request_.varied = run.varied;
@@ -151,11 +158,51 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
     const std::string first = schemas::well_formed(typed.color.illuminant);  // perhaps a file's
     illuminations_.push_back(
         std::make_unique<Illumination>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
-    if (!typed.compare) return;
-    for (const std::string_view name : illuminant_names())
-        if (name != first)
-            illuminations_.push_back(std::make_unique<Illumination>(
-                std::string(name), Sensitivity(eye, illuminant(name)), *space_, adaptation));
+    if (typed.compare)
+        for (const std::string_view name : illuminant_names())
+            if (name != first)
+                illuminations_.push_back(std::make_unique<Illumination>(
+                    std::string(name), Sensitivity(eye, illuminant(name)), *space_, adaptation));
+    prepare_columns(typed);
+}
+
+/// Exact methods compute X, Y, Z as well as Lab and the differences need them.
+void ColorQuery::prepare_columns(const ColorQueryOptions& typed) {
+    const bool has_target = !typed.target.empty();
+    if (has_target && typed.compare)
+        throw UsageError("--target: cannot be combined with --compare-illuminants");
+    columns_ = parse_color_columns(typed.columns, has_target);
+    if (columns_.empty()) return;
+    std::optional<ColorTarget> target;
+    if (has_target) target.emplace(typed.target, *space_);
+    for (const auto& illumination : illuminations_) {
+        const Triple& white = illumination->white();
+        try {
+            lab(white, white);
+        } catch (const DomainError& error) {
+            throw UsageError("--columns: " + std::string(error.what()) + " under " +
+                             illumination->name);
+        }
+        ColorView view{parse_observer(typed.color.observer),
+                       typed.color.observer == "2" ? 2 : 10,
+                       white,
+                       illumination->name == "D65",
+                       {}};
+        if (target) view.target = target->lab(illumination->transform, white);
+        views_.push_back(view);
+        if (is_untruncated(method_))
+            request_.tolerance = std::clamp(xyz_tolerance(white, kColorColumnError),
+                                            kSmallestTolerance, request_.tolerance);
+        const auto named = [&](ColorColumn column) {
+            return std::ranges::find(columns_, column) != columns_.end();
+        };
+        if (!view.has_whiteness &&
+            (named(ColorColumn::whiteness_cie) || named(ColorColumn::tint_cie)))
+            run_.note(
+                "--columns: whiteness_cie and tint_cie are defined for D65; they have no "
+                "value under " +
+                illumination->name);
+    }
 }
 
 tables::RecordLayout ColorQuery::layout(const schemas::StackDocument&) const {
@@ -165,6 +212,7 @@ tables::RecordLayout ColorQuery::layout(const schemas::StackDocument&) const {
     for (const char* name : {"X", "Y", "Z", "x", "y", "r", "g", "b"}) layout.push_back({name});
     layout.push_back({"hex", text, hex_width});
     layout.push_back({"in_gamut", flag});
+    for (const ColorColumn column : columns_) layout.push_back({name_of(column)});
     if (stats_) {
         layout.push_back({"method", text, longest_method});
         layout.push_back({"evaluations"});
@@ -300,6 +348,7 @@ StackColors ColorQuery::colors(const PreparedStack& prepared, const Stack& stack
         throw schemas::InputError(prepared.document.file, "", error.what());
     }
     check_errors(prepared.document, result, approximate);
+    check_columns(prepared.document, result);
     return result;
 }
 
@@ -309,7 +358,7 @@ void ColorQuery::check_errors(const schemas::StackDocument& document, const Stac
                               bool approximate) const {
     for (const std::vector<StackColor>& lit : colors.colors) {
         const auto worst = std::ranges::max_element(lit, {}, &StackColor::error);
-        if (worst->error <= request_.tolerance) continue;
+        if (worst->error <= tolerance_) continue;
         if (!held_to_tolerance_ && (approximate || !std::isfinite(worst->error))) {
             if (run_.is_silent) continue;
             std::array<char, 32> text{};
@@ -321,12 +370,29 @@ void ColorQuery::check_errors(const schemas::StackDocument& document, const Stac
         const auto i = static_cast<std::size_t>(worst - lit.begin());
         const Triple& xyz = worst->xyz;
         throw ToleranceError(
-            document.file + ": the tolerance " + to_text(request_.tolerance) +
-            " cannot be met; at " + to_text(colors.angles_deg[i / sides().size()]) +
-            " degrees, side " + std::string(letter(sides()[i % sides().size()])) +
+            document.file + ": the tolerance " + to_text(tolerance_) + " cannot be met; at " +
+            to_text(colors.angles_deg[i / sides().size()]) + " degrees, side " +
+            std::string(letter(sides()[i % sides().size()])) +
             ", the best value is X, Y, Z = " + to_text(xyz[0]) + ", " + to_text(xyz[1]) + ", " +
             to_text(xyz[2]) + " with an error of " + to_text(worst->error));
     }
+}
+
+/// Colours that miss the tolerance which the darkest ones need may be good enough.
+void ColorQuery::check_columns(const schemas::StackDocument& document,
+                               const StackColors& colors) const {
+    if (!is_untruncated(method_)) return;
+    for (std::size_t l = 0; l < views_.size(); ++l)
+        for (std::size_t i = 0; i < colors.colors[l].size(); ++i) {
+            const StackColor& color = colors.colors[l][i];
+            const double error = lab_error(color.xyz, views_[l].white, color.error);
+            if (error > kColorColumnError)
+                throw ToleranceError(document.file + ": --columns: L, a, b cannot be found to " +
+                                     to_text(kColorColumnError) + " at " +
+                                     to_text(colors.angles_deg[i / sides().size()]) +
+                                     " degrees, side " +
+                                     std::string(letter(sides()[i % sides().size()])));
+        }
 }
 
 tables::Records ColorQuery::records(const std::vector<StackColors>& stacks) const {
@@ -337,6 +403,7 @@ tables::Records ColorQuery::records(const std::vector<StackColors>& stacks) cons
     std::size_t count = 0;
     for (const StackColors& stack : stacks) count += stack.angles_deg.size() * rows_per_angle();
     rows.reserve(count);
+    rows.columns.resize(columns_.size());
     for (const StackColors& stack : stacks) {
         for (std::uint32_t l = 0; l < illuminations_.size(); ++l) {
             const Illumination& illumination = *illuminations_[l];
@@ -344,6 +411,9 @@ tables::Records ColorQuery::records(const std::vector<StackColors>& stacks) cons
                 const StackColor& color = stack.colors[l][i];
                 rows.add(illumination, *space_, stack.angles_deg[i / sides().size()], color.xyz);
                 rows.side.codes.push_back(static_cast<std::uint32_t>(i % sides().size()));
+                for (std::size_t c = 0; c < columns_.size(); ++c)
+                    rows.columns[c].push_back(
+                        color_column_value(columns_[c], color.xyz, views_[l]));
                 if (stats_) {
                     rows.method.push_back(name_of(ColorMethod{color.method, method_.count}));
                     rows.evaluations.push_back(static_cast<double>(color.evaluations));
@@ -364,6 +434,8 @@ tables::Records ColorQuery::records(const std::vector<StackColors>& stacks) cons
         records.columns.push_back({names[c], std::move(rows.numbers[c + 1])});
     records.columns.push_back({"hex", std::move(rows.hexes)});
     records.columns.push_back({"in_gamut", std::move(rows.gamut)});
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+        records.columns.push_back({name_of(columns_[c]), std::move(rows.columns[c])});
     if (stats_) {
         records.columns.push_back({"method", std::move(rows.method)});
         records.columns.push_back({"evaluations", std::move(rows.evaluations)});
@@ -380,6 +452,23 @@ std::unique_ptr<QueryOptions> ColorQueryOptions::add(CLI::App& command) {
     add_angles_option(command, options->angles);
     add_color_options(command, options->color);
     add_cone_options(command, options->cone);
+    command
+        .add_option("--columns", options->columns,
+                    "additional columns, in the order given, to 1e-4 whatever --tolerance:\n"
+                    "L a b C_ab h_ab_deg  CIELAB under the illuminant's white, chroma, hue\n"
+                    "u v C_uv h_uv_deg  u*, v* of CIELUV, chroma, hue\n"
+                    "dominant_nm excitation_purity  dominant wavelength, or minus the\n"
+                    "    complementary one; no value for the white itself\n"
+                    "whiteness_cie tint_cie  under D65 only\n"
+                    "delta_e_76 delta_e_2000 delta_e_cmc_2_1 delta_e_cmc_1_1  from\n"
+                    "    --target, which is the standard of CMC(l:c)")
+        ->type_name("NAMES");
+    offer(command, "columns", color_column_names, OfferedWords::Use::several);
+    command
+        .add_option("--target", options->target,
+                    "a colour to compare with: #rrggbb in the encoding of --space, or\n"
+                    "CIELAB L,a,b; adds the four delta_e unless --columns names some")
+        ->type_name("COLOR");
     command.add_flag("--compare-illuminants", options->compare,
                      "also compute every other named illuminant; adds columns\n"
                      "illuminant,delta_e_2000 (CIEDE2000 to the first one)");
@@ -410,6 +499,8 @@ nlohmann::json ColorQueryOptions::typed() const {
             {"tolerance", color.tolerance},
             {"cone", cone.half_angle},
             {"f_number", cone.f_number},
+            {"columns", columns},
+            {"target", target},
             {"compare", compare},
             {"stats", stats},
             {"strict", strict}};

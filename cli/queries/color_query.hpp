@@ -6,6 +6,7 @@
 
 #include "cli/options/color_options.hpp"
 #include "cli/options/cone_options.hpp"
+#include "cli/queries/color_columns.hpp"
 #include "cli/queries/query.hpp"
 #include "core/color/color_tables.hpp"
 #include "core/color/stack_color.hpp"
@@ -17,6 +18,8 @@ struct ColorQueryOptions : QueryOptions {
     std::string angles = "0";
     ColorOptions color;
     ConeOptions cone;
+    std::string columns;
+    std::string target;
     bool compare = false;
     bool stats = false;
     bool strict = false;
@@ -74,6 +77,8 @@ public:
     tables::Records records(const std::vector<StackColors>& stacks) const;
 
 private:
+    void prepare_columns(const ColorQueryOptions& typed);
+    void check_columns(const schemas::StackDocument& document, const StackColors& colors) const;
     void check_errors(const schemas::StackDocument& document, const StackColors& colors,
                       bool approximate) const;
 
@@ -85,7 +90,10 @@ private:
     ColorRequest request_;
     ConeSize cone_;
     bool held_to_tolerance_;  ///< a tolerance was given
+    double tolerance_;        ///< of X, Y, Z; that of request_ may be smaller for the columns
     const RgbSpace* space_;
+    std::vector<ColorColumn> columns_;
+    std::vector<ColorView> views_;  ///< one per illumination
     bool stats_, strict_;
     QueryRun run_;
 };

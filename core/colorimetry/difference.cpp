@@ -17,6 +17,12 @@ double lab_curve(double t) {
     return t / (3 * delta * delta) + 4.0 / 29;
 }
 
+/// Largest slope of lab_curve() at t and above.
+double lab_slope(double t) {
+    constexpr double delta = 6.0 / 29;
+    return t > delta * delta * delta ? 1 / (3 * std::cbrt(t * t)) : 1 / (3 * delta * delta);
+}
+
 /// sqrt(C^7 / (C^7 + 25^7)), which rises from 0 to 1 around chroma 25.
 double chroma_step(double chroma) {
     const double power = std::pow(chroma / 25, 7);
@@ -76,6 +82,44 @@ Triple lab(const Triple& xyz, const Triple& white) {
     const double y = lab_curve(xyz[1] / white[1]);
     const double z = lab_curve(xyz[2] / white[2]);
     return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+double lab_error(const Triple& xyz, const Triple& white, double error) {
+    Triple moved;
+    for (std::size_t i = 0; i < 3; ++i)
+        moved[i] = error / white[i] * lab_slope((xyz[i] - error) / white[i]);
+    return std::max({116 * moved[1], 500 * (moved[0] + moved[1]), 200 * (moved[1] + moved[2])});
+}
+
+double xyz_tolerance(const Triple& white, double tolerance) {
+    constexpr double kOfDifferences = 5;  // weights of the differences, and three coordinates
+    return tolerance / (kOfDifferences * lab_error({0, 0, 0}, white, 1));
+}
+
+double delta_e_76(const Triple& lab1, const Triple& lab2) {
+    return std::hypot(lab1[0] - lab2[0], lab1[1] - lab2[1], lab1[2] - lab2[2]);
+}
+
+double delta_e_cmc(const Triple& standard, const Triple& sample, double l, double c) {
+    const double chroma = std::hypot(standard[1], standard[2]);
+    const double hue = chroma > 0 ? std::atan2(standard[2], standard[1]) / kDegree : 0;
+    const double hue_deg = hue < 0 ? hue + 360 : hue;
+    const double t = hue_deg >= 164 && hue_deg <= 345
+                         ? 0.56 + std::abs(0.2 * cos_deg(hue_deg + 168))
+                         : 0.36 + std::abs(0.4 * cos_deg(hue_deg + 35));
+    const double fourth = std::pow(chroma, 4);
+    const double f = std::sqrt(fourth / (fourth + 1900));
+    const double s_l =
+        standard[0] < 16 ? 0.511 : 0.040975 * standard[0] / (1 + 0.01765 * standard[0]);
+    const double s_c = 0.0638 * chroma / (1 + 0.0131 * chroma) + 0.638;
+    const double s_h = s_c * (f * t + 1 - f);
+    const double d_l = sample[0] - standard[0];
+    const double sample_chroma = std::hypot(sample[1], sample[2]);
+    const double turn = std::atan2(standard[1] * sample[2] - standard[2] * sample[1],
+                                   standard[1] * sample[1] + standard[2] * sample[2]);
+    const double d_c = sample_chroma - chroma;
+    const double d_h = 2 * std::sqrt(chroma * sample_chroma) * std::sin(turn / 2);
+    return std::hypot(d_l / (l * s_l), d_c / (c * s_c), d_h / s_h);
 }
 
 double ciede2000(const Triple& lab1, const Triple& lab2) {

@@ -79,12 +79,30 @@ double srgb_curve(double v) {
     return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }
 
+double inverse_srgb_curve(double v) {
+    return v <= 12.92 * 0.0031308 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
 /// ITU-R BT.2020-2, table 4: value and slope of the line and of the power law agree at beta, which
 /// gives alpha = 1 + 5.5 beta and alpha beta^0.45 = 10 beta. Printed there: 1.0993 and 0.0181.
+constexpr double kBt2020Beta = 0.01805396851080781;
+constexpr double kBt2020Alpha = 1 + 5.5 * kBt2020Beta;
+
 double bt2020_curve(double v) {
-    constexpr double beta = 0.01805396851080781;
-    constexpr double alpha = 1 + 5.5 * beta;
-    return v < beta ? 4.5 * v : alpha * std::pow(v, 0.45) - (alpha - 1);
+    return v < kBt2020Beta ? 4.5 * v : kBt2020Alpha * std::pow(v, 0.45) - (kBt2020Alpha - 1);
+}
+
+double inverse_bt2020_curve(double v) {
+    return v < 4.5 * kBt2020Beta ? v / 4.5
+                                 : std::pow((v + (kBt2020Alpha - 1)) / kBt2020Alpha, 1 / 0.45);
+}
+
+/// The digit, 16 if it is none.
+unsigned hex_digit(char c) {
+    if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0');
+    if (c >= 'a' && c <= 'f') return static_cast<unsigned>(c - 'a') + 10;
+    if (c >= 'A' && c <= 'F') return static_cast<unsigned>(c - 'A') + 10;
+    return 16;
 }
 
 }  // namespace
@@ -138,11 +156,36 @@ Triple RgbTransform::operator()(const Triple& xyz) const {
     return {apply(red), apply(green), apply(blue)};
 }
 
+Triple RgbTransform::xyz_of(const Triple& rgb) const {
+    const Eigen::Vector3d v = matrix(matrix_).inverse() * vector(rgb);
+    if (adaptation_ == Adaptation::none) return {v[0], v[1], v[2]};
+    return {v[0] * white_[0], v[1] * white_[1], v[2] * white_[2]};
+}
+
 double encoded(const RgbSpace& space, double linear) {
     require_in_range("linear component", linear, 0, 1);
     if (space.encoding == Encoding::srgb) return srgb_curve(linear);
     if (space.encoding == Encoding::bt2020) return bt2020_curve(linear);
     return linear;
+}
+
+double decoded(const RgbSpace& space, double value) {
+    require_in_range("encoded component", value, 0, 1);
+    if (space.encoding == Encoding::srgb) return inverse_srgb_curve(value);
+    if (space.encoding == Encoding::bt2020) return inverse_bt2020_curve(value);
+    return value;
+}
+
+Triple rgb_of_hex(const RgbSpace& space, std::string_view text) {
+    const bool is_hex =
+        text.size() == 7 && text[0] == '#' &&
+        std::ranges::all_of(text.substr(1), [](char c) { return hex_digit(c) < 16; });
+    if (!is_hex) throw DomainError("must be #rrggbb (got " + std::string(text) + ")");
+    Triple rgb;
+    for (std::size_t i = 0; i < 3; ++i)
+        rgb[i] =
+            decoded(space, (16 * hex_digit(text[1 + 2 * i]) + hex_digit(text[2 + 2 * i])) / 255.0);
+    return rgb;
 }
 
 std::string hex(const RgbSpace& space, const Triple& linear_rgb) {

@@ -55,6 +55,8 @@ class RgbTransform {
 public:
     RgbTransform(const RgbSpace& space, const Triple& white, Adaptation adaptation);
     Triple operator()(const Triple& xyz) const;
+    /// XYZ of a linear rgb: the inverse.
+    Triple xyz_of(const Triple& rgb) const;
 
 private:
     Adaptation adaptation_;
@@ -64,6 +66,13 @@ private:
 
 /// The space's encoding of one linear component in [0, 1], else DomainError; result in [0, 1].
 double encoded(const RgbSpace& space, double linear);
+
+/// The inverse of encoded(), for a value in [0, 1], else DomainError.
+double decoded(const RgbSpace& space, double value);
+
+/// Linear rgb, each in [0, 1], of "#rrggbb" in the space's encoding; hexadecimal digits of either
+/// case. Throws DomainError for anything else.
+Triple rgb_of_hex(const RgbSpace& space, std::string_view text);
 
 /// "#rrggbb": encoded, clipped to [0, 1], rounded to the nearest of 256 levels. NaN is a
 /// DomainError.

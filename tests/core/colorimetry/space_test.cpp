@@ -267,6 +267,32 @@ TEST_CASE("every 8-bit sRGB level survives the round trip", "[color]") {
     }
 }
 
+TEST_CASE("a hex colour is decoded, and found again", "[color]") {
+    for (const std::string_view name : rgb_space_names()) {
+        const RgbSpace& space = rgb_space(name);
+        for (int level = 0; level < 256; ++level) {
+            const double v = level / 255.0;
+            CHECK_THAT(encoded(space, decoded(space, v)), WithinAbs(v, 1e-14));
+        }
+        CHECK(hex(space, rgb_of_hex(space, "#5F3383")) == "#5f3383");
+        CHECK(decoded(space, 0) == 0);
+        CHECK(decoded(space, 1) == 1);
+        CHECK_THROWS_AS(decoded(space, 1.01), DomainError);
+    }
+    for (const std::string_view text : {"", "#", "5f3383", "#5f338", "#5f33833", "#5g3383", "#fff"})
+        CHECK_THROWS_AS(rgb_of_hex(rgb_space("srgb"), text), DomainError);
+}
+
+TEST_CASE("the transform to RGB has an inverse", "[color]") {
+    const Triple white{1.1, 1, 0.4};
+    for (const std::string_view name : rgb_space_names())
+        for (const Adaptation adaptation : {Adaptation::bradford, Adaptation::none}) {
+            const RgbTransform transform(rgb_space(name), white, adaptation);
+            const Triple xyz{0.3, 0.2, 0.5}, back = transform.xyz_of(transform(xyz));
+            for (std::size_t i = 0; i < 3; ++i) CHECK_THAT(back[i], WithinAbs(xyz[i], 1e-14));
+        }
+}
+
 TEST_CASE("gamut is the closed unit cube", "[color]") {
     CHECK(in_gamut({0, 0.5, 1}));
     CHECK(in_gamut({-0.0, 0, 0}));
