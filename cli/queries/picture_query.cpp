@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -46,19 +45,12 @@ ThicknessNoise parse_noise(const std::string& text, const std::string& octaves) 
     return noise;
 }
 
-/// "#rrggbb" in linear sRGB.
-std::optional<Triple> parse_hex(std::string_view text) {
-    if (text.size() != 7 || text.front() != '#') return std::nullopt;
-    Triple linear{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        unsigned level = 0;
-        const char* const first = text.data() + 1 + 2 * c;
-        const auto [end, error] = std::from_chars(first, first + 2, level, 16);
-        if (error != std::errc() || end != first + 2) return std::nullopt;
-        const double v = level / 255.0;
-        linear[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+Triple parse_background(const std::string& text) {
+    try {
+        return rgb_of_hex(rgb_space("srgb"), text);
+    } catch (const DomainError&) {
+        throw UsageError("--background: must be none, environment or #rrggbb (got '" + text + "')");
     }
-    return linear;
 }
 
 bool is_exr(const std::string& text) {
@@ -166,13 +158,10 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
     exposure_ = parse_one_number("--exposure", typed.exposure, -kMostExposure, kMostExposure);
     tolerance_ = parse_one_number("--tolerance", typed.tolerance, 0.001, 10);
     scene_.environment = parse_environment(typed.environment, environment_hash_);
-    if (const auto color = parse_hex(typed.background))
-        scene_.background = *color;
-    else if (typed.background == "environment")
+    if (typed.background == "environment")
         scene_.background = scene_.environment;
     else if (typed.background != "none")
-        throw UsageError("--background: must be none, environment or #rrggbb (got '" +
-                         typed.background + "')");
+        scene_.background = parse_background(typed.background);
     light_ = std::make_unique<Illumination>(
         typed.light.illuminant,
         Sensitivity(parse_observer(typed.light.observer), parse_illuminant(typed.light.illuminant)),
