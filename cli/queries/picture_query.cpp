@@ -79,6 +79,17 @@ Environment parse_environment(const std::string& text, std::string& hash) {
     }
 }
 
+/// Of the substrate over the incident medium, in the middle of the spectrum. Throws DomainError.
+double index_of_gem(const Stack& stack) {
+    constexpr double kMiddle_nm = 550;
+    const IndexTable indices(stack, {kMiddle_nm});
+    const Complex inside = indices.index(stack.substrate, 0);
+    if (std::abs(inside.imag()) >= kTransparentBelow_k)
+        throw DomainError("a gem must be transparent, |k| of the substrate below 1e-3 (got " +
+                          to_text(inside.imag()) + " at 550 nm)");
+    return inside.real() / indices.n(stack.incident)[0];
+}
+
 std::string rounded_text(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.3g", value);
@@ -95,8 +106,8 @@ void PictureQueryOptions::add(CLI::App& command) {
     option("--size", size, "width and height in pixels, [1, 8192] [512,512; 192,192 with --vary]",
            "W,H");
     option("--shape", shape,
-           "sphere, bubble (both walls; the same medium inside and outside), plane or\n"
-           "ring [sphere]",
+           "sphere, bubble (both walls; the same medium inside and outside), plane,\n"
+           "ring, or gem (light is refracted into the substrate) [sphere]",
            "NAME");
     option("--tilt", tilt, "angle between a plane's normal and the line of sight, degrees [0]",
            "DEGREES");
@@ -125,7 +136,7 @@ void PictureQueryOptions::add(CLI::App& command) {
            "largest error of colours by a table, CIEDE2000, [0.001, 10] [0.1]", "E");
     command.add_flag("--exact", exact, "compute each pixel's colour, no table");
     add_light_options(command, light);
-    offer(command, "shape", "sphere bubble plane ring");
+    offer(command, "shape", "sphere bubble plane ring gem");
     offer(command, "camera", "orthographic perspective");
     offer(command, "background", "none environment");
     offer(command, "environment", "studio sky white", OfferedWords::Use::one_or_file);
@@ -144,8 +155,6 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
     if (std::ranges::find(names, typed.shape) == names.end())
         throw UsageError("--shape: " + not_one_of(names, typed.shape));
     scene_.shape = shape_kind(typed.shape);
-    if (scene_.shape == ShapeKind::gem)
-        throw UsageError("--shape: a gem, into which light is refracted, cannot be drawn yet");
     constexpr double kMostTilt_deg = 89.9;
     scene_.tilt_deg = parse_one_number("--tilt", typed.tilt, -kMostTilt_deg, kMostTilt_deg);
     if (!typed.thickness_noise.empty())
@@ -185,6 +194,7 @@ DrawnPicture PictureQuery::draw_stack(const Stack& stack,
                           stack.materials[stack.incident].name + ")");
     SurfaceStack surface{stack};
     PictureScene scene = scene_;
+    if (scene.shape == ShapeKind::gem) scene.inner_index = index_of_gem(stack);
     if (scene.noise) {
         surface.varied = layer_number(stack, noise_layer_);
         scene.thickness_nm = thickness_at(stack, surface.varied);

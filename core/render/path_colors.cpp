@@ -263,7 +263,7 @@ Triple PathColors::operator()(std::span<const PathStep> path, Scratch& scratch) 
         const bool is_last = step + 1 == path.size() || through.maxCoeff() < kDim;
         // the rest goes to and fro: its sum, as if thickness and angle stayed
         if (is_last && now.inside)
-            leaving = (goes_on < 1.0F).select(leaving / (1.0F - goes_on), leaving);
+            leaving = (goes_on < 1.0F).select(leaving / (1.0F - goes_on), through);
         const Triple seen = regime.integral({leaving.data(), half});
         for (std::size_t c = 0; c < 3; ++c) color[c] += seen[c] * now.light[c];
         if (is_last) break;

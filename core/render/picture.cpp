@@ -12,9 +12,9 @@ namespace irido {
 
 namespace {
 
-constexpr double kOff = 1e-9;         ///< from a face on which a ray begins
-constexpr std::size_t kDepth = 6;     ///< steps of a path
-constexpr double kMostPixels = 8192;  ///< of a side
+constexpr double kOff = 1e-9;                      ///< from a face on which a ray begins
+constexpr std::size_t kDepth = 6, kGemDepth = 12;  ///< steps of a path
+constexpr double kMostPixels = 8192;               ///< of a side
 
 std::unique_ptr<const Shape> shape_of(const PictureScene& scene) {
     switch (scene.shape) {
@@ -108,30 +108,43 @@ SurfacePoint Painter::surface_point(const Hit& hit, const Vector3& direction) co
     return {cosine, nm};
 }
 
+/// Through walls that bend nothing, or into a body of another index.
+void Painter::trace_through(Ray ray, Hit hit, std::vector<PathStep>& path) const {
+    const bool is_bubble = scene_.shape == ShapeKind::bubble;
+    const double index = is_bubble ? 1 : scene_.inner_index;
+    const std::size_t depth = is_bubble ? kDepth : kGemDepth;
+    path.push_back({surface_point(hit, ray.direction), false, true,
+                    scene_.environment(mirrored(ray.direction, hit.normal))});
+    std::optional<Vector3> direction = refracted(ray.direction, hit.normal, 1 / index);
+    while (direction && path.size() < depth) {
+        ray = {hit.point, *direction, kOff};
+        const std::optional<Hit> next = shape_->first_hit(ray);
+        if (!next) return;
+        hit = *next;
+        direction = mirrored(ray.direction, hit.normal);
+        const std::optional<Vector3> out = refracted(ray.direction, hit.normal, index);
+        // where nothing leaves, what is left at last leaves the way that it goes on
+        path.push_back({surface_point(hit, ray.direction), true, true,
+                        scene_.environment(out ? *out : *direction)});
+    }
+}
+
 bool Painter::trace(const Ray& first, std::vector<PathStep>& path) const {
     path.clear();
     Ray ray = first;
     std::optional<Hit> hit = shape_->first_hit(ray);
     if (!hit) return false;
-    const auto go_on = [&](const Vector3& direction) {
-        ray = {hit->point, direction, kOff};
-        hit = shape_->first_hit(ray);
-    };
-    if (scene_.shape == ShapeKind::bubble) {
-        path.push_back({surface_point(*hit, ray.direction), false, true,
-                        scene_.environment(mirrored(ray.direction, hit->normal))});
-        go_on(ray.direction);
-        while (hit && path.size() < kDepth) {
-            path.push_back({surface_point(*hit, ray.direction), true, true,
-                            scene_.environment(ray.direction)});
-            go_on(mirrored(ray.direction, hit->normal));
-        }
+    if (!is_opaque(scene_.shape)) {
+        trace_through(ray, *hit, path);
         return true;
     }
     while (true) {
         path.push_back({surface_point(*hit, ray.direction), false, false, {}});
         const Vector3 next = mirrored(ray.direction, hit->normal);
-        if (!is_simple(scene_.shape)) go_on(next);
+        if (!is_simple(scene_.shape)) {
+            ray = {hit->point, next, kOff};
+            hit = shape_->first_hit(ray);
+        }
         if (is_simple(scene_.shape) || !hit || path.size() == kDepth) {
             path.back().leaves = true;
             path.back().light = scene_.environment(next);

@@ -17,7 +17,8 @@ namespace irido {
 struct PictureScene {
     Camera camera;
     ShapeKind shape = ShapeKind::sphere;
-    double tilt_deg = 0;  ///< of a plane
+    double tilt_deg = 0;     ///< of a plane
+    double inner_index = 1;  ///< of a gem, over that of the medium around it
     Environment environment;
     std::optional<ThicknessNoise> noise;  ///< else the thickness is `thickness_nm` everywhere
     double thickness_nm = 0;
@@ -64,6 +65,7 @@ private:
     /// Steps of the path that begins with a ray; false if it meets nothing.
     bool trace(const Ray& ray, std::vector<PathStep>& path) const;
     Triple behind(const Ray& ray) const;
+    void trace_through(Ray ray, Hit hit, std::vector<PathStep>& path) const;
     SurfacePoint surface_point(const Hit& hit, const Vector3& direction) const;
     /// Calls visit(x, ray) for each sample of a row.
     void each_sample(std::size_t y,

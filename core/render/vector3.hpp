@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 namespace irido {
 
@@ -30,6 +31,17 @@ inline Vector3 normalized(const Vector3& a) {
 /// The direction of light mirrored by a face: `direction` and the result point along the ray.
 inline Vector3 mirrored(const Vector3& direction, const Vector3& normal) {
     return direction - 2 * dot(direction, normal) * normal;
+}
+
+/// The direction behind a face, ratio = n before / n behind; nothing beyond the critical angle. The
+/// normal, of unit length, may point either way.
+inline std::optional<Vector3> refracted(const Vector3& direction, const Vector3& normal,
+                                        double ratio) {
+    const double along = dot(direction, normal);  // of either sign
+    const double square = 1 - ratio * ratio * (1 - along * along);
+    if (square < 0) return std::nullopt;
+    const double behind = std::copysign(std::sqrt(square), along);
+    return ratio * direction + (behind - ratio * along) * normal;
 }
 
 }  // namespace irido

@@ -96,9 +96,15 @@ EnvironmentImage environment_from_exr(std::string_view bytes) {
     constexpr std::int32_t kMostRows = 16384;
     const ExrFile file(bytes);
     exr_attr_box2i_t window{};
+    exr_compression_t compression{};
     const exr_attr_chlist_t* channels = nullptr;
     file.check(exr_get_data_window(file, 0, &window));
+    file.check(exr_get_compression(file, 0, &compression));
     file.check(exr_get_channels(file, 0, &channels));
+    if (compression == EXR_COMPRESSION_DWAA || compression == EXR_COMPRESSION_DWAB)
+        throw PictureError(
+            "this OpenEXR file is compressed by DWA, which cannot be read: convert "
+            "it, as with oiiotool IN.exr --compression zip -o OUT.exr");
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
     const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
     if (width != 2 * height || height < 1 || height > kMostRows)

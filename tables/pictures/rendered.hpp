@@ -20,7 +20,7 @@ Pixels pixels_over(const Picture& picture, const Triple& linear_srgb);
 std::string exr_file(const Picture& picture, const std::string& metadata);
 
 /// The first part of an OpenEXR file, its channels R, G and B, or Y for all three: scan lines or
-/// tiles, of any precision and compression. Throws PictureError.
+/// tiles, of any precision and any compression but DWAA and DWAB. Throws PictureError.
 EnvironmentImage environment_from_exr(std::string_view bytes);
 
 }  // namespace irido::tables

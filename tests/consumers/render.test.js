@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { decode } from 'fast-png';
-import { csv, irido, temporaryFolder } from './support/irido.js';
+import { csv, irido, run, temporaryFolder } from './support/irido.js';
 
 const folder = temporaryFolder();
 const film = 'air | 1.38@420 | 1.9+1.5i';
@@ -58,7 +58,7 @@ describe('environments written by oiiotool', () => {
         ['half with PIZ', '-d', 'half', '--compression', 'piz'],
         ['float in tiles with ZIP', '-d', 'float', '--compression', 'zip', '--tile', '32', '32'],
         ['half in tiles with RLE', '-d', 'half', '--compression', 'rle', '--tile', '16', '16'],
-        ['half with DWAA', '-d', 'half', '--compression', 'dwaa'],
+        ['half with B44A', '-d', 'half', '--compression', 'b44a'],
     ])
         it(name, () => {
             // the plane mirrors what is behind the camera: the left and right end of the picture
@@ -66,4 +66,10 @@ describe('environments written by oiiotool', () => {
             irido('render', mirror, '--environment', `${folder}/light.exr`, ...size);
             middle().forEach((value, c) => assert.ok(Math.abs(value / [0.5, 2, 4][c] - 1) < 0.01, value));
         });
+    it('with DWA compression are refused by name', () => {
+        oiiotool('--pattern', 'constant:color=0.5,2,4', '64x32', '3', '-d', 'half', '--compression', 'dwaa', '-o', `${folder}/dwaa.exr`);
+        const { status, stderr } = run('render', film, '--environment', `${folder}/dwaa.exr`, '-o', `${folder}/no.png`);
+        assert.equal(status, 2);
+        assert.match(stderr, /^irido: error: .*dwaa\.exr: this OpenEXR file is compressed by DWA, which cannot be read.*\n$/);
+    });
 });

@@ -156,7 +156,7 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--size", "100,1e6"}, "--size: must be in [1, 8192] (got 1e+06)");
     refused({"--size", "1,2,3"}, "--size: must be W,H");
     refused({"--shape", "cube"}, "--shape: must be one of sphere, bubble, plane, ring, gem");
-    refused({"--shape", "gem"}, "cannot be drawn yet");
+    refused({"--shape", "gem"}, "a gem must be transparent, |k| of the substrate below 1e-3");
     refused({"--shape", "bubble"}, "a bubble has the same medium inside as outside");
     refused({"--environment", "cave"}, "--environment: must be one of studio, sky, white");
     refused({"--environment", folder / "none.exr"}, "none.exr");

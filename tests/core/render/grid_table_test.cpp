@@ -12,7 +12,8 @@ namespace {
 
 double largest(std::span<const float> a, std::span<const float> b) {
     double most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, static_cast<double>(std::abs(a[i] - b[i])));
+    for (std::size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, static_cast<double>(std::abs(a[i] - b[i])));
     return most;
 }
 

@@ -129,6 +129,17 @@ TEST_CASE("what does not absorb is white in white surroundings", "[render]") {
             for (std::size_t c = 0; c < 3 && picture.rgba[i + 3] == 1; ++c)
                 REQUIRE_THAT(static_cast<double>(picture.rgba[i + c]), WithinAbs(1, 1e-5));
     }
+    Drawing gem{scene_of(ShapeKind::gem, "white"), film_between(1, 1.4, 300, 1.76)};
+    gem.scene.inner_index = 1.76;
+    gem.scene.noise = ThicknessNoise{100, 500, 1, 1, 1};
+    std::size_t inside = 0;
+    const Picture jewel = gem.draw();
+    for (std::size_t i = 0; i < jewel.rgba.size(); i += 4) {
+        if (jewel.rgba[i + 3] == 0) continue;
+        ++inside;
+        REQUIRE_THAT(static_cast<double>(jewel.rgba[i]), WithinAbs(1, 1e-3));
+    }
+    CHECK(inside > 500);
     // a perfect mirror: a metal whose index has no real part
     Drawing ring{scene_of(ShapeKind::ring, "white", 64), film_between(1, 1.5, 100, {0, 5})};
     const Picture picture = ring.draw();
@@ -160,6 +171,23 @@ TEST_CASE("a bubble that absorbs is two walls with an incoherent gap", "[render]
                      T = color_of(walls, angle_deg, Side::transmitted);
         for (std::size_t c = 0; c < 3; ++c)
             CHECK_THAT(static_cast<double>(pixel(picture, x, 24)[c]), WithinAbs(R[c] + T[c], 2e-4));
+    }
+}
+
+TEST_CASE("light is refracted by Snell's law, or not at all", "[render]") {
+    const Vector3 normal{0, 0, 1};
+    for (const double angle_deg : {0.0, 20.0, 70.0}) {
+        const double sine = std::sin(angle_deg * kDegree);
+        for (const double side : {1.0, -1.0}) {
+            const auto in =
+                refracted({sine, 0, -side * std::cos(angle_deg * kDegree)}, normal, 1 / 1.76);
+            REQUIRE(in);
+            CHECK_THAT(in->x, WithinAbs(sine / 1.76, 1e-14));
+            CHECK_THAT(dot(*in, *in), WithinAbs(1, 1e-14));
+            CHECK(in->z * side < 0);
+        }
+        CHECK(refracted({sine, 0, -std::cos(angle_deg * kDegree)}, normal, 1.76).has_value() ==
+              (1.76 * sine < 1));
     }
 }
 
