@@ -84,7 +84,7 @@ private:
                  Spectrum* also) {
         Response response;
         try {
-            response = stack_(media_, k0, polarization);
+            response = stack_(media_, k0, polarization, {needs_.T, needs_.A});
             if (needs_.layers) stack_.layer_absorption(media_, k0, polarization, absorbed_);
         } catch (const DomainError& error) {
             const double nm = table_.wavelength_nm()[point % table_.wavelength_nm().size()];

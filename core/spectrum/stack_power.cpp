@@ -104,8 +104,8 @@ void StackPower::assign(const Stack& stack) {
         mirror_ = hosted_mirror(chain_.blocks[0].down, stack.incident, stack.substrate);
 }
 
-Response StackPower::operator()(std::span<const Medium> media, double k0,
-                                Polarization polarization) const {
+Response StackPower::operator()(std::span<const Medium> media, double k0, Polarization polarization,
+                                const NeededPowers& needs) const {
     Response response = ChainLight(chain_, media, k0, polarization).response();
     if (!has_amplitudes()) response.r = response.t = 0;
     if (mirror_) {
@@ -115,7 +115,8 @@ Response StackPower::operator()(std::span<const Medium> media, double k0,
     }
     const bool lit = outgoing_wave(media.back(), polarization).flux > 0;
     if (lit && !spreads_.empty())
-        response.power = SpreadMean(chain_, spreads_, spread_of_, media, k0, polarization).power();
+        response.power =
+            SpreadMean(chain_, spreads_, spread_of_, media, k0, polarization).power(needs);
     return response;
 }
 

@@ -42,7 +42,8 @@ public:
     /// its last, the incident medium without absorption; k0 = 2 pi / wavelength in 1/nm.
     /// Powers of a mirror in its host are mirror_power().
     /// The denominator is the product of those of all coherent blocks at the mean thicknesses.
-    Response operator()(std::span<const Medium> media, double k0, Polarization polarization) const;
+    Response operator()(std::span<const Medium> media, double k0, Polarization polarization,
+                        const NeededPowers& needs = {}) const;
 
     /// Whether Response has r and t: they do not survive where powers are added or averaged.
     bool has_amplitudes() const { return chain_.gaps.empty() && spreads_.empty(); }

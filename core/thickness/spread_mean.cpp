@@ -197,6 +197,10 @@ Complex SpreadMean::mean_of_sweep(const ThicknessSpread& thicknesses, const Plac
     const ThicknessSweep down = downs_[place.block].moving->sweep(in, place.down, out);
     std::optional<ThicknessSweep> up;
     if (place.up) up = ups_[place.block].moving->sweep(out, place.up, in);
+    if (const auto power = series_mean(down, thicknesses)) {
+        store(*power, mean);
+        return down(thicknesses.mean_nm).denominator;
+    }
     const Surroundings surroundings = around(place.block);
     const ThicknessFunction at = [&](double thickness_nm, double phase, std::span<double> values) {
         const Response response = down(thickness_nm, phase);
@@ -206,6 +210,17 @@ Complex SpreadMean::mean_of_sweep(const ThicknessSpread& thicknesses, const Plac
     };
     thickness_mean(thicknesses, at, mean);
     return down(thicknesses.mean_nm).denominator;
+}
+
+std::optional<Power> SpreadMean::series_mean(const ThicknessSweep& sweep,
+                                             const ThicknessSpread& thicknesses) const {
+    if (light_.last_block() > 0) return {};
+    const auto mean = mean_fringes(sweep.fringes(), thicknesses.mean_nm, thicknesses.sigma_nm,
+                                   needs_.T || needs_.A);
+    if (!mean) return {};
+    const double A = sweep.absorbs() ? 1 - mean->R - mean->T : 0;
+    if (needs_.A && sweep.absorbs() && !(std::abs(A) > kSubtractable)) return {};
+    return Power{mean->R, mean->T, A};
 }
 
 Complex SpreadMean::power_now(std::span<double> values) const {
@@ -231,7 +246,8 @@ bool SpreadMean::waves_move() const {
     });
 }
 
-Power SpreadMean::power() {
+Power SpreadMean::power(const NeededPowers& needs) {
+    needs_ = needs;
     std::array<double, 3> mean{};
     if (waves_move()) {
         mean_from(0, mean, [&](std::span<double> values) {

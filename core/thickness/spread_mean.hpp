@@ -10,6 +10,11 @@
 
 namespace irido {
 
+/// Which powers are read; others may come out as anything.
+struct NeededPowers {
+    bool T = true, A = true;
+};
+
 /// A layer with a spread of thickness.
 struct SpreadLayer {
     std::size_t material;
@@ -42,7 +47,8 @@ private:
 
 /// Means over the thicknesses of all spread layers, one inside the other, each as thickness_mean()
 /// does it. The innermost one is a layer outside groups, if there is one: the rest of the stack is
-/// then worked out once for all its thicknesses (ThicknessSweep).
+/// then worked out once for all its thicknesses (ThicknessSweep), and averaged in closed form where
+/// mean_fringes() can.
 class SpreadMean {
 public:
     /// spread_of  for every layer of the chain with a thickness_sigma_nm, from the incident side,
@@ -51,7 +57,7 @@ public:
                std::span<const std::size_t> spread_of, std::span<const Medium> media, double k0,
                Polarization polarization);
 
-    Power power();
+    Power power(const NeededPowers& needs);
     void layer_absorption(std::span<double> absorbed);
 
 private:
@@ -89,6 +95,8 @@ private:
     Complex mean_from(std::size_t level, std::span<double> mean, const Evaluate& evaluate);
     Complex mean_of_sweep(const ThicknessSpread& thicknesses, const Place& place,
                           std::span<double> mean);
+    std::optional<Power> series_mean(const ThicknessSweep& sweep,
+                                     const ThicknessSpread& thicknesses) const;
     Complex power_now(std::span<double> power) const;
     bool waves_move() const;
 
@@ -98,6 +106,7 @@ private:
     std::vector<Place> places_;
     std::vector<std::size_t> order_;  ///< of the spreads, outermost first
     const Place* innermost_ = nullptr;
+    NeededPowers needs_;
     std::vector<Direction> downs_, ups_;
 };
 

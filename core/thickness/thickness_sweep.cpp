@@ -71,6 +71,7 @@ ThicknessSweep::ThicknessSweep(const Wave& in, const Slab& above, const Medium& 
       layer_(layer, k0, polarization),
       layer_absorbs_(layer.eps.imag() != 0),
       absorbs_(above.absorbs || below.absorbs || layer_absorbs_),
+      k0_(k0),
       unit_(4 * std::norm(in.b) * std::norm(in.c) / in.flux),
       below_log_scale_(below.matrix.log_scale),
       out_flux_(out.flux),
@@ -124,6 +125,21 @@ Response ThicknessSweep::operator()(double thickness_nm, double phase) const {
     if (!std::isfinite(power.R + power.T + power.A))
         throw DomainError("the stack amplifies without bound at this wavelength and angle");
     return response;
+}
+
+/// With E the round trip, cos = (1 + E) / (2 sqrt(E)) and sd = i (1 - E) / (2 kz sqrt(E)), where
+/// |sqrt(E)| is the layer's log_scale.
+Fringes ThicknessSweep::fringes() const {
+    const Complex kz = layer_.kz();
+    const auto parts = [&](Complex cos, Complex sd) {
+        const Complex sine = kI * sd / kz;
+        return std::pair{(cos + sine) / 2.0, (cos - sine) / 2.0};
+    };
+    const auto [once, again] = parts(cos_.sum, sd_.sum);
+    const auto [near, far] = parts(cos_.difference, sd_.difference);
+    const double log_scale = above_.matrix.log_scale + below_log_scale_;
+    return {near / once, far / once, again / once,
+            times_exp(unit_ / std::norm(once) * out_flux_, -2 * log_scale), 2 * k0_ * kz};
 }
 
 }  // namespace irido

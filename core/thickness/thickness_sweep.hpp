@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/coherent/slab_response.hpp"
+#include "core/thickness/fringe_series.hpp"
 
 namespace irido {
 
@@ -16,6 +17,8 @@ public:
     /// A round trip has `phase` radians more than the thickness says: as layer_turn() and
     /// absorbed_power(), with Re(delta) + phase/2 for Re(delta) in all sines and cosines.
     State operator()(double thickness_nm, double phase) const;
+
+    Complex kz() const { return kz_; }  ///< over k0, Im >= 0
 
 private:
     AbsorbedPower absorbed(double cos_a, double sin_a, double exp_less) const;
@@ -39,6 +42,12 @@ public:
     /// else.
     Response operator()(double thickness_nm, double phase = 0) const;
 
+    /// R and T as functions of a round trip through the layer, without what the interference above
+    /// an absorbing incident medium takes.
+    Fringes fringes() const;
+    /// Whether any layer absorbs or amplifies.
+    bool absorbs() const { return absorbs_; }
+
 private:
     /// A part of the incident power; unit = unit_ / |sum|^2.
     double absorbed(const SweptLayer::State& at, double unit) const;
@@ -54,7 +63,7 @@ private:
     Slab above_;
     SweptLayer layer_;
     bool layer_absorbs_, absorbs_;
-    double unit_, below_log_scale_, out_flux_;
+    double k0_, unit_, below_log_scale_, out_flux_;
     SlabAbsorption below_absorbed_;
     double below_flux_;
     Column cos_, sd_;
