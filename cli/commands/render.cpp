@@ -106,6 +106,7 @@ int render_one(const RenderCommand& command, const PictureQuery& query,
                                             : tables::png_file(tables::pixels_of(drawn.picture),
                                                                bits_of(command), 0, metadata),
                 command.output, true);
+    if (const std::string text = PictureQuery::caution(drawn); !text.empty()) say(text);
     print_stats(command, query, drawn);
     return 0;
 }

@@ -250,6 +250,13 @@ nlohmann::json PictureQuery::request() const {
     return request;
 }
 
+std::string PictureQuery::caution(const DrawnPicture& drawn) {
+    constexpr double kVisible = 1e-4;
+    if (drawn.report.color_error <= kVisible) return "";
+    return "colours have errors of up to " + rounded_text(drawn.report.color_error) +
+           " in X, Y, Z: fringes of the stack are too fine";
+}
+
 std::vector<std::string> PictureQuery::stats(const DrawnPicture& drawn) const {
     const ColorReport& report = drawn.report;
     const ShownRange& range = drawn.survey.range;

@@ -59,6 +59,8 @@ public:
     nlohmann::json request() const;
     /// One line for each thing worth knowing of a picture.
     std::vector<std::string> stats(const DrawnPicture& drawn) const;
+    /// What is to be noted of it; "" if nothing.
+    static std::string caution(const DrawnPicture& drawn);
 
 private:
     DrawnPicture draw_stack(const Stack& stack, const std::function<void(double)>& progress) const;

@@ -6,6 +6,7 @@
 
 #include "core/color/held_stack.hpp"
 #include "core/error.hpp"
+#include "core/spectrum/spectrum.hpp"
 #include "core/stack/reversed.hpp"
 
 namespace irido {

@@ -112,10 +112,19 @@ void ReflectedColors::compute(double thickness_nm, std::span<const double> cosin
     for (const double cosine : cosines) angles_deg.push_back(angle_of_cosine(cosine));
     std::vector<StackColor> colors(cosines.size());
     (*algorithm_)(stack_.at(thickness_nm), angles_deg, colors);
+    const double worst = std::ranges::max(colors, {}, &StackColor::error).error;
+    for (double before = color_error_; before < worst;)
+        if (color_error_.compare_exchange_weak(before, worst)) break;
     for (std::size_t i = 0; i < colors.size(); ++i) {
         const Triple rgb = to_srgb_(colors[i].xyz);
         for (std::size_t c = 0; c < 3; ++c) values[3 * i + c] = static_cast<float>(rgb[c]);
     }
+}
+
+ColorReport ReflectedColors::report() const {
+    ColorReport report = report_;
+    report.color_error = color_error_;
+    return report;
 }
 
 /// Those of one thickness together, equal ones once.

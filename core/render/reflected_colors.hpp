@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <span>
@@ -49,7 +50,8 @@ struct ColorPlan {
 struct ColorReport {
     std::size_t cosines = 0, thicknesses = 0;  ///< of the table; 0: there is none
     std::size_t evaluations = 0;               ///< colours computed for it, or spectra
-    double error = 0;                          ///< measured, CIEDE2000
+    double error = 0;                          ///< of the table, measured, CIEDE2000
+    double color_error = 0;                    ///< of X, Y, Z of a colour, the largest
     std::size_t wavelengths = 0;               ///< of spectra; 0: those that each colour needs
     std::string reason;                        ///< why so
 };
@@ -65,7 +67,8 @@ public:
 
     void operator()(std::span<const SurfacePoint> points, std::span<Triple> colors) const;
 
-    const ColorReport& report() const { return report_; }
+    /// Of the colours so far.
+    ColorReport report() const;
 
 private:
     /// Colours [cosine][channel] of one thickness.
@@ -78,6 +81,7 @@ private:
     std::unique_ptr<const ColorAlgorithm> algorithm_;
     std::optional<GridTable> table_;
     ColorReport report_;
+    mutable std::atomic<double> color_error_ = 0;
 };
 
 }  // namespace irido
