@@ -47,6 +47,8 @@ void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
         Command{"compare", simple(add_compare_command)},
         Command{"sweep", [&] { add_sweep_command(program, run, words); }},
         Command{"lut", simple(add_lut_command)},
+        Command{"render", simple(add_render_command)},
+        Command{"view", simple(add_view_command)},
         Command{"plan", simple(add_plan_command)},
         Command{"bake", simple(add_bake_command)},
         Command{"materials", simple(add_materials_command)},

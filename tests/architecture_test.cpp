@@ -105,11 +105,12 @@ TEST_CASE("each room has its namespace", "[architecture]") {
 TEST_CASE("includes run one way between the rooms inside a room", "[architecture]") {
     const std::map<std::string, std::vector<std::string>> order{
         {"core",
-         {"", "math", "material", "stack", "coherent", "incoherent", "thickness", "film", "vector",
-          "spectrum", "periodic", "colorimetry", "engines", "color", "comparison", "rough",
-          "scratch", "design", "truth"}},
+         {"",           "math",   "material", "stack",    "coherent",    "incoherent", "thickness",
+          "film",       "vector", "spectrum", "periodic", "colorimetry", "engines",    "color",
+          "comparison", "rough",  "scratch",  "design",   "render",      "truth"}},
         {"schemas", {"", "readers", "documents"}},
-        {"tables", {"", "files", "records", "resume", "pictures", "lut", "scratch", "shaders"}},
+        {"tables",
+         {"", "files", "records", "resume", "pictures", "lut", "scratch", "shaders", "view"}},
         {"cli", {"", "options", "queries", "sweep", "comparison", "manual", "commands", "bench"}},
     };
     for (const auto& [room, inner] : order) {

@@ -8,6 +8,7 @@ void add_bench_command(CLI::App& program, Run& run) {
     command->require_subcommand(1);
     add_bench_design(*command, run);
     add_bench_pareto(*command, run);
+    add_bench_render(*command, run);
     add_bench_scene(*command, run);
     add_bench_scratch(*command, run);
     add_bench_speed(*command, run);

@@ -89,6 +89,9 @@ void parse_option(const tables::LutOption& option, const std::string& text,
     } else if (option.type == tables::LutOption::Type::whole) {
         values[name] =
             static_cast<double>(parse_whole_number(typed, text, option.lowest, option.highest));
+    } else if (option.type == tables::LutOption::Type::range) {
+        const auto [low, high] = parse_range(typed, text, option.lowest, option.highest);
+        values[name] = std::vector{low, high};
     } else {
         if (std::ranges::find(option.words, text) == option.words.end())
             throw UsageError(typed + ": " + not_one_of(option.words, text));
@@ -279,7 +282,7 @@ void add_kind_options(CLI::App& command, const tables::LutKind& kind, LutCommand
             command.add_flag(spelled, typed.flags[name], std::string(option.help));
             continue;
         }
-        constexpr std::array<const char*, 4> types{"LIST", "NUMBER", "N", "NAME"};
+        constexpr std::array<const char*, 5> types{"LIST", "NUMBER", "N", "NAME", "LO:HI"};
         command.add_option(spelled, typed.options[name], std::string(option.help))
             ->type_name(types[static_cast<std::size_t>(option.type)]);
         if (!option.words.empty())

@@ -31,6 +31,8 @@ void add_compare_command(CLI::App& program, Run& run);
 /// `arguments` of the program: --compute decides which options there are. Throws UsageError.
 void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments);
 void add_lut_command(CLI::App& program, Run& run);
+void add_render_command(CLI::App& program, Run& run);
+void add_view_command(CLI::App& program, Run& run);
 void add_plan_command(CLI::App& program, Run& run);
 void add_bake_command(CLI::App& program, Run& run);
 void add_materials_command(CLI::App& program, Run& run);

@@ -74,4 +74,18 @@ std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
     return whole;
 }
 
+std::pair<double, double> parse_range(std::string_view option, std::string_view text, double lowest,
+                                      double highest) {
+    const std::size_t colon = text.find(':');
+    const std::string rule = std::string(option) +
+                             ": must be FIRST:LAST, FIRST not above LAST (got '" +
+                             std::string(text) + "')";
+    if (colon == std::string_view::npos || text.find(':', colon + 1) != std::string_view::npos)
+        throw UsageError(rule);
+    const double first = parse_one_number(option, text.substr(0, colon), lowest, highest);
+    const double last = parse_one_number(option, text.substr(colon + 1), lowest, highest);
+    if (!(first <= last)) throw UsageError(rule);
+    return {first, last};
+}
+
 }  // namespace irido::cli

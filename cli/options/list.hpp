@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -34,5 +35,12 @@ double parse_one_number(std::string_view option, std::string_view text, double l
                         double highest);
 std::uint64_t parse_whole_number(std::string_view option, std::string_view text, double lowest,
                                  double highest);
+
+/// Both ends of FIRST:LAST, FIRST not above LAST. Throws UsageError.
+/// option           the option's name in errors
+/// text             as typed
+/// lowest, highest  closed range of both, in the option's unit
+std::pair<double, double> parse_range(std::string_view option, std::string_view text, double lowest,
+                                      double highest);
 
 }  // namespace irido::cli

@@ -25,20 +25,13 @@ std::vector<Polarization> band_polarizations(const std::string& text) {
     return polarizations;
 }
 
-/// Both ends of FIRST:LAST.
-std::pair<double, double> parse_range(const std::string& text) {
-    const std::size_t colon = text.find(':');
-    const std::string rule =
-        "--range: must be FIRST:LAST in nm, FIRST below LAST (got '" + text + "')";
-    if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
-        throw UsageError(rule);
-    const auto end = [](const std::string& number) {
-        return parse_one_number("--range", number, kAllWavelengths.first_nm,
-                                kAllWavelengths.last_nm);
-    };
-    const double first = end(text.substr(0, colon)), last = end(text.substr(colon + 1));
-    if (!(first < last)) throw UsageError(rule);
-    return {first, last};
+/// Both ends of a range of wavelengths, which is not empty.
+std::pair<double, double> parse_wavelengths(const std::string& text) {
+    const auto range =
+        parse_range("--range", text, kAllWavelengths.first_nm, kAllWavelengths.last_nm);
+    if (range.first == range.second)
+        throw UsageError("--range: FIRST must be below LAST (got '" + text + "')");
+    return range;
 }
 
 std::string letter(Polarization polarization) {
@@ -205,7 +198,7 @@ BandsQuery::BandsQuery(const BandsOptions& typed, const QueryRun& run)
       polarizations_(band_polarizations(typed.polarization)),
       gaps_(typed.gaps),
       run_(run) {
-    std::tie(first_nm_, last_nm_) = parse_range(typed.range);
+    std::tie(first_nm_, last_nm_) = parse_wavelengths(typed.range);
 }
 
 OmegaRange BandsQuery::omega() const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "core/color/held_stack.hpp"
 #include "core/colorimetry/difference.hpp"
@@ -102,11 +101,6 @@ std::vector<std::string> color_problems(const Lut& lut) {
 
 std::string unit_of_path(const std::string& path) {
     return path.ends_with("_nm") ? "nm" : "";
-}
-
-double angle_of_cosine(double cosine) {
-    const double from_grazing = std::asin(std::clamp(cosine, 0.0, 1.0));
-    return 90 - from_grazing * 180 / std::numbers::pi;
 }
 
 }  // namespace irido::tables

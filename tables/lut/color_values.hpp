@@ -42,7 +42,4 @@ std::vector<std::string> color_problems(const Lut& lut);
 /// Unit of a stack value, derived from the end of its path.
 std::string unit_of_path(const std::string& path);
 
-/// The angle in degrees, [0, 90], of a cosine in [0, 1]; accurate near 90.
-double angle_of_cosine(double cosine);
-
 }  // namespace irido::tables

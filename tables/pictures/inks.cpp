@@ -19,14 +19,6 @@ Triple luminance_weights() {
     return weights;
 }
 
-Ink encoded_ink(const Triple& linear_srgb) {
-    const auto component = [](double linear) {
-        return static_cast<std::uint16_t>(
-            std::lround(65535 * encoded(rgb_space("srgb"), std::clamp(linear, 0.0, 1.0))));
-    };
-    return {component(linear_srgb[0]), component(linear_srgb[1]), component(linear_srgb[2])};
-}
-
 Triple compressed(const Triple& rgb) {
     const Triple weight = luminance_weights();
     const double y = weight[0] * rgb[0] + weight[1] * rgb[1] + weight[2] * rgb[2];
@@ -56,6 +48,14 @@ Triple rgb_of_lab(double lightness, double a, double b) {
 
 }  // namespace
 
+Ink clipped_ink(const Triple& linear_srgb) {
+    const auto component = [](double linear) {
+        return static_cast<std::uint16_t>(
+            std::lround(65535 * encoded(rgb_space("srgb"), std::clamp(linear, 0.0, 1.0))));
+    };
+    return {component(linear_srgb[0]), component(linear_srgb[1]), component(linear_srgb[2])};
+}
+
 std::string_view name_of(GamutMapping mapping) {
     return mapping == GamutMapping::clip ? "clip" : "compress";
 }
@@ -63,9 +63,9 @@ std::string_view name_of(GamutMapping mapping) {
 Ink InkMixer::operator()(const Triple& linear_srgb) {
     const auto [least, most] = std::ranges::minmax(linear_srgb);
     ++colors_;
-    if (least >= -kGamutSlack && most <= 1 + kGamutSlack) return encoded_ink(linear_srgb);
+    if (least >= -kGamutSlack && most <= 1 + kGamutSlack) return clipped_ink(linear_srgb);
     ++outside_;
-    return encoded_ink(mapping_ == GamutMapping::clip ? linear_srgb : compressed(linear_srgb));
+    return clipped_ink(mapping_ == GamutMapping::clip ? linear_srgb : compressed(linear_srgb));
 }
 
 std::string InkMixer::note() const {
@@ -91,7 +91,7 @@ Ink value_ink(double part) {
     const auto mixed = [&](double Stop::*of) {
         return stops[i].*of + t * (stops[i + 1].*of - stops[i].*of);
     };
-    return encoded_ink(rgb_of_lab(mixed(&Stop::lightness), mixed(&Stop::a), mixed(&Stop::b)));
+    return clipped_ink(rgb_of_lab(mixed(&Stop::lightness), mixed(&Stop::a), mixed(&Stop::b)));
 }
 
 Ink wavelength_ink(double wavelength_nm) {
@@ -106,7 +106,7 @@ Ink wavelength_ink(double wavelength_nm) {
     const double length = most - least;
     const double strength = 0.8 * std::min(1.0, 0.2 + std::sqrt(length));
     for (double& c : rgb) c = 1 - strength * (most - c) / length;
-    return encoded_ink(rgb);
+    return clipped_ink(rgb);
 }
 
 }  // namespace irido::tables

@@ -32,6 +32,9 @@ private:
     std::size_t colors_ = 0, outside_ = 0;
 };
 
+/// The ink of linear sRGB, each component brought into [0, 1].
+Ink clipped_ink(const Triple& linear_srgb);
+
 /// Dark blue to pale yellow, part in [0, 1], its lightness L* growing evenly from 15 to 93: it
 /// reads the same without colour vision and in print.
 Ink value_ink(double part);

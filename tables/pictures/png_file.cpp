@@ -24,6 +24,7 @@ void put_row(const Pixels& pixels, std::size_t row, unsigned bits, std::string& 
         put(ink.r);
         put(ink.g);
         put(ink.b);
+        if (!pixels.alpha.empty()) put(pixels.alpha[row * pixels.width + x]);
     }
 }
 
@@ -69,8 +70,8 @@ std::string png_file(const Pixels& pixels, unsigned bits, unsigned pixels_per_me
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB | PNG_FILTER_UP);
     png_set_IHDR(png, info, static_cast<png_uint_32>(pixels.width),
                  static_cast<png_uint_32>(pixels.height), static_cast<int>(bits),
-                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+                 pixels.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (pixels_per_metre)
         png_set_pHYs(png, info, pixels_per_metre, pixels_per_metre, PNG_RESOLUTION_METER);

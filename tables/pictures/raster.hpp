@@ -8,6 +8,7 @@ namespace irido::tables {
 struct Pixels {
     std::size_t width = 0, height = 0;
     std::vector<Ink> inks;
+    std::vector<std::uint16_t> alpha = {};  ///< of each; none: all are opaque
 };
 
 /// A drawing with `scale` pixels a unit. Edges are smoothed: exact along rows, in sixteen steps

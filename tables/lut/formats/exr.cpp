@@ -18,18 +18,15 @@
 // Read back are only files as they are written here.
 // Source: OpenEXR 3.1, its C library (the "core" API).
 
-#include <openexr.h>
-
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "core/colorimetry/space.hpp"
 #include "tables/lut/lut_metadata.hpp"
 #include "tables/lut/lut_texels.hpp"
 #include "tables/lut/lut_values.hpp"
+#include "tables/pictures/exr_stream.hpp"
 #include "tables/records/records.hpp"
 
 namespace irido::tables {
@@ -79,148 +76,27 @@ std::string metadata_for(const Lut& lut) {
     return metadata_text(metadata);
 }
 
-// --- the library, on memory -----------------------------------------------------------------
-
-/// An open file in memory, with the library's last message about it.
-struct Stream {
-    std::string_view input;
-    std::string output;
-    std::string message;
-};
-
-Stream& stream_of(exr_const_context_t context) {
-    void* stream = nullptr;
-    exr_get_user_data(context, &stream);
-    return *static_cast<Stream*>(stream);
+ExrPixels pixels_of(const Picture& picture, LutType type) {
+    return {picture.width, picture.height, picture.channels,
+            type == LutType::f16 ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT};
 }
 
-void keep_message(exr_const_context_t context, exr_result_t /*code*/, const char* text) {
-    if (context) stream_of(context).message = text;
-}
-
-std::int64_t size_of_input(exr_const_context_t /*context*/, void* stream) {
-    return static_cast<std::int64_t>(static_cast<Stream*>(stream)->input.size());
-}
-
-std::int64_t read_input(exr_const_context_t /*context*/, void* stream, void* to, std::uint64_t size,
-                        std::uint64_t offset, exr_stream_error_func_ptr_t /*error*/) {
-    const std::string_view input = static_cast<Stream*>(stream)->input;
-    if (offset > input.size()) return -1;
-    const std::size_t count = std::min<std::uint64_t>(size, input.size() - offset);
-    std::memcpy(to, input.data() + offset, count);
-    return static_cast<std::int64_t>(count);
-}
-
-std::int64_t write_output(exr_const_context_t /*context*/, void* stream, const void* from,
-                          std::uint64_t size, std::uint64_t offset,
-                          exr_stream_error_func_ptr_t /*error*/) {
-    std::string& output = static_cast<Stream*>(stream)->output;
-    output.resize(std::max<std::uint64_t>(output.size(), offset + size));
-    std::memcpy(output.data() + offset, from, size);
-    return static_cast<std::int64_t>(size);
-}
-
-/// A file of the library's; calls throw LutError with its words when they fail.
-class File {
-public:
-    explicit File(std::string_view input) : is_reading_(true) {
-        stream_.input = input;
-        exr_context_initializer_t setup = common_setup();
-        setup.read_fn = read_input;
-        setup.size_fn = size_of_input;
-        setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
-        check(exr_start_read(&context_, "table.exr", &setup));
+/// Errors of pictures as those of tables.
+auto in_words_of_tables(const auto& work) {
+    try {
+        return work();
+    } catch (const PictureError& error) {
+        throw LutError(error.what());
     }
-    File() {
-        exr_context_initializer_t setup = common_setup();
-        setup.write_fn = write_output;
-        check(exr_start_write(&context_, "table.exr", EXR_WRITE_FILE_DIRECTLY, &setup));
-    }
-    ~File() {
-        if (context_) exr_finish(&context_);
-    }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-
-    operator exr_context_t() const { return context_; }
-    void check(exr_result_t result) const {
-        if (result == EXR_ERR_SUCCESS) return;
-        std::string words = stream_.message;
-        if (words.empty()) words = exr_get_default_error_message(result);
-        throw LutError((is_reading_ ? "this OpenEXR file cannot be read: " : "OpenEXR: ") + words);
-    }
-    /// Closes a file that was written.
-    std::string finish() {
-        check(exr_finish(&context_));
-        return std::move(stream_.output);
-    }
-
-private:
-    exr_context_initializer_t common_setup() {
-        exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
-        setup.error_handler_fn = keep_message;
-        setup.user_data = &stream_;
-        return setup;
-    }
-
-    Stream stream_;
-    exr_context_t context_ = nullptr;
-    bool is_reading_ = false;
-};
-
-/// Tells an encoder or a decoder where each channel's numbers are in `rows`, the texels of a chunk.
-template <class Pipeline, class Bytes>
-void aim_channels(Pipeline& pipeline, const Picture& picture, LutType type, Bytes* rows) {
-    const auto component = static_cast<int>(bytes_of(type));
-    const auto texel = component * static_cast<int>(picture.channels.size());
-    for (int c = 0; c < pipeline.channel_count; ++c) {
-        exr_coding_channel_info_t& channel = pipeline.channels[c];
-        const auto name =
-            std::ranges::find(picture.channels, std::string_view(channel.channel_name),
-                              [](const char* n) { return std::string_view(n); });
-        Bytes* first = rows + component * (name - picture.channels.begin());
-        if constexpr (std::is_const_v<Bytes>)
-            channel.encode_from_ptr = reinterpret_cast<const std::uint8_t*>(first);
-        else
-            channel.decode_to_ptr = reinterpret_cast<std::uint8_t*>(first);
-        channel.user_pixel_stride = texel;
-        channel.user_line_stride = texel * picture.width;
-        channel.user_bytes_per_element = static_cast<std::int16_t>(component);
-        channel.user_data_type = channel.data_type;
-    }
-}
-
-struct Encoder {
-    explicit Encoder(const File& file) : context(file) {}
-    ~Encoder() { exr_encoding_destroy(context, &pipeline); }
-    Encoder(const Encoder&) = delete;
-    Encoder& operator=(const Encoder&) = delete;
-
-    exr_context_t context;
-    exr_encode_pipeline_t pipeline{};
-};
-
-struct Decoder {
-    explicit Decoder(const File& file) : context(file) {}
-    ~Decoder() { exr_decoding_destroy(context, &pipeline); }
-    Decoder(const Decoder&) = delete;
-    Decoder& operator=(const Decoder&) = delete;
-
-    exr_context_t context;
-    exr_decode_pipeline_t pipeline{};
-};
-
-std::ptrdiff_t row_bytes(const Picture& picture, LutType type) {
-    return static_cast<std::ptrdiff_t>(bytes_of(type) * picture.channels.size()) * picture.width;
 }
 
 // --- writing --------------------------------------------------------------------------------
 
-void set_text(const File& file, const char* name, const std::string& text) {
+void set_text(const ExrFile& file, const char* name, const std::string& text) {
     file.check(exr_attr_set_string(file, 0, name, text.c_str()));
 }
 
-void set_chromaticities(const File& file, const Lut& lut) {
+void set_chromaticities(const ExrFile& file, const Lut& lut) {
     const auto found = lut.facts.find("color_space");
     if (found == lut.facts.end() || *found == "xyz") return;
     const std::string name = *found;
@@ -240,7 +116,7 @@ void set_chromaticities(const File& file, const Lut& lut) {
     file.check(exr_attr_set_chromaticities(file, 0, "chromaticities", &chromaticities));
 }
 
-void set_header(const File& file, const Picture& picture, const Lut& lut) {
+void set_header(const ExrFile& file, const Picture& picture, const Lut& lut) {
     const std::string metadata = metadata_for(lut);  // checked before any of it is used
     int part = 0;
     file.check(exr_add_part(file, "table", EXR_STORAGE_SCANLINE, &part));
@@ -258,39 +134,28 @@ void set_header(const File& file, const Picture& picture, const Lut& lut) {
     set_text(file, kMetadata, metadata);
 }
 
+std::string written(const Lut& lut, const Picture& picture) {
+    const std::string texels = texels_of(lut, 0, picture.channels.size());
+    ExrFile file;
+    set_header(file, picture, lut);
+    file.check(exr_write_header(file));
+    write_rows(file, pixels_of(picture, lut.type), texels.data());
+    return file.finish();
+}
+
 std::vector<LutFile> write(const Lut& lut, const LutLayout& layout) {
     check_plain(layout, "exr");
     const Picture picture = picture_of(lut);
     check_values(lut);
-    const std::string texels = texels_of(lut, 0, picture.channels.size());
-    File file;
-    set_header(file, picture, lut);
-    file.check(exr_write_header(file));
-    std::int32_t rows = 0;
-    file.check(exr_get_scanlines_per_chunk(file, 0, &rows));
-    {
-        Encoder encoder(file);
-        for (std::int32_t y = 0; y < picture.height; y += rows) {
-            exr_chunk_info_t chunk{};
-            file.check(exr_write_scanline_chunk_info(file, 0, y, &chunk));
-            file.check(y == 0 ? exr_encoding_initialize(file, 0, &chunk, &encoder.pipeline)
-                              : exr_encoding_update(file, 0, &chunk, &encoder.pipeline));
-            aim_channels(encoder.pipeline, picture, lut.type,
-                         texels.data() + y * row_bytes(picture, lut.type));
-            if (y == 0)
-                file.check(exr_encoding_choose_default_routines(file, 0, &encoder.pipeline));
-            file.check(exr_encoding_run(file, 0, &encoder.pipeline));
-        }
-    }
     std::vector<LutFile> files;
-    std::string bytes = file.finish();
+    std::string bytes = in_words_of_tables([&] { return written(lut, picture); });
     files.push_back({"", std::move(bytes)});
     return files;
 }
 
 // --- reading --------------------------------------------------------------------------------
 
-std::string metadata_in(const File& file) {
+std::string metadata_in(const ExrFile& file) {
     std::int32_t length = 0;
     const char* text = nullptr;
     if (exr_attr_get_string(file, 0, kMetadata, &length, &text) != EXR_ERR_SUCCESS)
@@ -299,7 +164,7 @@ std::string metadata_in(const File& file) {
 }
 
 /// Throws LutError if the header does not match the table.
-void check_header(const File& file, const Picture& picture, LutType type) {
+void check_header(const ExrFile& file, const Picture& picture, LutType type) {
     int parts = 0;
     exr_storage_t storage{};
     exr_compression_t compression{};
@@ -325,32 +190,23 @@ void check_header(const File& file, const Picture& picture, LutType type) {
     if (!is_ours) throw LutError("the header does not match the metadata");
 }
 
-Lut read(std::string_view bytes, std::string_view /*companion*/) {
-    const File file(bytes);
+Lut read_table(std::string_view bytes) {
+    const ExrFile file(bytes);
     Lut lut = lut_from_metadata(metadata_in(file));
     const Picture picture = picture_of(lut);
     check_header(file, picture, lut.type);
-    const auto size = static_cast<std::size_t>(row_bytes(picture, lut.type)) *
-                      static_cast<std::size_t>(picture.height);
-    if (size / kZipLargestRatio > bytes.size())
+    const ExrPixels pixels = pixels_of(picture, lut.type);
+    if (pixels.bytes() / kZipLargestRatio > bytes.size())
         throw LutError("the file is truncated: " + std::to_string(bytes.size()) +
-                       " bytes cannot hold " + std::to_string(size));
-    std::string texels(size, '\0');
-    std::int32_t rows = 0;
-    file.check(exr_get_scanlines_per_chunk(file, 0, &rows));
-    Decoder decoder(file);
-    for (std::int32_t y = 0; y < picture.height; y += rows) {
-        exr_chunk_info_t chunk{};
-        file.check(exr_read_scanline_chunk_info(file, 0, y, &chunk));
-        file.check(y == 0 ? exr_decoding_initialize(file, 0, &chunk, &decoder.pipeline)
-                          : exr_decoding_update(file, 0, &chunk, &decoder.pipeline));
-        aim_channels(decoder.pipeline, picture, lut.type,
-                     texels.data() + y * row_bytes(picture, lut.type));
-        if (y == 0) file.check(exr_decoding_choose_default_routines(file, 0, &decoder.pipeline));
-        file.check(exr_decoding_run(file, 0, &decoder.pipeline));
-    }
+                       " bytes cannot hold " + std::to_string(pixels.bytes()));
+    std::string texels(pixels.bytes(), '\0');
+    read_rows(file, pixels, texels.data());
     append_values(lut, 0, picture.channels.size(), texels);
     return lut;
+}
+
+Lut read(std::string_view bytes, std::string_view /*companion*/) {
+    return in_words_of_tables([&] { return read_table(bytes); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "core/coherent/coherent.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
+#include "core/math/angle_of_cosine.hpp"
 #include "core/stack/stack.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/varied_stack.hpp"

@@ -8,6 +8,7 @@
 #include "core/color/held_stack.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/film/film.hpp"
+#include "core/math/angle_of_cosine.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/random.hpp"
 #include "schemas/documents/varied_stack.hpp"

@@ -112,6 +112,44 @@ TEST_CASE("sensitivity at a path of 0 is the white, cumulative ends there", "[cl
     CHECK(std::abs(number(sums[3][2]) - 1) < 1e-12);
 }
 
+// The same noise as in the test of PerlinNoise, by its definition at (0.5, 0.5, 0).
+TEST_CASE("lut thickness is noise between two thicknesses", "[cli][lut]") {
+    TemporaryFolder folder;
+    const auto rows =
+        parse_csv(run_irido({"lut", "thickness", "--noise-scale", "1", "--range", "100:800", "--u",
+                             "0,0.5,1", "--v", "0,0.5", "--dtype", "f64"})
+                      .out);
+    REQUIRE(rows.size() == 7);
+    CHECK(rows[0] == std::vector<std::string>{"u", "v", "thickness_nm"});
+    CHECK(rows[1] == std::vector<std::string>{"0", "0", "450"});
+    CHECK(rows[2][1] == "0.5");
+    CHECK(rows[3][2] != "450");
+    CHECK(rows[5] == std::vector<std::string>{"1", "0", "450"});
+    for (const std::string name : {"a.npy", "a.exr", "a.ktx2", "a.bin", "a.png"}) {
+        INFO(name);
+        REQUIRE(run_irido({"lut", "thickness", "--size", "32", "--seed", "3", "--octaves", "2",
+                           "--dtype", "f32", "-o", folder / name})
+                    .status == 0);
+        if (name == "a.png") continue;
+        CHECK(run_irido({"lut", "check", folder / name}).status == 0);
+        const json made = info(folder / name);
+        CHECK(
+            made["request"] ==
+            json{{"noise_scale", 4.0}, {"octaves", 2}, {"seed", 3}, {"range_nm", {100.0, 1000.0}}});
+    }
+    const auto refused = [](const std::vector<std::string>& more, const std::string& error) {
+        std::vector<std::string> words{"lut", "thickness"};
+        words.insert(words.end(), more.begin(), more.end());
+        check_refused(run_irido(words), error);
+    };
+    refused({"--range", "800:100"}, "--range: must be FIRST:LAST, FIRST not above LAST");
+    refused({"--range", "100"}, "--range: must be FIRST:LAST");
+    refused({"--range", "-1:5"}, "--range: must be in [0, 1e+09]");
+    refused({"--octaves", "17"}, "--octaves: must be in [1, 16] (got 17)");
+    refused({"--seed", "nan"}, "--seed");
+    refused({"--noise-scale", "-1"}, "--noise-scale: must be in [0, 1e+06]");
+}
+
 TEST_CASE("carrier and table give back the sensitivity", "[cli][lut]") {
     TemporaryFolder folder;
     const std::string file = folder / "h.npy";

@@ -1,0 +1,291 @@
+#include "cli/queries/picture_query.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "schemas/input_error.hpp"
+#include "schemas/readers/text_file.hpp"
+#include "tables/files/hash.hpp"
+#include "tables/pictures/rendered.hpp"
+
+namespace irido::cli {
+
+namespace {
+
+constexpr double kMostSide = 8192, kMostExposure = 40, kMostSeed = 1e15;
+
+/// W,H or one number for both.
+std::array<std::size_t, 2> parse_picture_size(const std::string& text) {
+    const std::vector<std::string_view> parts = comma_separated(text);
+    if (parts.size() > 2) throw UsageError("--size: must be W,H (got '" + text + "')");
+    std::array<std::size_t, 2> size{};
+    for (std::size_t i = 0; i < 2; ++i)
+        size[i] = parse_whole_number("--size", parts[std::min(i, parts.size() - 1)], 1, kMostSide);
+    return size;
+}
+
+/// LO:HI,SCALE,SEED; scale and seed may be left out.
+ThicknessNoise parse_noise(const std::string& text, const std::string& octaves) {
+    constexpr const char* kOption = "--thickness-noise";
+    const std::vector<std::string_view> parts = comma_separated(text);
+    if (parts.size() > 3)
+        throw UsageError(std::string(kOption) + ": must be LO:HI,SCALE,SEED (got '" + text + "')");
+    ThicknessNoise noise;
+    std::tie(noise.least_nm, noise.most_nm) =
+        parse_range(kOption, parts[0], 0, kLargestThickness_nm);
+    noise.scale = parts.size() < 2
+                      ? 3
+                      : parse_one_number(kOption, parts[1], 0, ThicknessNoise::kLargestScale);
+    if (parts.size() == 3) noise.seed = parse_whole_number(kOption, parts[2], 0, kMostSeed);
+    noise.octaves = static_cast<unsigned>(
+        parse_whole_number("--octaves", octaves, 1, ThicknessNoise::kMostOctaves));
+    return noise;
+}
+
+Triple parse_background(const std::string& text) {
+    try {
+        return rgb_of_hex(rgb_space("srgb"), text);
+    } catch (const DomainError&) {
+        throw UsageError("--background: must be none, environment or #rrggbb (got '" + text + "')");
+    }
+}
+
+bool is_exr(const std::string& text) {
+    return text.ends_with(".exr");
+}
+
+Environment parse_environment(const std::string& text, std::string& hash) {
+    if (!is_exr(text)) {
+        const auto names = environment_names();
+        if (std::ranges::find(names, text) == names.end())
+            throw UsageError(
+                "--environment: must be one of studio, sky, white or an .exr file "
+                "(got '" +
+                text + "')");
+        return named_environment(text);
+    }
+    const std::string bytes = schemas::read_text(text, schemas::TextSource::regular_file);
+    hash = tables::sha256_of(bytes);
+    try {
+        return image_environment(
+            std::make_shared<EnvironmentImage>(tables::environment_from_exr(bytes)));
+    } catch (const schemas::InputError&) {
+        throw;
+    } catch (const Error& error) {
+        throw schemas::InputError(text, "", error.what());
+    }
+}
+
+/// Of the substrate over the incident medium, in the middle of the spectrum. Throws DomainError.
+double index_of_gem(const Stack& stack) {
+    constexpr double kMiddle_nm = 550;
+    const IndexTable indices(stack, {kMiddle_nm});
+    const Complex inside = indices.index(stack.substrate, 0);
+    if (std::abs(inside.imag()) >= kTransparentBelow_k)
+        throw DomainError("a gem must be transparent, |k| of the substrate below 1e-3 (got " +
+                          to_text(inside.imag()) + " at 550 nm)");
+    return inside.real() / indices.n(stack.incident)[0];
+}
+
+std::string rounded_text(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    return text.data();
+}
+
+}  // namespace
+
+void PictureQueryOptions::add(CLI::App& command) {
+    const auto option = [&](const char* name, std::string& value, const char* help,
+                            const char* type) {
+        command.add_option(name, value, help)->type_name(type);
+    };
+    option("--size", size, "width and height in pixels, [1, 8192] [512,512; 192,192 with --vary]",
+           "W,H");
+    option("--shape", shape,
+           "sphere, bubble (both walls; the same medium inside and outside), plane,\n"
+           "ring, or gem (light is refracted into the substrate) [sphere]",
+           "NAME");
+    option("--tilt", tilt, "angle between a plane's normal and the line of sight, degrees [0]",
+           "DEGREES");
+    option("--environment", environment,
+           "light from all around: studio, sky, white (radiance 1), or a\n"
+           "latitude-longitude picture .exr, twice as wide as high, in linear\n"
+           "sRGB; its channels multiply those of the colours [studio]",
+           "NAME");
+    option("--camera", camera, "orthographic or perspective [orthographic]", "NAME");
+    option("--background", background,
+           "none (transparent), environment, or a colour #rrggbb [none]", "NAME");
+    option("--thickness-noise", thickness_noise,
+           "let a layer's thickness vary from LO to HI nm by Perlin noise of this scale\n"
+           "[3] and seed [0], as irido lut thickness has it",
+           "LO:HI,SCALE,SEED");
+    option("--octaves", octaves, "octaves of the noise, [1, 16] [1]", "N");
+    option("--noise-layer", noise_layer,
+           "the layer whose thickness varies, counted from 1 as light meets them;\n"
+           "the layers of a group count once [1]",
+           "N");
+    option("--samples", samples,
+           "rays per pixel, spread over it, [1, 65536] [one, through its centre]", "N");
+    option("--seed", seed, "of the rays' places in a pixel [1]", "N");
+    option("--exposure", exposure, "brighten by 2^EV, [-40, 40] [0]", "EV");
+    option("--tolerance", tolerance,
+           "largest error of colours by a table, CIEDE2000, [0.001, 10] [0.1]", "E");
+    command.add_flag("--exact", exact, "compute each pixel's colour, no table");
+    add_light_options(command, light);
+    offer(command, "shape", "sphere bubble plane ring gem");
+    offer(command, "camera", "orthographic perspective");
+    offer(command, "background", "none environment");
+    offer(command, "environment", "studio sky white", OfferedWords::Use::one_or_file);
+}
+
+PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& execution,
+                           std::size_t usual_size)
+    : typed_(typed), execution_(execution) {
+    const auto [width, height] =
+        typed.size.empty() ? std::array{usual_size, usual_size} : parse_picture_size(typed.size);
+    if (typed.camera != "orthographic" && typed.camera != "perspective")
+        throw UsageError("--camera: must be orthographic or perspective (got '" + typed.camera +
+                         "')");
+    scene_.camera = {width, height, typed.camera == "perspective"};
+    const auto names = shape_names();
+    if (std::ranges::find(names, typed.shape) == names.end())
+        throw UsageError("--shape: " + not_one_of(names, typed.shape));
+    scene_.shape = shape_kind(typed.shape);
+    constexpr double kMostTilt_deg = 89.9;
+    scene_.tilt_deg = parse_one_number("--tilt", typed.tilt, -kMostTilt_deg, kMostTilt_deg);
+    if (!typed.thickness_noise.empty())
+        scene_.noise = parse_noise(typed.thickness_noise, typed.octaves);
+    noise_layer_ = parse_whole_number("--noise-layer", typed.noise_layer, 1, 1e9);
+    if (!typed.samples.empty())
+        scene_.samples = parse_whole_number("--samples", typed.samples, 1,
+                                            static_cast<double>(kMostPictureSamples));
+    scene_.seed = parse_whole_number("--seed", typed.seed, 0, kMostSeed);
+    exposure_ = parse_one_number("--exposure", typed.exposure, -kMostExposure, kMostExposure);
+    tolerance_ = parse_one_number("--tolerance", typed.tolerance, 0.001, 10);
+    scene_.environment = parse_environment(typed.environment, environment_hash_);
+    if (typed.background == "environment")
+        scene_.background = scene_.environment;
+    else if (typed.background != "none")
+        scene_.background = parse_background(typed.background);
+    light_ = std::make_unique<Illumination>(
+        typed.light.illuminant,
+        Sensitivity(parse_observer(typed.light.observer), parse_illuminant(typed.light.illuminant)),
+        rgb_space("srgb"), Adaptation::bradford);
+}
+
+DrawnPicture PictureQuery::draw(const schemas::StackDocument& document,
+                                const std::function<void(double)>& progress) const {
+    try {
+        return draw_stack(document.stack, progress);
+    } catch (const DomainError& error) {
+        throw schemas::InputError(document.file, "", error.what());
+    }
+}
+
+DrawnPicture PictureQuery::draw_stack(const Stack& stack,
+                                      const std::function<void(double)>& progress) const {
+    if (scene_.shape == ShapeKind::bubble && stack.incident != stack.substrate)
+        throw DomainError("a bubble has the same medium inside as outside (the stack has " +
+                          stack.materials[stack.substrate].name + " and " +
+                          stack.materials[stack.incident].name + ")");
+    SurfaceStack surface{stack};
+    PictureScene scene = scene_;
+    if (scene.shape == ShapeKind::gem) scene.inner_index = index_of_gem(stack);
+    if (scene.noise) {
+        surface.varied = layer_number(stack, noise_layer_);
+        scene.thickness_nm = thickness_at(stack, surface.varied);
+    }
+    const Painter painter(std::move(scene));
+    DrawnPicture drawn{{}, painter.survey(execution_.threads), {}};
+    ColorPlan plan{.range = drawn.survey.range,
+                   .points = drawn.survey.points,
+                   .tolerance = tolerance_,
+                   .exact = typed_.exact,
+                   .threads = execution_.threads,
+                   .simd = execution_.simd};
+    const auto paint = [&](const auto& colors) {
+        drawn.picture = painter.paint(colors, execution_.threads, progress);
+        drawn.report = colors.report();
+    };
+    if (is_simple(scene_.shape))
+        paint(ReflectedColors(light_->tables, light_->transform, std::move(surface), plan));
+    else
+        paint(
+            PathColors(light_->tables, light_->transform, surface, is_opaque(scene_.shape), plan));
+    const auto gain = static_cast<float>(std::exp2(exposure_));
+    if (gain == 1) return drawn;
+    for (std::size_t i = 0; i < drawn.picture.rgba.size(); ++i)
+        if (i % 4 != 3) drawn.picture.rgba[i] *= gain;
+    return drawn;
+}
+
+nlohmann::json PictureQuery::request() const {
+    nlohmann::json request{
+        {"size", {scene_.camera.width, scene_.camera.height}},
+        {"shape", typed_.shape},
+        {"camera", typed_.camera},
+        {"environment",
+         environment_hash_.empty() ? typed_.environment : "sha256:" + environment_hash_},
+        {"background", typed_.background},
+        {"samples", scene_.samples},
+        {"seed", scene_.seed},
+        {"exposure", exposure_},
+        {"observer", typed_.light.observer}};
+    if (scene_.shape == ShapeKind::plane) request["tilt_deg"] = scene_.tilt_deg;
+    request["illuminant"] = typed_.light.illuminant;
+    if (typed_.exact)
+        request["exact"] = true;
+    else
+        request["tolerance"] = tolerance_;
+    if (scene_.noise)
+        request["thickness_noise"] = {{"range_nm", {scene_.noise->least_nm, scene_.noise->most_nm}},
+                                      {"scale", scene_.noise->scale},
+                                      {"seed", scene_.noise->seed},
+                                      {"octaves", scene_.noise->octaves},
+                                      {"layer", noise_layer_}};
+    return request;
+}
+
+std::string PictureQuery::caution(const DrawnPicture& drawn) {
+    constexpr double kVisible = 1e-4;
+    if (drawn.report.color_error <= kVisible) return "";
+    return "colours have errors of up to " + rounded_text(drawn.report.color_error) +
+           " in X, Y, Z: fringes of the stack are too fine";
+}
+
+std::vector<std::string> PictureQuery::stats(const DrawnPicture& drawn) const {
+    const ColorReport& report = drawn.report;
+    const ShownRange& range = drawn.survey.range;
+    std::vector<std::string> lines;
+    const auto degrees = [](double cosine) {
+        return rounded_text(std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi);
+    };
+    lines.push_back(std::to_string(drawn.survey.points) + " places where light meets the stack, " +
+                    "angles " + degrees(range.largest_cosine) + " to " +
+                    degrees(range.least_cosine) + " degrees" +
+                    (scene_.noise ? ", thickness " + rounded_text(range.least_nm) + " to " +
+                                        rounded_text(range.largest_nm) + " nm"
+                                  : ""));
+    const std::string what = report.wavelengths > 0 ? "spectra" : "colours";
+    if (report.wavelengths > 0)
+        lines.push_back("reflectance and transmittance multiplied at " +
+                        std::to_string(report.wavelengths) + " wavelengths");
+    if (report.cosines > 0)
+        lines.push_back(what + " from a table of " + std::to_string(report.cosines) + " angles x " +
+                        std::to_string(report.thicknesses) + " thicknesses, " +
+                        std::to_string(report.evaluations) + " computed, error " +
+                        rounded_text(report.error) + " CIEDE2000: " + report.reason);
+    else
+        lines.push_back(what + " computed one by one: " + report.reason);
+    if (is_simple(scene_.shape))
+        lines.emplace_back("skipped: what the stack transmits, as nothing is seen through a " +
+                           typed_.shape);
+    if (!scene_.noise) lines.emplace_back("skipped: the axis of thickness, which does not vary");
+    return lines;
+}
+
+}  // namespace irido::cli

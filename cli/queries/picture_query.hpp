@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/options/color_options.hpp"
+#include "cli/queries/color_query.hpp"
+#include "core/render/picture.hpp"
+
+namespace irido::cli {
+
+/// Options of a rendered picture, as typed.
+struct PictureQueryOptions {
+    std::string size;  ///< "" for the default
+    std::string shape = "sphere";
+    std::string tilt = "0";
+    std::string environment = "studio";
+    std::string camera = "orthographic";
+    std::string background = "none";
+    std::string thickness_noise;  ///< "" for none
+    std::string octaves = "1";
+    std::string noise_layer = "1";
+    std::string samples;  ///< "" for the centres of the pixels
+    std::string seed = "1";
+    std::string exposure = "0";
+    std::string tolerance = "0.1";
+    bool exact = false;
+    ColorOptions light;  ///< illuminant and observer
+
+    void add(CLI::App& command);
+};
+
+/// A picture, and how its colours were computed.
+struct DrawnPicture {
+    Picture picture;
+    Painter::Survey survey;
+    ColorReport report;
+};
+
+/// Pictures of a smooth stack on a shape.
+class PictureQuery {
+public:
+    /// usual_size: where none is typed. Throws UsageError, or InputError for what is wrong with a
+    /// file.
+    PictureQuery(const PictureQueryOptions& typed, const Execution& execution,
+                 std::size_t usual_size = 512);
+
+    /// `progress` gets a growing fraction, from any thread. Throws InputError for a stack that
+    /// cannot be drawn.
+    DrawnPicture draw(const schemas::StackDocument& document,
+                      const std::function<void(double)>& progress) const;
+
+    const PictureScene& scene() const { return scene_; }
+    const Sensitivity& sensitivity() const { return light_->tables.sensitivity(); }
+    /// What decides the pixels besides the stack, without paths.
+    nlohmann::json request() const;
+    /// One line for each thing worth knowing of a picture.
+    std::vector<std::string> stats(const DrawnPicture& drawn) const;
+    /// What is to be noted of it; "" if nothing.
+    static std::string caution(const DrawnPicture& drawn);
+
+private:
+    DrawnPicture draw_stack(const Stack& stack, const std::function<void(double)>& progress) const;
+
+    PictureQueryOptions typed_;
+    Execution execution_;
+    PictureScene scene_;
+    std::string environment_hash_;  ///< of an environment from a file
+    std::size_t noise_layer_;
+    double exposure_, tolerance_;
+    std::unique_ptr<Illumination> light_;
+};
+
+}  // namespace irido::cli

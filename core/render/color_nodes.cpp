@@ -1,0 +1,72 @@
+#include "core/render/color_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/colorimetry/difference.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Of panels that are equally wide in 1/wavelength, as fringes are.
+ColorNodes nodes_of(const Sensitivity& sensitivity, const RgbTransform& to_srgb, std::size_t panels,
+                    std::size_t degree) {
+    ColorNodes nodes;
+    const auto [first, last] = sensitivity.support();
+    const std::array rows{to_srgb({1, 0, 0}), to_srgb({0, 1, 0}), to_srgb({0, 0, 1})};
+    const auto end = [&](std::size_t i) {
+        const double part = static_cast<double>(i) / static_cast<double>(panels);
+        return i == 0 ? first : i == panels ? last : 1 / std::lerp(1 / first, 1 / last, part);
+    };
+    for (std::size_t i = 0; i < panels; ++i) {
+        const PanelRule rule = panel_rule(sensitivity, {end(i), end(i + 1)}, degree);
+        for (std::size_t k = 0; k < rule.wavelength_nm.size(); ++k) {
+            nodes.wavelength_nm.push_back(std::clamp(rule.wavelength_nm[k], first, last));
+            for (std::size_t c = 0; c < 3; ++c)
+                nodes.weight[c].push_back(rows[0][c] * rule.weight[0][k] +
+                                          rows[1][c] * rule.weight[1][k] +
+                                          rows[2][c] * rule.weight[2][k]);
+        }
+    }
+    return nodes;
+}
+
+}  // namespace
+
+double srgb_difference(std::span<const double> a, std::span<const double> b) {
+    static const RgbSpace& space = rgb_space("srgb");
+    static const ColorMatrix to_xyz = xyz_from_rgb(space);
+    const auto in_lab = [](std::span<const double> rgb) {
+        Triple xyz{};
+        for (std::size_t i = 0; i < 3; ++i)
+            xyz[i] = to_xyz[i][0] * rgb[0] + to_xyz[i][1] * rgb[1] + to_xyz[i][2] * rgb[2];
+        return lab(xyz, space.white);
+    };
+    return ciede2000(in_lab(a), in_lab(b));
+}
+
+ColorNodes enough_nodes(const Sensitivity& sensitivity, const RgbTransform& to_srgb,
+                        const std::function<std::vector<Triple>(const ColorNodes&)>& colors,
+                        double tolerance, std::size_t most) {
+    struct Size {
+        std::size_t panels, degree;
+    };
+    constexpr std::array<Size, 7> sizes{
+        {{1, 16}, {1, 32}, {1, 64}, {1, 128}, {2, 128}, {4, 128}, {8, 128}}};
+    ColorNodes nodes;
+    std::vector<Triple> before;
+    for (const auto& [panels, degree] : sizes) {
+        ColorNodes more = nodes_of(sensitivity, to_srgb, panels, degree);
+        const std::vector<Triple> now = colors(more);
+        nodes.are_enough = !before.empty();
+        for (std::size_t i = 0; i < before.size(); ++i)
+            nodes.are_enough = nodes.are_enough && srgb_difference(before[i], now[i]) < tolerance;
+        if (nodes.are_enough || more.wavelength_nm.size() > most) return nodes;
+        before = now;
+        nodes = std::move(more);
+    }
+    return nodes;
+}
+
+}  // namespace irido

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/render/camera.hpp"
+#include "core/render/environment.hpp"
+#include "core/render/noise.hpp"
+#include "core/render/path_colors.hpp"
+#include "core/render/shape.hpp"
+
+namespace irido {
+
+/// All that a picture of a smooth stack shows.
+struct PictureScene {
+    Camera camera;
+    ShapeKind shape = ShapeKind::sphere;
+    double tilt_deg = 0;     ///< of a plane
+    double inner_index = 1;  ///< of a gem, over that of the medium around it
+    Environment environment;
+    std::optional<ThicknessNoise> noise;  ///< else the thickness is `thickness_nm` everywhere
+    double thickness_nm = 0;
+    std::size_t samples = 0;  ///< per pixel; 0: its centre
+    std::uint64_t seed = 1;
+    /// Behind the shape: nothing, the environment or one colour.
+    std::variant<std::monostate, Environment, Triple> background;
+};
+
+/// Linear sRGB, multiplied by alpha; rows from the top.
+struct Picture {
+    std::size_t width = 0, height = 0;
+    std::vector<float> rgba;
+};
+
+/// Whether a shape's light meets the stack once per path: then colours are ReflectedColors.
+bool is_simple(ShapeKind shape);
+
+/// Whether nothing is seen through a shape.
+bool is_opaque(ShapeKind shape);
+
+inline constexpr std::size_t kMostPictureSamples = 65536;
+
+/// Pictures of one scene. Safe from many threads.
+class Painter {
+public:
+    /// Throws DomainError, which names the argument.
+    explicit Painter(PictureScene scene);
+
+    /// The angles and thicknesses that occur, and the number of places where the stack is met.
+    struct Survey {
+        ShownRange range;
+        std::size_t points = 0;
+    };
+    Survey survey(unsigned threads) const;
+
+    /// Pixels do not depend on the number of threads. `progress` gets a growing fraction.
+    Picture paint(const ReflectedColors& colors, unsigned threads,
+                  const std::function<void(double)>& progress) const;
+    Picture paint(const PathColors& colors, unsigned threads,
+                  const std::function<void(double)>& progress) const;
+
+private:
+    /// Steps of the path that begins with a ray; false if it meets nothing.
+    bool trace(const Ray& ray, std::vector<PathStep>& path) const;
+    Triple behind(const Ray& ray) const;
+    void trace_through(Ray ray, Hit hit, std::vector<PathStep>& path) const;
+    SurfacePoint surface_point(const Hit& hit, const Vector3& direction) const;
+    /// Calls visit(x, ray) for each sample of a row.
+    void each_sample(std::size_t y,
+                     const std::function<void(std::size_t x, const Ray& ray)>& visit) const;
+    template <class PaintRow>
+    Picture paint_rows(unsigned threads, const std::function<void(double)>& progress,
+                       const PaintRow& paint_row) const;
+    void finish_pixel(std::size_t x, std::size_t y, const Triple& sum, std::size_t hits,
+                      const Triple& behind, Picture& picture) const;
+
+    PictureScene scene_;
+    std::unique_ptr<const Shape> shape_;
+    std::optional<ThicknessField> field_;
+};
+
+}  // namespace irido

@@ -1,0 +1,193 @@
+#include "core/render/shape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace irido {
+
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180;
+constexpr std::array<std::string_view, 5> kShapeNames{"sphere", "bubble", "plane", "ring", "gem"};
+
+class Sphere : public Shape {
+public:
+    std::optional<Hit> first_hit(const Ray& ray) const override {
+        const double middle = -dot(ray.origin, ray.direction);
+        const double root = middle * middle - (dot(ray.origin, ray.origin) - 1);
+        if (!(root > 0)) return std::nullopt;
+        const double half = std::sqrt(root);
+        const double distance = middle - half > ray.from ? middle - half : middle + half;
+        if (!(distance > ray.from)) return std::nullopt;
+        const Vector3 point = ray.origin + distance * ray.direction;
+        return Hit{distance, point, normalized(point)};
+    }
+};
+
+class Plane : public Shape {
+public:
+    explicit Plane(double tilt_deg)
+        : normal_{std::sin(tilt_deg * kRadian), 0, std::cos(tilt_deg * kRadian)} {}
+
+    std::optional<Hit> first_hit(const Ray& ray) const override {
+        const double along = dot(ray.direction, normal_);
+        if (!(along < 0)) return std::nullopt;
+        const double distance = -dot(ray.origin, normal_) / along;
+        if (!(distance > ray.from)) return std::nullopt;
+        return Hit{distance, ray.origin + distance * ray.direction, normal_};
+    }
+
+private:
+    Vector3 normal_;
+};
+
+/// Rotation about the x axis: what is above comes forward.
+class Turn {
+public:
+    explicit Turn(double angle_deg)
+        : cos_(std::cos(angle_deg * kRadian)), sin_(std::sin(angle_deg * kRadian)) {}
+    Vector3 to_world(const Vector3& a) const {
+        return {a.x, cos_ * a.y - sin_ * a.z, sin_ * a.y + cos_ * a.z};
+    }
+    Vector3 to_body(const Vector3& a) const {
+        return {a.x, cos_ * a.y + sin_ * a.z, cos_ * a.z - sin_ * a.y};
+    }
+
+private:
+    double cos_, sin_;
+};
+
+class Ring : public Shape {
+public:
+    std::optional<Hit> first_hit(const Ray& ray) const override {
+        constexpr double kNear = 1e-11;
+        constexpr int kMostSteps = 2000;
+        const Vector3 o = turn_.to_body(ray.origin), d = turn_.to_body(ray.direction);
+        // between the ends of the sphere around it
+        const double middle = -dot(o, d), root = middle * middle - (dot(o, o) - 1);
+        if (!(root > 0)) return std::nullopt;
+        const double end = middle + std::sqrt(root);
+        double at = std::max(ray.from, middle - std::sqrt(root));
+        // no face is nearer than the distance from it, which is known in closed form
+        for (int i = 0; i < kMostSteps && at < end; ++i) {
+            const Vector3 point = o + at * d;
+            const double across = std::hypot(point.x, point.z);
+            const double off = std::hypot(across - kMajor, point.y) - kMinor;
+            if (off < kNear) {
+                const Vector3 spine{kMajor * point.x / across, 0, kMajor * point.z / across};
+                const Vector3 normal = normalized(point - spine);
+                if (dot(normal, d) >= 0) {  // leaves it
+                    at += 1e-6;
+                    continue;
+                }
+                return Hit{at, turn_.to_world(point), turn_.to_world(normal)};
+            }
+            at += off;
+        }
+        return std::nullopt;
+    }
+
+private:
+    static constexpr double kMajor = 0.7, kMinor = 0.28;
+    Turn turn_{52};
+};
+
+class Gem : public Shape {
+public:
+    Gem() {
+        constexpr double kGirdle = 0.03;  // half of its height
+        const auto add = [this](double slope_deg, double turn_deg, double radius, double height) {
+            const double s = std::sin(slope_deg * kRadian), c = std::cos(slope_deg * kRadian);
+            const double phi = turn_deg * kRadian;
+            const Vector3 normal{s * std::cos(phi), c, s * std::sin(phi)};
+            faces_.push_back({turn_.to_world(normal), kSize * (s * radius + c * height)});
+        };
+        constexpr double kTableRadius = 0.57, kCrown_deg = 34.5, kPavilion_deg = 40.8;
+        const double table = kGirdle + (1 - kTableRadius) * std::tan(kCrown_deg * kRadian);
+        add(0, 0, 0, table);
+        for (int i = 0; i < 8; ++i) {
+            const double at = 45.0 * i;
+            add(kCrown_deg, at, 1, kGirdle);
+            add(21.5, at + 22.5, kTableRadius * 1.005, table);  // stars
+            add(180 - kPavilion_deg, at, 1, -kGirdle);
+            for (const double side : {11.25, 33.75}) {
+                add(41.5, at + side, 0.995, kGirdle);
+                add(180 - 42.2, at + side, 0.995, -kGirdle);
+                add(90, at + side, 0.99, 0);  // girdle
+            }
+        }
+    }
+
+    std::optional<Hit> first_hit(const Ray& ray) const override {
+        double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
+        const Face *into = nullptr, *out = nullptr;
+        for (const Face& face : faces_) {
+            const double along = dot(ray.direction, face.normal);
+            const double off = face.offset - dot(ray.origin, face.normal);
+            if (along == 0) {
+                if (off < 0) return std::nullopt;
+                continue;
+            }
+            const double at = off / along;
+            if (along < 0 && at > enter) {
+                enter = at;
+                into = &face;
+            } else if (along > 0 && at < leave) {
+                leave = at;
+                out = &face;
+            }
+        }
+        if (!(enter < leave)) return std::nullopt;
+        const bool is_outside = into && enter > ray.from;
+        const Face* const face = is_outside ? into : out;
+        const double distance = is_outside ? enter : leave;
+        if (!face || !(distance > ray.from)) return std::nullopt;
+        return Hit{distance, ray.origin + distance * ray.direction, face->normal};
+    }
+
+private:
+    static constexpr double kSize = 0.97;
+    struct Face {
+        Vector3 normal;
+        double offset;
+    };
+    Turn turn_{38};
+    std::vector<Face> faces_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Shape> sphere_shape() {
+    return std::make_unique<Sphere>();
+}
+
+std::unique_ptr<const Shape> plane_shape(double tilt_deg) {
+    constexpr double kMostTilt_deg = 89.9;
+    require_in_range("tilt", tilt_deg, -kMostTilt_deg, kMostTilt_deg);
+    return std::make_unique<Plane>(tilt_deg);
+}
+
+std::unique_ptr<const Shape> ring_shape() {
+    return std::make_unique<Ring>();
+}
+
+std::unique_ptr<const Shape> gem_shape() {
+    return std::make_unique<Gem>();
+}
+
+std::span<const std::string_view> shape_names() {
+    return kShapeNames;
+}
+
+ShapeKind shape_kind(std::string_view name) {
+    const auto found = std::ranges::find(kShapeNames, name);
+    if (found == kShapeNames.end()) throw DomainError(not_one_of(kShapeNames, name));
+    return static_cast<ShapeKind>(found - kShapeNames.begin());
+}
+
+}  // namespace irido

@@ -1,0 +1,200 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tables/pictures/rendered.hpp"
+#include "tests/support/program.hpp"
+
+using namespace irido::test;
+using Catch::Contains;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+const std::string kFilm = "air | 1.38@420 | 1.9+1.5i";
+
+Outcome render(std::vector<std::string> more, const std::string& stack = kFilm) {
+    more.insert(more.begin(), {"render", stack});
+    return run_irido(more);
+}
+
+irido::EnvironmentImage exr(const std::string& path) {
+    return irido::tables::environment_from_exr(read_file(path));
+}
+
+}  // namespace
+
+TEST_CASE("a pixel is the colour that irido color prints", "[cli][render]") {
+    TemporaryFolder folder;
+    const auto check = [&](const std::vector<std::string>& more, double tolerance) {
+        std::vector<std::string> words{"--environment", "white", "--size",
+                                       "80,40",         "-o",    folder / "x.exr"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = render(words);
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        const auto image = exr(folder / "x.exr");
+        for (const std::size_t x : {24U, 30U, 38U, 50U, 56U}) {
+            const double r = std::hypot(static_cast<double>(x) + 0.5 - 40, 12.5 - 20) / 18;
+            const std::string angle = std::to_string(std::asin(r) * 180 / std::numbers::pi);
+            const auto rows = parse_csv(run_irido({"color", kFilm, "-a", angle}).out);
+            for (std::size_t c = 0; c < 3; ++c)
+                CHECK_THAT(static_cast<double>(image.rgb[(12 * 80 + x) * 3 + c]),
+                           WithinAbs(std::stod(rows[1][7 + c]), tolerance));
+        }
+    };
+    check({"--exact"}, 2e-6);
+    check({}, 1e-4);
+    check({"--thickness-noise", "420:420,3,1"}, 1e-4);
+}
+
+TEST_CASE("a tilted plane has one colour; exposure doubles it", "[cli][render]") {
+    TemporaryFolder folder;
+    REQUIRE(render({"--shape", "plane", "--tilt", "40", "--environment", "white", "--size", "16,8",
+                    "--exposure", "1", "-o", folder / "x.exr"})
+                .status == 0);
+    const auto image = exr(folder / "x.exr");
+    const auto rows = parse_csv(run_irido({"color", kFilm, "-a", "40"}).out);
+    for (std::size_t i = 0; i < image.rgb.size(); ++i)
+        REQUIRE_THAT(static_cast<double>(image.rgb[i]),
+                     WithinAbs(2 * std::stod(rows[1][7 + i % 3]), 2e-5));
+}
+
+TEST_CASE("an environment from a file lights the picture", "[cli][render]") {
+    TemporaryFolder folder;
+    irido::Picture light{64, 32, {}};
+    for (std::size_t i = 0; i < 64 * 32; ++i) light.rgba.insert(light.rgba.end(), {2, 1, 0.5F, 1});
+    write_text(folder / "light.exr", irido::tables::exr_file(light, "{}"));
+    const std::vector<std::string> common{"--size", "32,16", "--shape", "plane"};
+    const auto draw = [&](const std::string& environment, const std::string& file) {
+        std::vector<std::string> words = common;
+        words.insert(words.end(), {"--environment", environment, "-o", file});
+        REQUIRE(render(words).status == 0);
+        return exr(file);
+    };
+    const auto lit = draw(folder / "light.exr", folder / "a.exr");
+    const auto white = draw("white", folder / "b.exr");
+    for (std::size_t i = 0; i < white.rgb.size(); i += 3)
+        for (std::size_t c = 0; c < 3; ++c)
+            REQUIRE(lit.rgb[i + c] == Approx(white.rgb[i + c] * (c == 0 ? 2 : c == 1 ? 1 : 0.5)));
+    CHECK_THAT(read_file(folder / "a.exr"), Contains("sha256:") && !Contains("light.exr"));
+    check_refused(
+        render({"--environment", folder / "b.exr", "--size", "8", "-o", folder / "b.exr"}),
+        "b.exr");
+}
+
+TEST_CASE("the same bytes for every number of threads", "[cli][render]") {
+    TemporaryFolder folder;
+    const auto bytes = [&](const std::string& threads, const std::string& name) {
+        REQUIRE(run_irido({"render", "air | 1.33@400 | air", "--shape", "bubble", "--size", "64",
+                           "--thickness-noise", "100:800,3,1", "--samples", "3", "--seed", "9",
+                           "-j", threads, "-o", folder / name})
+                    .status == 0);
+        return read_file(folder / name);
+    };
+    const std::string one = bytes("1", "a.png");
+    CHECK(one == bytes("5", "b.png"));
+    CHECK(bytes("1", "c.exr") == bytes("4", "d.exr"));
+    CHECK_THAT(one, Contains("irido.metadata"));
+}
+
+TEST_CASE("statistics say how colours were computed, and what was skipped", "[cli][render]") {
+    TemporaryFolder folder;
+    const auto stats = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--size", "64", "--stats", "-o", folder / "x.png"});
+        return render(more).err;
+    };
+    CHECK_THAT(stats({}), Contains("places where light meets the stack, angles ") &&
+                              Contains("colours from a table of ") &&
+                              Contains("skipped: what the stack transmits") &&
+                              Contains("skipped: the axis of thickness"));
+    CHECK_THAT(stats({"--exact"}), Contains("colours computed one by one: asked for"));
+    CHECK_THAT(stats({"--thickness-noise", "0:90000,3,1"}),
+               Contains("a table would have more colours than the picture"));
+}
+
+TEST_CASE("a contact sheet has a labelled picture for every value", "[cli][render]") {
+    TemporaryFolder folder;
+    const Outcome outcome =
+        render({"--vary", "layers.0.thickness_nm=100,200,300", "--vary", "substrate=Si,Au",
+                "--size", "40", "--bits", "16", "-o", folder / "sheet.png"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const std::string png = read_file(folder / "sheet.png");
+    const auto number = [&](std::size_t at) {
+        unsigned value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = 256 * value + static_cast<unsigned char>(png[at + i]);
+        return value;
+    };
+    CHECK(number(16) == 8 + 2 * 48);  // width: two columns of the last varied value
+    CHECK(number(20) == 8 + 3 * 70);  // height: three rows, each with its label
+    CHECK(png[24] == 16);
+    check_refused(render({"--vary", "layers.0.thickness_nm=1,2", "-o", folder / "x.exr"}),
+                  "--vary: a contact sheet must be .png");
+    check_refused(render({"--vary", "alpha=0.05,0.1", "-o", folder / "x.png"}),
+                  "alpha is no value of the stack");
+    check_refused(render({"--vary", "layers.7.thickness_nm=1,2", "-o", folder / "x.png"}),
+                  "layers.7");
+}
+
+TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][render]") {
+    TemporaryFolder folder;
+    const std::string file = folder / "x.png";
+    const auto refused = [&](std::vector<std::string> more, const std::string& error,
+                             const std::string& stack = kFilm) {
+        more.insert(more.end(), {"-o", file});
+        check_refused(render(more, stack), error);
+        CHECK_FALSE(std::filesystem::exists(file));
+    };
+    check_refused(render({}), "--output: must name a picture, .png or .exr");
+    check_refused(render({"-o", folder / "x.jpg"}), "must be one of png, exr (got jpg)");
+    check_refused(render({"-o", folder / "no/x.png"}), "cannot be written");
+    refused({"--size", "0"}, "--size: must be in [1, 8192] (got 0)");
+    refused({"--size", "100,1e6"}, "--size: must be in [1, 8192] (got 1e+06)");
+    refused({"--size", "1,2,3"}, "--size: must be W,H");
+    refused({"--shape", "cube"}, "--shape: must be one of sphere, bubble, plane, ring, gem");
+    refused({"--shape", "gem"}, "a gem must be transparent, |k| of the substrate below 1e-3");
+    refused({"--shape", "bubble"}, "a bubble has the same medium inside as outside");
+    refused({"--environment", "cave"}, "--environment: must be one of studio, sky, white");
+    refused({"--environment", folder / "none.exr"}, "none.exr");
+    refused({"--camera", "fisheye"}, "--camera: must be orthographic or perspective");
+    refused({"--background", "red"}, "--background: must be none, environment or #rrggbb");
+    refused({"--background", "#12345g"}, "--background");
+    refused({"--thickness-noise", "800:100,3,1"}, "--thickness-noise: must be FIRST:LAST");
+    refused({"--thickness-noise", "1:2,3,4,5"}, "--thickness-noise: must be LO:HI,SCALE,SEED");
+    refused({"--thickness-noise", "1:nan"}, "--thickness-noise");
+    refused({"--thickness-noise", "1:2", "--noise-layer", "2"}, "the stack has no layer 2");
+    refused({"--samples", "0"}, "--samples: must be in [1, 65536]");
+    refused({"--exposure", "nan"}, "--exposure");
+    refused({"--tolerance", "0"}, "--tolerance: must be in [0.001, 10]");
+    refused({"--bits", "12"}, "--bits: must be 8 or 16");
+    refused({"--illuminant", "D66"}, "D66");
+    const auto document = [&](const std::string& text, const std::string& error) {
+        write_text(folder / "document.json", text);
+        refused({}, error, folder / "document.json");
+    };
+    document(R"({"inside": 1.35, "layers": [{"stack": "1 | 2@3 | 1", "alpha": 0.1}]})",
+             "is a surface document, which cannot be drawn yet");
+    document(R"({"scratches": []})", "is a surface document");
+    document(R"({"materials": {"a": {"stack": "s.json"}}})", "is a scene document");
+    irido::Picture square{8, 8, std::vector<float>(256, 1.0F)};
+    write_text(folder / "square.exr", irido::tables::exr_file(square, "{}"));
+    refused({"--environment", folder / "square.exr"}, "twice as wide as high");
+    irido::Picture bad{8, 4, std::vector<float>(128, 1.0F)};
+    bad.rgba[5] = std::numeric_limits<float>::quiet_NaN();
+    write_text(folder / "bad.exr", irido::tables::exr_file(bad, "{}"));
+    refused({"--environment", folder / "bad.exr"},
+            "radiance must be finite and not below 0 (got nan in row 0, column 1)");
+}
+
+TEST_CASE("an interrupted picture leaves no file", "[cli][render]") {
+    TemporaryFolder folder;
+    const Outcome outcome =
+        run_shell("timeout --preserve-status -s INT 0.5 \"$IRIDO\" render \"" + kFilm +
+                      "\" --exact --size 4000 --thickness-noise 100:800 -o x.png; echo $?; ls",
+                  folder.path());
+    CHECK(outcome.out == "130\n");
+}
