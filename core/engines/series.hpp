@@ -49,8 +49,8 @@ inline bool is_below(double base_n, double film_n) {
 /// Both reflectances of a film for one polarization and one channel, and what follows from them:
 /// I = constant + sum_m amplitude step^m 2 S(m D, m phase).
 struct AirySeries {
-    /// R12 of the upper face, R23 of the lower one, each in [0, 1]; an R23 below 0, which F82-Schlick
-    /// has for dark tints, makes no fringes.
+    /// R12 of the upper face, R23 of the lower one, each in [0, 1]; an R23 below 0, which
+    /// F82-Schlick has for dark tints, makes no fringes.
     AirySeries(double R12, double R23);
     /// With another product of both than R12 R23.
     AirySeries(double R12, double R23, double R123);

@@ -314,7 +314,7 @@ TEST_CASE("random films err as they did", "[comparison]") {
     const std::vector<ComparedFilm> films = random_films(tables, 150, 1, {});
     const auto colors = compare_films(tables, engines, difference, films, {}, 0);
     const std::array<double, 9> mean{9.0143700424,  8.73539165,   8.6520514701,
-                                     16.8951056721, 5.1473128491,  12.5531763594,
+                                     16.8951056721, 5.1473128491, 12.5531763594,
                                      10.7700265278, 1.5463913451, 3.4444443456};
     for (std::size_t e = 0; e < engines.size(); ++e) {
         std::vector<std::optional<double>> values;
