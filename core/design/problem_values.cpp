@@ -92,10 +92,11 @@ private:
     void incoherent_at(IncidentAngle at, std::vector<double>& out) const {
         if (!is_of_both(target_.quantity))
             throw DomainError("phases require coherent layers without thickness_sigma_nm");
-        std::vector<Medium> media;
+        std::vector<Medium> media_s, media_p;
         for (std::size_t w = 0; w < target_.wavelength_nm.size(); ++w) {
-            set_media(table_, w, at, media);
-            const Ellipsometry angles = ellipsometry(power_, media, table_.k0()[w]);
+            set_media(table_, w, at, Polarization::s, media_s);
+            set_media(table_, w, at, Polarization::p, media_p);
+            const Ellipsometry angles = ellipsometry(power_, media_s, media_p, table_.k0()[w]);
             const double delta = 180 - angles.delta_nebraska_deg;
             out.push_back(target_.quantity == Quantity::psi_deg     ? angles.psi_deg
                           : target_.quantity == Quantity::delta_deg ? (delta <= -180 ? 180 : delta)
@@ -108,13 +109,15 @@ private:
             throw DomainError("delays require coherent layers without thickness_sigma_nm");
         for (const Light light : target_.polarizations)
             for (const double nm : target_.wavelength_nm) {
-                std::vector<Series<Complex>> index;
-                for (const Material& material : stack_.materials)
+                const Polarization polarization =
+                    light == Light::p ? Polarization::p : Polarization::s;
+                std::vector<Series<Complex>> index, extraordinary;
+                for (const Material& material : stack_.materials) {
                     index.push_back(index_series(material, nm));
-                out.push_back(
-                    delay_value(target_.quantity,
-                                delays(stack_, index, nm, at,
-                                       light == Light::p ? Polarization::p : Polarization::s)));
+                    extraordinary.push_back(extraordinary_series(material, nm));
+                }
+                out.push_back(delay_value(
+                    target_.quantity, delays(stack_, index, nm, at, polarization, extraordinary)));
             }
     }
 
@@ -159,7 +162,7 @@ bool is_of_both(Quantity quantity) {
 
 bool has_differences(const DesignProblem& problem) {
     const StackPower power(problem.stack);
-    if (power.spread_layers() > 0) return true;
+    if (power.spread_layers() > 0 || first_uniaxial(problem.stack.materials)) return true;
     for (const DesignTarget& target : problem.targets) {
         const bool amplitudes = is_angle(target.quantity) || target.quantity == Quantity::psi_deg;
         if (is_delay(target.quantity) || (amplitudes && !power.has_amplitudes())) return true;
