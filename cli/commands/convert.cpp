@@ -4,6 +4,7 @@
 
 #include "cli/options/command.hpp"
 #include "core/error.hpp"
+#include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/stack_expression.hpp"
 #include "schemas/readers/stacks/stack_format.hpp"

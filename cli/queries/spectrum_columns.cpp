@@ -80,10 +80,10 @@ public:
     /// Values that s and p have together, in the rows of the first polarization only.
     template <class Value>
     void append_once(const Value& value) const {
-        constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+        constexpr double none = std::numeric_limits<double>::quiet_NaN();
         const char first = shape_.polarizations.front();
         append([&](char polarization, std::size_t point) {
-            return shape_.has_ellipsometry && polarization == first ? value(point) : kNone;
+            return shape_.has_ellipsometry && polarization == first ? value(point) : none;
         });
     }
 

@@ -62,7 +62,7 @@ struct PathColors::Scratch::Kernel {
           kernel(power, face.indices.absorbs(), face.indices.amplifies(), kNeeds, simd) {}
 
     /// [R, T][s, p][node]
-    void compute(const Face& face, const SurfacePoint& at, std::span<float> powers) {
+    void compute(const Face& face, const FilmPoint& at, std::span<float> powers) {
         if (!surface.varied.empty()) {
             surface.set(at.thickness_nm);
             power.assign(surface.stack);

@@ -13,7 +13,7 @@ namespace irido {
 
 /// Where a path of sight meets the stack.
 struct PathStep {
-    SurfacePoint at;
+    FilmPoint at;
     bool inside = false;  ///< meets the stack from its substrate
     /// Whether `light` is seen here: by reflection where the stack is met from outside, by
     /// transmission from inside; the path goes on the other way. Else it goes on by reflection.

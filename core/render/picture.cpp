@@ -101,7 +101,7 @@ Painter::Painter(PictureScene scene) : scene_(std::move(scene)), shape_(shape_of
     if (scene_.noise) field_.emplace(*scene_.noise);
 }
 
-SurfacePoint Painter::surface_point(const Hit& hit, const Vector3& direction) const {
+FilmPoint Painter::surface_point(const Hit& hit, const Vector3& direction) const {
     const double cosine = std::min(1.0, std::abs(dot(direction, hit.normal)));
     const double nm =
         field_ ? (*field_)(hit.point.x, hit.point.y, hit.point.z) : scene_.thickness_nm;
@@ -230,7 +230,7 @@ Picture Painter::paint(const ReflectedColors& colors, unsigned threads,
                        const std::function<void(double)>& progress) const {
     return paint_rows(threads, progress, [&](std::size_t y, RowSums& sums) {
         std::vector<PathStep> path;
-        std::vector<SurfacePoint> points;
+        std::vector<FilmPoint> points;
         std::vector<std::pair<std::size_t, Triple>> lit;  // column and light of each point
         each_sample(y, [&](std::size_t x, const Ray& ray) {
             if (!trace(ray, path)) return add(sums.behind[x], behind(ray));

@@ -66,7 +66,7 @@ private:
     bool trace(const Ray& ray, std::vector<PathStep>& path) const;
     Triple behind(const Ray& ray) const;
     void trace_through(Ray ray, Hit hit, std::vector<PathStep>& path) const;
-    SurfacePoint surface_point(const Hit& hit, const Vector3& direction) const;
+    FilmPoint surface_point(const Hit& hit, const Vector3& direction) const;
     /// Calls visit(x, ray) for each sample of a row.
     void each_sample(std::size_t y,
                      const std::function<void(std::size_t x, const Ray& ray)>& visit) const;

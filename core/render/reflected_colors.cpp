@@ -128,7 +128,7 @@ ColorReport ReflectedColors::report() const {
 }
 
 /// Those of one thickness together, equal ones once.
-void ReflectedColors::compute_each(std::span<const SurfacePoint> points,
+void ReflectedColors::compute_each(std::span<const FilmPoint> points,
                                    std::span<Triple> colors) const {
     const auto key = [&](std::size_t i) {
         return std::pair(points[i].thickness_nm, points[i].cosine);
@@ -153,7 +153,7 @@ void ReflectedColors::compute_each(std::span<const SurfacePoint> points,
     }
 }
 
-void ReflectedColors::operator()(std::span<const SurfacePoint> points,
+void ReflectedColors::operator()(std::span<const FilmPoint> points,
                                  std::span<Triple> colors) const {
     if (!table_) return compute_each(points, colors);
     std::array<float, 3> found{};

@@ -30,7 +30,7 @@ LayerPlace layer_number(const Stack& stack, std::size_t number);
 double thickness_at(const Stack& stack, const LayerPlace& place);
 
 /// A place of a surface as light meets it.
-struct SurfacePoint {
+struct FilmPoint {
     double cosine = 1;  ///< of the angle of incidence
     double thickness_nm = 0;
 };
@@ -65,7 +65,7 @@ public:
     ReflectedColors(const ColorTables& tables, const RgbTransform& to_srgb, SurfaceStack stack,
                     const ColorPlan& plan);
 
-    void operator()(std::span<const SurfacePoint> points, std::span<Triple> colors) const;
+    void operator()(std::span<const FilmPoint> points, std::span<Triple> colors) const;
 
     /// Of the colours so far.
     ColorReport report() const;
@@ -74,7 +74,7 @@ private:
     /// Colours [cosine][channel] of one thickness.
     void compute(double thickness_nm, std::span<const double> cosines,
                  std::span<float> values) const;
-    void compute_each(std::span<const SurfacePoint> points, std::span<Triple> colors) const;
+    void compute_each(std::span<const FilmPoint> points, std::span<Triple> colors) const;
 
     SurfaceStack stack_;
     RgbTransform to_srgb_;
