@@ -42,6 +42,7 @@ void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
         Command{"cm", simple(add_cm_command)},
         Command{"bands", simple(add_bands_command)},
         Command{"profile", simple(add_profile_command)},
+        Command{"compare", simple(add_compare_command)},
         Command{"sweep", [&] { add_sweep_command(program, run, words); }},
         Command{"lut", simple(add_lut_command)},
         Command{"plan", simple(add_plan_command)},

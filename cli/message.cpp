@@ -103,4 +103,10 @@ void note(const std::string& text, bool quiet) {
     if (!quiet) std::cerr << "irido: note: " << message_line(text) << '\n';
 }
 
+void Notes::operator()(const std::string& text) {
+    const std::scoped_lock guard(lock_);
+    if (said_.size() >= kMost || !said_.insert(text).second) return;
+    note(said_.size() < kMost ? text : "further notes suppressed", quiet_);
+}
+
 }  // namespace irido::cli

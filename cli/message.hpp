@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,5 +23,20 @@ void print_error(std::string_view text);
 
 /// "irido: note: TEXT" on standard error, unless quiet.
 void note(const std::string& text, bool quiet);
+
+/// Prints each note once, and at most 100. Safe from many threads.
+class Notes {
+public:
+    explicit Notes(bool quiet) : quiet_(quiet) {}
+
+    void operator()(const std::string& text);
+
+private:
+    static constexpr std::size_t kMost = 100;
+
+    bool quiet_;
+    std::mutex lock_;
+    std::set<std::string> said_;
+};
 
 }  // namespace irido::cli

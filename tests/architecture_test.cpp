@@ -106,10 +106,11 @@ TEST_CASE("includes run one way between the rooms inside a room", "[architecture
     const std::map<std::string, std::vector<std::string>> order{
         {"core",
          {"", "math", "material", "stack", "coherent", "incoherent", "thickness", "film", "vector",
-          "spectrum", "periodic", "colorimetry", "color", "rough", "truth"}},
+          "spectrum", "periodic", "colorimetry", "engines", "color", "comparison", "rough",
+          "truth"}},
         {"schemas", {"", "readers", "documents"}},
         {"tables", {"", "files", "records", "resume", "pictures", "lut", "shaders"}},
-        {"cli", {"", "options", "queries", "sweep", "manual", "commands", "bench"}},
+        {"cli", {"", "options", "queries", "sweep", "comparison", "manual", "commands", "bench"}},
     };
     for (const auto& [room, inner] : order) {
         const auto place = [&names = inner](const std::string& name) {

@@ -55,25 +55,6 @@ Shard parse_shard(const std::string& text) {
     return {parse_whole_number("--shard", text.substr(0, slash), 1, static_cast<double>(of)), of};
 }
 
-/// Prints each note once.
-class Notes {
-public:
-    explicit Notes(bool quiet) : quiet_(quiet) {}
-
-    void operator()(const std::string& text) {
-        const std::scoped_lock guard(lock_);
-        if (said_.size() >= kMost || !said_.insert(text).second) return;
-        note(said_.size() < kMost ? text : "further notes suppressed", quiet_);
-    }
-
-private:
-    static constexpr std::size_t kMost = 100;
-
-    bool quiet_;
-    std::mutex lock_;
-    std::set<std::string> said_;
-};
-
 /// Whether stacks that differ only in this column have the same structure.
 bool is_shared(const SweptColumn& column) {
     return column.is_light() || schemas::VariedStack::is_thickness(column.path);

@@ -25,6 +25,7 @@ void add_color_command(CLI::App& program, Run& run);
 void add_cm_command(CLI::App& program, Run& run);
 void add_bands_command(CLI::App& program, Run& run);
 void add_profile_command(CLI::App& program, Run& run);
+void add_compare_command(CLI::App& program, Run& run);
 /// `arguments` of the program: --compute decides which options there are. Throws UsageError.
 void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments);
 void add_lut_command(CLI::App& program, Run& run);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/color/baselines/bare_base.hpp"
 #include "core/color/baselines/film_approximation.hpp"
 #include "core/color/fourier/one_film.hpp"
 #include "core/color/held_stack.hpp"
@@ -102,25 +103,6 @@ private:
     mutable Pool<Scratch> scratch_;
 };
 
-/// Linear sRGB of the bare substrate in air at normal incidence, clipped to [0, 1].
-Triple bare_color(const ColorTables& tables, const Stack& held) {
-    const Material& base = held.materials[held.substrate];
-    if (is_constant(base)) {
-        const Complex n = index_at(base, kRgb_nm[0]);
-        const double gray = std::min(1.0, std::norm((n - 1.0) / (n + 1.0)));
-        return {gray, gray, gray};
-    }
-    const Stack bare{{Material(), base}, 0, {}, 1};
-    const double normal_deg = 0;
-    StackColor color;
-    (*quadrature_color(tables, bare, {}))(bare, {&normal_deg, 1}, {&color, 1});
-    const RgbTransform transform(rgb_space("srgb"), tables.sensitivity().white(),
-                                 Adaptation::bradford);
-    Triple rgb = transform(color.xyz);
-    for (double& component : rgb) component = std::clamp(component, 0.0, 1.0);
-    return rgb;
-}
-
 }  // namespace
 
 std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, const Stack& stack,
@@ -146,8 +128,9 @@ std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, con
         case gltf: {
             require_film("gltf", stack, request);
             const Stack held = held_stack(stack, sensitivity);
-            return gltf_color(sensitivity, held,
-                              base_color ? *base_color : bare_color(tables, held), request);
+            return gltf_color(
+                sensitivity, held,
+                base_color ? *base_color : bare_base_color(tables, held, Material(), 1), request);
         }
         case smits:
             require_film("smits", stack, request);

@@ -33,10 +33,9 @@ namespace irido {
 ///
 /// `gltf`: iridescenceIor and iridescenceThickness are the film's, outsideIor the incident medium's
 /// index. Base F0, a colour, is the base colour of a metallic material, [0, 1] each: that of the
-/// bare base in air at normal incidence, in the same light, as linear sRGB, which is gray where the
-/// base's index is constant; or `base_color` if that is given. The result is linear sRGB, adapted
-/// from its white to the illuminant's as in `naive`; the matrices are irido's, 4e-5 away from the
-/// extension's rounded one. The formulas know no polarization: Light::unpolarized only.
+/// bare base in air at normal incidence as bare_base_color() has it, or `base_color` if that is
+/// given. The result is that of gltf_reflectance(), linear sRGB, adapted from its white to the
+/// illuminant's as in `naive`. The formulas know no polarization: Light::unpolarized only.
 ///
 /// Throws DomainError if the method does not take the stack, the sides, the light or a base colour,
 /// or if it is not one of these, and as IndexTable, StackPower, held_stack() and (naive, gltf)

@@ -4,52 +4,19 @@
 #include <string>
 
 #include "core/coherent/fresnel.hpp"
+#include "core/color/baselines/bare_base.hpp"
 #include "core/color/baselines/film_approximation.hpp"
 #include "core/color/fourier/one_film.hpp"
+#include "core/engines/engine.hpp"
+#include "core/engines/gaussian_observer.hpp"
+#include "core/engines/series.hpp"
 #include "core/error.hpp"
 
 namespace irido {
 
 namespace {
 
-/// Where closed forms take the indices of all wavelengths, nm.
-constexpr double kMiddle_nm = 550;
-
-constexpr std::size_t kGaussianOrders = 3, kGltfOrders = 2;
-
-/// A Gaussian in the wavenumber 1/lambda (1/m) as part of the observer under E. Source: BB17,
-/// supplemental code.
-struct Fit {
-    std::size_t channel;
-    double height, center, variance;
-};
-constexpr std::array kFits{
-    Fit{0, 5.4856e-13, 1.6810e6, 4.3278e9}, Fit{0, 9.7470e-14, 2.2399e6, 4.5282e9},
-    Fit{1, 4.4201e-13, 1.7953e6, 9.3046e9}, Fit{2, 5.2481e-13, 2.2084e6, 6.6121e9}};
-constexpr double kFitScale = 1.0685e-7;
-
-/// Fourier transform of the fitted observer at one optical path.
-class FittedObserver {
-public:
-    explicit FittedObserver(double path_nm) : phase_(2 * std::numbers::pi * 1e-9 * path_nm) {
-        for (std::size_t i = 0; i < kFits.size(); ++i)
-            heights_[i] = kFits[i].height * std::sqrt(2 * std::numbers::pi * kFits[i].variance) *
-                          std::exp(-kFits[i].variance * phase_ * phase_) / kFitScale;
-    }
-
-    /// Its real part, turned by `shift` radians, for each channel.
-    Triple operator()(const Triple& shift) const {
-        Triple xyz{};
-        for (std::size_t i = 0; i < kFits.size(); ++i)
-            xyz[kFits[i].channel] +=
-                heights_[i] * std::cos(kFits[i].center * phase_ + shift[kFits[i].channel]);
-        return xyz;
-    }
-
-private:
-    double phase_;
-    std::array<double, kFits.size()> heights_{};
-};
+constexpr std::size_t kGaussianOrders = 3;
 
 /// Indices where closed forms take them.
 FilmIndex middle_index(const std::string& method, const Stack& held) {
@@ -74,9 +41,9 @@ public:
             const Medium film = medium(index_.film, index_.incident, cos_theta);
             colors[a] = {};
             colors[a].method = kind_;
-            colors[a].xyz = film.q2.real() > 0
-                                ? xyz(cos_theta, film, 2 * thickness_nm * std::sqrt(film.q2.real()))
-                                : white_;
+            colors[a].xyz = film.q2.real() > 0 ? xyz(cos_theta, film, thickness_nm,
+                                                     2 * thickness_nm * std::sqrt(film.q2.real()))
+                                               : white_;
         }
     }
 
@@ -86,7 +53,8 @@ protected:
 
 private:
     /// path_nm  optical path difference 2 d n2 cos(theta2)
-    virtual Triple xyz(double cos_theta, const Medium& film, double path_nm) const = 0;
+    virtual Triple xyz(double cos_theta, const Medium& film, double thickness_nm,
+                       double path_nm) const = 0;
 
     ColorMethod::Kind kind_;
 };
@@ -98,11 +66,11 @@ public:
                      ColorMethod::Kind::gaussian),
           orders_(orders == 0 ? kGaussianOrders : orders),
           polarizations_(polarizations(light)),
-          mirror_(FittedObserver(0)({})) {}
+          mirror_(GaussianObserver(0)({})) {}
 
 private:
     /// R_j = C_0 + 2 sum_m C_m Re(exp(i m phi) H_j(m D)), with the names of BB17's appendix.
-    Triple xyz(double cos_theta, const Medium& film, double path_nm) const override {
+    Triple xyz(double cos_theta, const Medium& film, double, double path_nm) const override {
         const Medium above = medium(index_.incident, index_.incident, cos_theta);
         const Medium below = medium(index_.substrate, index_.incident, cos_theta);
         std::array<double, 2> step{}, amplitude{}, phi{};
@@ -120,7 +88,7 @@ private:
         Triple sum{constant, constant, constant};
         for (std::size_t m = 1; m <= orders_; ++m) {
             const auto order = static_cast<double>(m);
-            const FittedObserver observer(order * path_nm);
+            const GaussianObserver observer(order * path_nm);
             for (std::size_t i = 0; i < polarizations_.size(); ++i) {
                 amplitude[i] *= step[i];
                 const double shift = order * phi[i];
@@ -139,59 +107,26 @@ private:
     Triple mirror_;
 };
 
-/// Keeps the base's index finite: added to its F0, and the most that F0 may be then.
-constexpr double kF0Guard = 1e-4, kLargestF0 = 0.9999;
-
 class Gltf : public ClosedForm {
 public:
     Gltf(const Sensitivity& sensitivity, const Stack& held, const Triple& base_color)
         : ClosedForm(middle_index("gltf", held), sensitivity.white(), ColorMethod::Kind::gltf),
-          xyz_from_rgb_(xyz_from_srgb(sensitivity.white())),
-          rgb_from_xyz_(rgb_from_xyz(rgb_space("srgb"))) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double root = std::sqrt(std::min(base_color[c] + kF0Guard, kLargestF0));
-            base_[c] = (1 + root) / (1 - root);
-        }
+          xyz_from_rgb_(xyz_from_srgb(sensitivity.white())) {
+        film_.outside_n = index_.incident;
+        film_.film_n = index_.film.real();
+        film_.base_f0 = base_color;
     }
 
 private:
-    Triple xyz(double cos_theta, const Medium&, double path_nm) const override {
-        const double film = index_.film.real(), outside = index_.incident;
-        const double sine = outside / film * std::sqrt((1 - cos_theta) * (1 + cos_theta));
-        const double cos_film = std::sqrt(std::max(0.0, 1 - sine * sine));
-        const double R12 = schlick(normal_reflectance(film, outside), cos_theta);
-        const double T121 = 1 - R12, phi21 = film < outside ? 0 : std::numbers::pi;
-        Triple rgb{}, step{}, amplitude{}, phi{};
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double R23 = schlick(normal_reflectance(base_[c], film), cos_film);
-            const double R123 = std::clamp(R12 * R23, 1e-5, 0.9999);
-            const double Rs = T121 * T121 * R23 / (1 - R123);
-            rgb[c] = R12 + Rs;
-            step[c] = std::sqrt(R123);
-            amplitude[c] = 2 * (Rs - T121);
-            phi[c] = phi21 + (base_[c] < film ? std::numbers::pi : 0);
-        }
-        for (std::size_t m = 1; m <= kGltfOrders; ++m) {
-            const auto order = static_cast<double>(m);
-            // the phases of r, g, b serve X, Y, Z
-            const Triple turned =
-                FittedObserver(order * path_nm)({order * phi[0], order * phi[1], order * phi[2]});
-            for (std::size_t c = 0; c < 3; ++c) {
-                amplitude[c] *= step[c];
-                rgb[c] += amplitude[c] * product(rgb_from_xyz_[c], turned);
-            }
-        }
-        for (double& component : rgb) component = std::max(component, 0.0);
-        return {product(xyz_from_rgb_[0], rgb), product(xyz_from_rgb_[1], rgb),
-                product(xyz_from_rgb_[2], rgb)};
+    Triple xyz(double cos_theta, const Medium&, double thickness_nm, double) const override {
+        EngineFilm film = film_;
+        film.cos_theta = cos_theta;
+        film.thickness_nm = thickness_nm;
+        return product(xyz_from_rgb_, gltf_reflectance(film));
     }
 
-    static double product(const Triple& row, const Triple& column) {
-        return row[0] * column[0] + row[1] * column[1] + row[2] * column[2];
-    }
-
-    ColorMatrix xyz_from_rgb_, rgb_from_xyz_;
-    Triple base_{};  ///< real indices
+    ColorMatrix xyz_from_rgb_;
+    EngineFilm film_;
 };
 
 }  // namespace
