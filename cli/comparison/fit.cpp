@@ -192,8 +192,10 @@ std::vector<NamedFit> fits_of(const ComparisonQuery& query, const PreparedStack&
     const Stack& stack = prepared.document.stack;
     const std::vector<EngineColor> colors = comparison(stack, query.angles_deg());
     std::vector<Triple> xyz;
-    for (std::size_t a = 0; a < query.angles_deg().size(); ++a)
+    for (std::size_t a = 0; a < query.angles_deg().size(); ++a) {
+        require_exact(prepared.document.file, colors[a].exact_error);
         xyz.push_back(colors[a].exact_xyz.value());
+    }
     std::vector<NamedFit> fits;
     for (const ComparedEngine& engine : query.engines()) {
         fits.push_back(

@@ -39,6 +39,9 @@ private:
     std::array<tables::Column::Numbers, 3> rgb_, exact_;
 };
 
+/// Throws ToleranceError unless an exact colour of `name` is exact enough to be compared with.
+void require_exact(const std::string& name, double error);
+
 /// Engines against the exact colours of a stack.
 class ComparisonQuery : public Query {
 public:

@@ -379,6 +379,11 @@ TEST_CASE("compare refuses what it cannot do", "[cli][compare]") {
     check_refused(compare({stack, "--fit", "--engine", "gltf,three", "-f", "gltf"}),
                   "--format: gltf requires one --engine");
     check_refused(compare({stack, "--vary", "layers.3.thickness_nm=1,2"}), "layers.3");
+    check_refused(compare({"1 | 1e-5@300 | 2"}), "film index must be in [0.001, 10000]");
+    const Outcome thick = compare({"1 | 1.5@1e9 | Au", "--engine", "gltf", "--quiet"});
+    CHECK(thick.status == 1);
+    CHECK(thick.out.empty());
+    CHECK_THAT(thick.err, Contains("the exact colour cannot be had"));
 
     const auto table = [&](const std::string& text) {
         write_text(folder / "bad.csv", text);
