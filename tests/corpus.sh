@@ -39,6 +39,7 @@ for level in $levels; do
         keep "$name.layers" spectrum "$file" -w 400:700:50 -a 0,60 -p s,p --columns A_layers
         keep "$name.color" color "$file" -a 0:85:5 --side R
         keep "$name.seen" color "$file" -a 0:80:20 --method quadrature --tolerance 1e-9
+        keep "$name.engines" compare "$file" -a 0:80:20
         keep "$name.cm" cm "$file" -a 0,45 -p s,p
         keep "$name.bands" bands "$file" -a 0,40 -p s,p
         keep "$name.expression" convert "$file" -f expression
@@ -48,6 +49,7 @@ for level in $levels; do
         keep "film.${method/\//-}" color "1 | 1.4@350 | 2.1" -a 0:80:10 --method $method
         keep "mirror.${method/\//-}" color "1 | (1@200 | 1.5@180)^200 | 1" -a 0:80:10 --method $method
     done
+    keep engines.random compare --random 100 --rows
     film="air | 1.33@400 | 1.9+1.5i"
     for format in csv npy exr ktx2 bin; do
         for dtype in f16 f32 f64; do

@@ -170,6 +170,11 @@ int compare_film_set(const CompareCommand& command) {
     request.simd = execution_of(command.threads).simd;
     const std::vector<EngineColor> colors =
         compare_films(tables, engines, difference, films, request, command.threads);
+<<<<<<< HEAD
+=======
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        require_exact("film " + films[i / engines.size()].id, colors[i].exact_error);
+>>>>>>> 541ab94664c4545c0a84ef67078e9cfc3a57c2ff
     if (picture) {
         const std::string title = command.films.empty() ? command.random + " random films"
                                                         : schemas::shown_path(command.films);

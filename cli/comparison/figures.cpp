@@ -14,7 +14,9 @@ namespace {
 using tables::column_numbers;
 using tables::column_texts;
 
-const tables::FigureAxis kDeltaE{.quantity = "\u0394E 2000", .from_zero = true};
+tables::FigureAxis delta_e_axis() {
+    return {.quantity = "CIEDE2000", .from_zero = true};
+}
 
 /// Rows [engine][angle].
 struct EngineGrid {
@@ -61,7 +63,7 @@ tables::Figure strips(const EngineGrid& grid, tables::InkMixer& mixer) {
     colors.y.first = static_cast<double>(engines) + 0.5;  // the exact colour on top
     colors.y.last = -0.5;
     colors.grid = std::move(cells);
-    tables::Panel differences{.x = colors.x, .y = kDeltaE};
+    tables::Panel differences{.x = colors.x, .y = delta_e_axis()};
     for (std::size_t e = 0; e < engines; ++e) {
         tables::Series series{.name = grid.names[e], .style = e};
         for (const std::size_t a : grid.order)
@@ -72,7 +74,7 @@ tables::Figure strips(const EngineGrid& grid, tables::InkMixer& mixer) {
 }
 
 tables::Figure patches(const EngineGrid& grid, tables::InkMixer& mixer) {
-    tables::Panel colors, differences{.y = kDeltaE};
+    tables::Panel colors, differences{.y = delta_e_axis()};
     colors.x.names = differences.x.names = grid.names;
     colors.y.names = {"engine", "exact"};
     tables::SampleGrid cells{.x = {}, .y = {0, 1}};
@@ -92,10 +94,12 @@ tables::Figure patches(const EngineGrid& grid, tables::InkMixer& mixer) {
     colors.y.last = -0.5;
     colors.grid = std::move(cells);
     differences.series.push_back(std::move(bars));
-    return {.panels = {std::move(colors), std::move(differences)}, .shared_x = true};
+    constexpr double kWidth = 760, kNameWidth = 105;
+    return {.panels = {std::move(colors), std::move(differences)},
+            .width = std::max(kWidth, kNameWidth * static_cast<double>(grid.names.size())),
+            .shared_x = true};
 }
 
-/// Centres of that many bins.
 constexpr std::size_t kBins = 25;
 
 }  // namespace
@@ -133,7 +137,7 @@ tables::Figure histogram_figure(const tables::Records& rows, const std::string& 
             ++films;
         }
         tables::Panel panel{.title = name,
-                            .x = kDeltaE,
+                            .x = delta_e_axis(),
                             .y = {.quantity = "films", .unit = "%", .from_zero = true}};
         panel.x.first = 0;
         panel.x.last = width * kBins;
@@ -143,6 +147,15 @@ tables::Figure histogram_figure(const tables::Records& rows, const std::string& 
                                    films > 0 ? 100 * count[bin] / films : 0});
         panel.series.push_back(std::move(bars));
         figure.panels.push_back(std::move(panel));
+    }
+    double tallest = 0;
+    for (const tables::Panel& panel : figure.panels)
+        for (const tables::Point& point : panel.series.front().points)
+            tallest = std::max(tallest, point.y);
+    constexpr double kStep = 10;
+    for (tables::Panel& panel : figure.panels) {
+        panel.y.first = 0;
+        panel.y.last = kStep * std::ceil(tallest / kStep);
     }
     return figure;
 }

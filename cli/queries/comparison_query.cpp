@@ -52,6 +52,13 @@ std::string given_text(const GivenFilm& given) {
 
 }  // namespace
 
+void require_exact(const std::string& name, double error) {
+    constexpr double kVisible = 1e-5;
+    if (error > kVisible)
+        throw ToleranceError(name + ": the exact colour cannot be had: its error is " +
+                             to_text(error) + " in X, Y, Z");
+}
+
 EngineRows::EngineRows(const Triple& white)
     : exact_rgb_(rgb_space("srgb"), white, Adaptation::bradford) {}
 
@@ -126,10 +133,7 @@ public:
                       colors[i]);
             error = std::max(error, colors[i].exact_error);
         }
-        constexpr double kVisible = 1e-5;
-        if (error > kVisible)
-            query_.note_(prepared.document.file + ": exact colours have an error of up to " +
-                         to_text(error) + " in X, Y, Z");
+        require_exact(prepared.document.file, error);
         return colors.size();
     }
 
@@ -169,7 +173,7 @@ tables::RowPlot ComparisonQuery::plot(const tables::Records&, tables::GamutMappi
     tables::RowPlot plot;
     for (const char* name : {"angle_deg", "engine"})
         plot.keys.push_back({name, tables::axis_of_column(name)});
-    plot.values.push_back({"delta_e_2000", tables::axis_of_column("delta_e_2000")});
+    plot.values.push_back({"delta_e_2000", {.quantity = "CIEDE2000", .from_zero = true}});
     return plot;
 }
 

@@ -22,14 +22,15 @@ struct Engine {
     Triple (*reflectance)(const EngineFilm& film);
 };
 
-/// The README of KHR_materials_iridescence. total reflection, and a film without thickness, are
-/// those of its text; F0 = 0.9999, where the text divides by zero, has its limit.
+/// The README of KHR_materials_iridescence to the letter: total reflection is {1, 1, 1}, a film
+/// without thickness keeps its fringes, and an F0 of 1 becomes a negative index, which turns the
+/// phase by pi. Only F0 = 0.9999, where the text divides by zero, has its limit.
 Triple gltf_reflectance(const EngineFilm& film);
 /// The same with the extension's factor in [0, 1]: 0 is the bare base by Schlick's formula.
 Triple gltf_reflectance(const EngineFilm& film, double factor);
 Triple three_reflectance(const EngineFilm& film);
 Triple babylon_reflectance(const EngineFilm& film);
-/// thickness and film index only enter as the slider unity_slider().
+/// Thickness and film index enter by unity_slider() only.
 Triple unity_reflectance(const EngineFilm& film);
 Triple materialx_reflectance(const EngineFilm& film);
 Triple materialx_gltf_reflectance(const EngineFilm& film);

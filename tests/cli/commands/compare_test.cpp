@@ -335,7 +335,7 @@ TEST_CASE("compare draws strips, maps and histograms", "[cli][compare]") {
     };
     const std::string stack = "1 | 1.3@300 | Au";
     const std::string strips = svg({stack, "--engine", "gltf,cycles", "-a", "0:80:5"});
-    for (const char* const text : {"exact", "gltf", "cycles", "2000"})
+    for (const char* const text : {"exact", "gltf", "cycles", "CIEDE2000"})
         CHECK_THAT(strips, Contains(text));
     CHECK_THAT(svg({stack, "--engine", "gltf,cycles"}), Contains("exact"));
     svg({stack, "--engine", "gltf,cycles", "-a", "0:80:5", "--vary",
@@ -379,6 +379,11 @@ TEST_CASE("compare refuses what it cannot do", "[cli][compare]") {
     check_refused(compare({stack, "--fit", "--engine", "gltf,three", "-f", "gltf"}),
                   "--format: gltf requires one --engine");
     check_refused(compare({stack, "--vary", "layers.3.thickness_nm=1,2"}), "layers.3");
+    check_refused(compare({"1 | 1e-5@300 | 2"}), "film index must be in [0.001, 10000]");
+    const Outcome thick = compare({"1 | 1.5@1e9 | Au", "--engine", "gltf", "--quiet"});
+    CHECK(thick.status == 1);
+    CHECK(thick.out.empty());
+    CHECK_THAT(thick.err, Contains("the exact colour cannot be had"));
 
     const auto table = [&](const std::string& text) {
         write_text(folder / "bad.csv", text);
