@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -89,7 +90,7 @@ tables::RecordField field_of(const SweptColumn& column) {
     return {column.path};
 }
 
-bool has_field(const tables::RecordLayout& layout, const std::string& name) {
+bool has_field(std::span<const tables::RecordField> layout, const std::string& name) {
     return std::ranges::find(layout, name, &tables::RecordField::name) != layout.end();
 }
 
@@ -200,8 +201,9 @@ SweepEngine::SweepEngine(SweptStacks& stacks, const SweepSpace& space, const Que
     if (!angle_column_ && !query.splits_angles()) rows_per_unit_ *= query.angles_deg().size();
     const tables::RecordLayout computed = query.layout(stacks_.first());
     for (const SweptColumn& column : columns) layout_.push_back(field_of(column));
+    const std::size_t varied = layout_.size();
     for (const tables::RecordField& field : computed)
-        if (!has_field(layout_, field.name)) layout_.push_back(field);
+        if (!has_field(std::span(layout_).first(varied), field.name)) layout_.push_back(field);
 }
 
 double SweepEngine::cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const {

@@ -197,23 +197,33 @@ private:
         for (const SweptColumn& column : space_.columns())
             varied[column.path] = column.scattered.has_value();
         std::size_t offset = 0;
-        for (const tables::RecordField& field : layout_) {
+        for (std::size_t f = 0; f < layout_.size(); ++f) {
+            const tables::RecordField& field = layout_[f];
+            const std::size_t begin = offset;
+            offset += tables::packed_bytes(field, tables::TextCode::utf8);
+            if (is_named_again(f)) continue;
+            if (field.type != FieldType::text) numbers_.add(field, begin);
             const auto found = varied.find(field.name);
             if (found != varied.end()) {
-                if (!found->second) varied_.add(field, offset);
-                if (field.name == kSweptSample) sample_.add(field, offset);
+                if (!found->second) varied_.add(field, begin);
+                if (field.name == kSweptSample) sample_.add(field, begin);
             } else if (keys.contains(field.name)) {
-                keys_.add(field, offset);
+                keys_.add(field, begin);
             } else if (field.type != FieldType::text) {
-                quantities_.add(field, offset);
+                quantities_.add(field, begin);
             }
-            if (field.type != FieldType::text) numbers_.add(field, offset);
-            offset += tables::packed_bytes(field, tables::TextCode::utf8);
         }
         for (const SampleLimit& limit : limits_)
             limited_.push_back(static_cast<std::size_t>(
                 std::ranges::find(numbers_.fields, limit.column, &tables::RecordField::name) -
                 numbers_.fields.begin()));
+    }
+
+    /// Of columns of one name the last counts, which was asked for.
+    bool is_named_again(std::size_t field) const {
+        return std::any_of(
+            layout_.begin() + static_cast<std::ptrdiff_t>(field) + 1, layout_.end(),
+            [&](const tables::RecordField& other) { return other.name == layout_[field].name; });
     }
 
     Combination& combination_of(std::string_view row) {

@@ -49,7 +49,8 @@ public:
     std::vector<ProjectEntry> entries;
 
 private:
-    std::vector<ProjectEntry> read_block(const TextLine* opened) {
+    /// is_text  lines are not parted at their colons and open no blocks
+    std::vector<ProjectEntry> read_block(const TextLine* opened, bool is_text = false) {
         std::vector<ProjectEntry> found;
         while (at_ < lines_.size()) {
             const TextLine& line = lines_[at_++];
@@ -60,15 +61,16 @@ private:
                 throw InputError(file_, place_of(line, text), "End without a block");
             }
             const std::size_t colon = text.find(':');
-            if (colon == std::string_view::npos) {
+            if (is_text || colon == std::string_view::npos) {
                 found.push_back({line, {}, text, {}});  // a line of free text
                 continue;
             }
             ProjectEntry entry{
                 line, trimmed(text.substr(0, colon)), trimmed(text.substr(colon + 1)), {}};
-            // Description may be empty; blocks have nothing behind their colon
-            if (entry.value.empty() && !same_word(entry.keyword, "Description"))
-                entry.block = read_block(&line);
+            // blocks have nothing behind their colon, and descriptions may be empty
+            const bool is_description = entry.keyword.ends_with("Description");
+            if (entry.value.empty() && !is_description)
+                entry.block = read_block(&line, same_word(entry.keyword, "Comment"));
             found.push_back(std::move(entry));
         }
         if (opened) throw InputError(file_, place_of(*opened, trimmed(opened->text)), "has no End");

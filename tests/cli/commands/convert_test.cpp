@@ -59,12 +59,13 @@ const std::string kCoatings =
     "TABLE T1\nANGL 0\nWAVE 0.55 0.04 0.04 0.96 0.96\nIDEAL I 0.5 0.5\n";
 
 const std::string kProject =
-    "Version: 1.1\nComment:\n\tany: text\nEnd\n"
+    "Version: 1.1\nComment:\n\tany text:\nEnd\n"
     "Filter:\n\tDescription: synthetic\n\tSubstrate: FusedSilica 1000000.000000\n"
     "\tFrontMedium: void\n\tBackMedium: void\n\tCenterWavelength: 550.000000\n"
     "\tConsiderBackside: 0\n"
     "\tFrontLayer: Oxide 60.000000\n\tRefineThickness: 1\n\tAddNeedles: 0\n"
     "\tFrontLayer: SiO2 90.000000\n\tRefineThickness: 1\n\tAddNeedles: 0\n"
+    "\tLayerDescription:\n"
     "\tBackLayer: SiO2 30.000000\n\tBackLayer: Oxide 40.000000\n"
     "End\nTarget:\n\tKind: Reflection\nend\n";
 
