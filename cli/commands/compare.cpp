@@ -170,11 +170,8 @@ int compare_film_set(const CompareCommand& command) {
     request.simd = execution_of(command.threads).simd;
     const std::vector<EngineColor> colors =
         compare_films(tables, engines, difference, films, request, command.threads);
-<<<<<<< HEAD
-=======
     for (std::size_t i = 0; i < colors.size(); ++i)
         require_exact("film " + films[i / engines.size()].id, colors[i].exact_error);
->>>>>>> 541ab94664c4545c0a84ef67078e9cfc3a57c2ff
     if (picture) {
         const std::string title = command.films.empty() ? command.random + " random films"
                                                         : schemas::shown_path(command.films);
@@ -289,7 +286,7 @@ void add_film_options(CLI::App& command, CompareCommand& typed) {
 
 void add_compare_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "compare", "What renderers make of a thin film, beside its exact colour.");
+        "compare", "Thin films as renderers compute them, compared with their exact colours.");
     const auto options = std::make_shared<CompareCommand>();
     add_stack_options(*command, options->stack);
     command->get_option("STACK")->required(false);
@@ -326,7 +323,7 @@ void add_compare_command(CLI::App& program, Run& run) {
          "irido compare list -f json"},
         "Each row has the engine's r, g, b, the exact ones in linear sRGB and their\n"
         "CIEDE2000 difference. Engines take the first layer with its index at 550 nm over\n"
-        "the substrate; notes name what else the stack has. STACK may be the word list.");
+        "the substrate; notes name the properties left out. STACK may be the word list.");
     command->callback([options, &run] { run = [options] { return run_compare(*options); }; });
 }
 

@@ -192,15 +192,10 @@ std::vector<NamedFit> fits_of(const ComparisonQuery& query, const PreparedStack&
     const Stack& stack = prepared.document.stack;
     const std::vector<EngineColor> colors = comparison(stack, query.angles_deg());
     std::vector<Triple> xyz;
-<<<<<<< HEAD
-    for (std::size_t a = 0; a < query.angles_deg().size(); ++a)
-        xyz.push_back(colors[a].exact_xyz.value());
-=======
     for (std::size_t a = 0; a < query.angles_deg().size(); ++a) {
         require_exact(prepared.document.file, colors[a].exact_error);
         xyz.push_back(colors[a].exact_xyz.value());
     }
->>>>>>> 541ab94664c4545c0a84ef67078e9cfc3a57c2ff
     std::vector<NamedFit> fits;
     for (const ComparedEngine& engine : query.engines()) {
         fits.push_back(
@@ -208,8 +203,8 @@ std::vector<NamedFit> fits_of(const ComparisonQuery& query, const PreparedStack&
                                      comparison.given().with_thickness_of(stack), threads)});
         const double mean = fits.back().fit.delta_e_mean;
         if (mean >= kNoMatch)
-            say(prepared.document.file + ": no parameters of " + engine.name +
-                " match: the mean difference stays at " + two_digits(mean));
+            say(prepared.document.file + ": no match exists: the mean difference of " +
+                engine.name + " stays at " + two_digits(mean));
     }
     return fits;
 }

@@ -39,12 +39,9 @@ private:
     std::array<tables::Column::Numbers, 3> rgb_, exact_;
 };
 
-<<<<<<< HEAD
-=======
 /// Throws ToleranceError unless an exact colour of `name` is exact enough to be compared with.
 void require_exact(const std::string& name, double error);
 
->>>>>>> 541ab94664c4545c0a84ef67078e9cfc3a57c2ff
 /// Engines against the exact colours of a stack.
 class ComparisonQuery : public Query {
 public:
