@@ -39,31 +39,35 @@ Spectra spectra_of(const Stack& stack, double nm, double angle_deg, const Needs&
     return spectra(StackPower(stack), table, {&at, 1}, needs);
 }
 
-/// r by the Riccati equation of the layer, integrated upwards in classical Runge-Kutta steps: with
-/// Y = C/B, dY/dz = i k0 (Q - G Y^2) downwards, s: G = 1, Q = eps - S^2; p: G = 1 - S^2/eps,
-/// Q = eps.
-Complex by_riccati(double n0, Complex n1, Complex n2, GradedProfile profile, double d, Complex ns,
-                   double nm, double angle_deg, bool is_s) {
+/// r by the fields' equations, dB/dz = i k0 G C, dC/dz = i k0 Q B downwards, in classical
+/// Runge-Kutta steps; s: G = 1, Q = eps - S^2; p: G = 1 - S^2/eps, Q = eps.
+Complex by_runge_kutta(double n0, Complex n1, Complex n2, GradedProfile profile, double d,
+                       Complex ns, double nm, double angle_deg, bool is_s) {
     const double across = n0 * std::sin(angle_deg * kDegree), s2 = across * across;
     const double k0 = kTwoPi / nm, along = n0 * std::cos(angle_deg * kDegree);
     const Complex kz = std::sqrt(ns * ns - s2);
-    Complex y = is_s ? kz : ns * ns / kz;
-    const auto slope = [&](double t, Complex at) {
+    std::array<Complex, 2> at{is_s ? 1.0 : kz, is_s ? kz : ns * ns};
+    using Pair = std::array<Complex, 2>;
+    const auto slope = [&](double t, const Pair& f) {
         const Complex eps = graded_permittivity(profile, n1, n2, t);
         const Complex g = is_s ? 1.0 : 1.0 - s2 / eps, q = is_s ? eps - s2 : eps;
-        return Complex(0, -1) * k0 * (q - g * at * at);  // upwards
+        return Pair{Complex(0, -1) * k0 * g * f[1], Complex(0, -1) * k0 * q * f[0]};  // upwards
     };
     constexpr int kSteps = 20000;
     const double h = d / kSteps;
+    const auto moved = [](const Pair& f, double by, const Pair& along_it) {
+        return Pair{f[0] + by * along_it[0], f[1] + by * along_it[1]};
+    };
     for (int i = 0; i < kSteps; ++i) {
         const double t = 1 - static_cast<double>(i) / kSteps, half = t - 0.5 / kSteps,
                      next = t - 1.0 / kSteps;
-        const Complex a = slope(t, y), b = slope(half, y + h / 2 * a),
-                      c = slope(half, y + h / 2 * b), e = slope(next, y + h * c);
-        y += h / 6 * (a + 2.0 * b + 2.0 * c + e);
+        const Pair a = slope(t, at), b = slope(half, moved(at, h / 2, a)),
+                   c = slope(half, moved(at, h / 2, b)), e = slope(next, moved(at, h, c));
+        for (std::size_t j = 0; j < 2; ++j)
+            at[j] += h / 6 * (a[j] + 2.0 * b[j] + 2.0 * c[j] + e[j]);
     }
     const double y0 = is_s ? along : n0 * n0 / along;
-    return (y0 - y) / (y0 + y);
+    return (y0 * at[0] - at[1]) / (y0 * at[0] + at[1]);
 }
 
 }  // namespace
@@ -80,7 +84,7 @@ TEST_CASE("a layer whose 1/n is linear has a closed form", "[graded]") {
     CHECK_THAT(spectra_of(stack, nm, 0).s.R[0], WithinAbs(expected, 1e-10));
 }
 
-TEST_CASE("graded layers agree with the Riccati equation", "[graded]") {
+TEST_CASE("graded layers agree with the integrated fields", "[graded]") {
     struct Case {
         double n0;
         Complex n1, n2;
@@ -100,7 +104,7 @@ TEST_CASE("graded layers agree with the Riccati equation", "[graded]") {
                 const Spectra found = spectra_of(stack, 450, angle, needs);
                 for (const bool is_s : {true, false}) {
                     const Complex expected =
-                        by_riccati(n0, n1, n2, profile, d, ns, 450, angle, is_s);
+                        by_runge_kutta(n0, n1, n2, profile, d, ns, 450, angle, is_s);
                     INFO(n1 << " " << n2 << " " << static_cast<int>(profile) << " " << angle);
                     CHECK(std::abs((is_s ? found.s.r[0] : found.p.r[0]) - expected) < 1e-9);
                 }
@@ -123,7 +127,7 @@ TEST_CASE("parts keep energy and reciprocity, and their number is no more than n
         return graded_layer(constant(1.5), constant(to), GradedProfile::n, d, 1, "").parts.size();
     };
     CHECK(parts(1.5, 1000) == 4);
-    CHECK(parts(1.52, 100) < 40);
+    CHECK(parts(1.52, 100) < 200);
     CHECK(parts(2.5, 100) < parts(2.5, 400));
     const GradedLayer wild = graded_layer(constant(1.2), constant(3), GradedProfile::n, 2e5, 1, "");
     CHECK(wild.parts.size() == 2 * kMostGradedSteps);

@@ -120,7 +120,7 @@ TEST_CASE("many thin layers are a uniaxial one", "[uniaxial]") {
         last_s = off_s;
         last_p = off_p;
     }
-    CHECK(last_p < 1e-6);
+    CHECK(last_p < 1e-5);
     CHECK(std::abs(expected.p.R[0] - expected.s.R[0]) > 0.1);
 }
 
@@ -269,8 +269,8 @@ TEST_CASE("delays of uniaxial layers are derivatives of their phases", "[uniaxia
         const auto slope = [&](const auto& f) {
             return (8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h * w0);
         };
-        CHECK_THAT(at.t.gd_fs, WithinAbs(slope(phase), 1e-7));
-        CHECK_THAT(at.r.gdd_fs2, WithinAbs(slope(delay), 1e-6));
+        CHECK_THAT(at.t.gd_fs, WithinAbs(slope(phase), 1e-5));
+        CHECK_THAT(at.r.gdd_fs2, WithinAbs(slope(delay), 1e-4));
     }
 }
 

@@ -147,7 +147,7 @@ TEST_CASE("the series of a mixture has its derivatives", "[material]") {
             const auto second = [&](double h) {
                 return (at(h) - 2.0 * at(0) + at(-h)) / (2 * h * h);
             };
-            constexpr double h = 2e-3;
+            constexpr double h = 5e-4;
             const Complex d1 = (4.0 * first(h) - first(2 * h)) / 3.0;
             const Complex d2 = (4.0 * second(h) - second(2 * h)) / 3.0;
             CHECK(std::abs(series[1] - d1) < 1e-6 * (1 + std::abs(d1)));
