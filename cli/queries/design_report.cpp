@@ -20,10 +20,10 @@ using Quantity = DesignQuantity;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array<std::string_view, 15> kQuantityNames{
-    "R",           "T",           "A",       "psi_deg", "delta_deg", "delta_nebraska_deg",
-    "phase_r_deg", "phase_t_deg", "gd_r_fs", "gd_t_fs", "gdd_r_fs2", "gdd_t_fs2",
-    "tod_r_fs3",   "tod_t_fs3",   "lab"};
+constexpr std::array<std::string_view, 16> kQuantityNames{
+    "R",           "T",           "A",       "psi_deg",           "delta_deg", "delta_nebraska_deg",
+    "phase_r_deg", "phase_t_deg", "gd_r_fs", "gd_t_fs",           "gdd_r_fs2", "gdd_t_fs2",
+    "tod_r_fs3",   "tod_t_fs3",   "lab",     "total_thickness_nm"};
 
 constexpr std::array<const char*, 3> kLabNames{"L", "a", "b"};
 
@@ -93,18 +93,19 @@ tables::Records target_report(const schemas::DesignTask& task, const DesignRows&
         const bool is_color = target.quantity == Quantity::lab;
         const bool is_one = is_of_both(target.quantity);
         const std::size_t lights = is_one ? 1 : target.polarizations.size();
-        const std::size_t count = is_color ? 1 : target.wavelength_nm.size();
+        const bool is_total = target.quantity == Quantity::total_thickness_nm;
+        const std::size_t count = is_color || is_total ? 1 : target.wavelength_nm.size();
         for (std::size_t e = 0; e < entry_count(target); ++e) {
             const double angle = target.angle_deg[e / count / lights];
             const std::string letter =
-                is_one ? "" : letter_of(target.polarizations[e / count % lights]);
+                is_one || is_total ? "" : letter_of(target.polarizations[e / count % lights]);
             if (!is_color) {
                 const double value = rows.value[row], difference = rows.residual[row];
                 const bool met = target.side == TargetSide::equal
                                      ? std::abs(difference) <= allowed(task, target, e)
                                      : difference == 0;
                 report.add(number, std::string(name_of(target.quantity)), angle, letter,
-                           target.wavelength_nm[e % count],
+                           is_total ? kNone : target.wavelength_nm[e % count],
                            {value, target.target[e], difference, target.weight[e]},
                            met ? "yes" : "no");
                 ++row;
@@ -162,7 +163,7 @@ tables::Figure target_figure(const schemas::DesignTask& task, const tables::Reco
     std::map<std::string, std::size_t> panels;
     std::vector<std::map<std::string, std::size_t>> curves;
     for (std::size_t r = 0; r < report.rows(); ++r) {
-        if (quantity[r].starts_with("delta_e")) continue;
+        if (quantity[r].starts_with("delta_e") || quantity[r] == "total_thickness_nm") continue;
         const bool is_color = std::isnan(wavelength[r]);
         const auto [panel, is_new] = panels.try_emplace(quantity[r], figure.panels.size());
         if (is_new) {

@@ -36,7 +36,7 @@ public:
             }))
             analytic_ = false;
         count_rows();
-        set_weights();
+        rows_.weight = row_weights(problem_);
     }
 
     DesignProblem problem_;
@@ -72,8 +72,6 @@ public:
     void find_gradient(std::span<double> gradient, double* hessian) {
         sums_.find(problem_, rows_, gradient, hessian);
     }
-
-    Stack stack_at(std::span<const double> x) const { return stack_of(problem_, x); }
 
 private:
     /// What a derivative by a free value is made of.
@@ -158,6 +156,10 @@ private:
                 row.resize(level.lights.back().grid->stride, 0);
         }
         for (const DesignTarget& target : problem_.targets) {
+            if (target.quantity == Quantity::total_thickness_nm) {
+                level.places.emplace_back();
+                continue;
+            }
             const IndexGrid& grid = target.quantity == Quantity::lab
                                         ? *level.lights[light_of(target.light)].grid
                                         : grid_of(level, target.wavelength_nm);
@@ -189,8 +191,6 @@ private:
         rows_.residual.assign(rows, 0);
         rows_.jacobian.assign(rows * problem_.free.size(), 0);
     }
-
-    void set_weights() { rows_.weight = row_weights(problem_); }
 
     void set(std::span<const double> x) {
         const bool moved = set_values(problem_, x, stack_);
@@ -233,6 +233,8 @@ private:
         for (std::size_t t = 0; t < problem_.targets.size(); ++t) {
             if (problem_.targets[t].quantity == Quantity::lab) {
                 add_colors(t, with_slopes);
+            } else if (problem_.targets[t].quantity == Quantity::total_thickness_nm) {
+                add_thickness(t, with_slopes);
             } else {
                 add_spectra(t, with_slopes);
             }
@@ -318,6 +320,21 @@ private:
                         for (std::size_t p = 0; p < links_.size(); ++p) column(p)[row + w] = 0;
             }
         }
+    }
+
+    void add_thickness(std::size_t t, bool with_slopes) {
+        const std::size_t row = first_row_[t], value = first_value_[t];
+        rows_.value[value] = total_thickness(stack_.elements);
+        settle(problem_, t, 0, 1, rows_.value.data() + value, rows_.residual.data() + row);
+        if (!with_slopes ||
+            (problem_.targets[t].side != TargetSide::equal && rows_.residual[row] == 0))
+            return;
+        std::vector<double> repeats(written_.layers.size(), 0);
+        for (const std::uint32_t layer : written_.sequence) ++repeats[layer];
+        for (std::size_t p = 0; p < links_.size(); ++p)
+            for (const FreePlace& place : problem_.free[p].places)
+                if (const auto* thickness = std::get_if<ThicknessOf>(&place))
+                    column(p)[row] += repeats[written_.place_of.at(thickness->layer)];
     }
 
     double* column(std::size_t free) {
@@ -518,10 +535,6 @@ std::vector<double> DesignModel::start() const {
     for (const FreeValue& value : problem().free)
         x.push_back(std::clamp(value.start, value.low, value.high));
     return x;
-}
-
-Stack DesignModel::stack_at(std::span<const double> x) const {
-    return parts_->stack_at(x);
 }
 
 double DesignModel::objective(std::span<const double> x) {

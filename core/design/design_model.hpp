@@ -35,8 +35,6 @@ public:
     const DesignProblem& problem() const;
     std::size_t size() const { return problem().free.size(); }
     std::vector<double> start() const;
-    /// The stack at a point.
-    Stack stack_at(std::span<const double> x) const;
 
     /// The objective; infinite where the stack cannot be computed.
     double objective(std::span<const double> x);

@@ -69,6 +69,7 @@ enum class DesignQuantity {
     tod_r_fs3,
     tod_t_fs3,
     lab,
+    total_thickness_nm,  ///< of all layers, groups written out
 };
 
 /// Values that count only where they are below, or above, the target.
@@ -86,7 +87,7 @@ struct TargetLight {
 /// wavelengths; a quantity of both polarizations (psi, delta) has none of its own.
 struct DesignTarget {
     DesignQuantity quantity = DesignQuantity::R;
-    std::vector<double> wavelength_nm{};  ///< none for lab
+    std::vector<double> wavelength_nm{};  ///< none for lab and total_thickness_nm
     std::vector<double> angle_deg{};      ///< [0, 90)
     std::vector<Light> polarizations{Light::unpolarized};
     std::vector<double> target{};  ///< one an entry
@@ -117,6 +118,7 @@ struct DesignProblem {
 
 /// Entries of a target.
 inline std::size_t entry_count(const DesignTarget& target) {
+    if (target.quantity == DesignQuantity::total_thickness_nm) return 1;
     if (target.quantity == DesignQuantity::lab)
         return target.angle_deg.size() * target.polarizations.size();
     const bool both = target.quantity == DesignQuantity::psi_deg ||

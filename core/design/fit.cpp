@@ -21,14 +21,24 @@ struct Minimum {
     std::size_t evaluations = 0;
 };
 
+/// How far a value may move: through its bounds, if it has any.
+double scale_of(const FreeValue& value, double x) {
+    const double range = value.high - value.low;
+    return std::isfinite(range) ? range : std::abs(x) + 1;
+}
+
 /// Fills in errors and correlations from half of the second derivatives. In units of their own
 /// errors the matrix has ones on its diagonal; where its eigenvalues are rounding, the values along
 /// the eigenvector are not known.
-void find_errors(const std::vector<double>& hessian, std::size_t size, FitResult& result) {
-    constexpr double kRounding = 1e-13, kPart = 1e-3;
+void find_errors(const DesignProblem& problem, const std::vector<double>& hessian,
+                 FitResult& result) {
+    constexpr double kRounding = 1e-13, kPart = 1e-3, kInfluence = 1e-9;
+    const std::size_t size = problem.free.size();
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < size; ++i)
-        if (hessian[i * size + i] > 0) known.push_back(i);
+        if (std::sqrt(hessian[i * size + i] / 2) * scale_of(problem.free[i], result.x[i]) >
+            kInfluence)
+            known.push_back(i);
     result.standard_error.assign(size, kInfinity);
     result.correlation.assign(size * size, 0);
     for (std::size_t i = 0; i < size; ++i) result.correlation[i * size + i] = 1;
@@ -68,9 +78,7 @@ bool is_elsewhere(const DesignProblem& problem, const std::vector<double>& a,
                   const std::vector<double>& b) {
     constexpr double kNear = 1e-3;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const double range = problem.free[i].high - problem.free[i].low;
-        const double scale = std::isfinite(range) ? range : std::abs(a[i]) + 1;
-        if (std::abs(a[i] - b[i]) > kNear * scale) return true;
+        if (std::abs(a[i] - b[i]) > kNear * scale_of(problem.free[i], a[i])) return true;
     }
     return false;
 }
@@ -118,7 +126,7 @@ FitResult fit(const DesignProblem& problem, const SearchSettings& settings, std:
     model.adapt_colors(best.x, kFineColor);
     std::vector<double> gradient(model.size()), hessian(model.size() * model.size());
     model.objective(best.x, gradient, hessian);
-    find_errors(hessian, model.size(), result);
+    find_errors(problem, hessian, result);
     const std::size_t rows = model.rows().residual.size();
     std::size_t moving = 0;
     for (const FreeValue& value : problem.free) moving += value.is_integer ? 0 : 1;

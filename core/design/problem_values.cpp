@@ -261,8 +261,12 @@ void compute_values(const DesignProblem& problem, const Stack& stack, double tol
             continue;
         }
         std::vector<double> values;
-        TargetValues of_target(target, stack, simd);
-        for (const double angle_deg : target.angle_deg) of_target.at(angle_deg, values);
+        if (target.quantity == Quantity::total_thickness_nm) {
+            values = {total_thickness(stack.elements)};
+        } else {
+            TargetValues of_target(target, stack, simd);
+            for (const double angle_deg : target.angle_deg) of_target.at(angle_deg, values);
+        }
         std::vector<double> residuals(values.size());
         settle(problem, t, 0, values.size(), values.data(), residuals.data());
         rows.value.insert(rows.value.end(), values.begin(), values.end());

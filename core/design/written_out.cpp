@@ -50,6 +50,19 @@ WrittenOut::WrittenOut(const Stack& stack) {
     sequence = Writer(*this).write(stack.elements);
 }
 
+double total_thickness(const std::vector<Element>& elements) {
+    double sum = 0;
+    for (const Element& element : elements) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            sum += layer->thickness_nm;
+        } else {
+            const Group& group = std::get<Group>(element.value);
+            sum += static_cast<double>(group.repeat) * total_thickness(group.elements);
+        }
+    }
+    return sum;
+}
+
 Element* element_at(Stack& stack, const LayerPlace& place) {
     std::vector<Element>* elements = &stack.elements;
     Element* found = nullptr;

@@ -20,6 +20,9 @@ struct WrittenOut {
     explicit WrittenOut(const Stack& stack);
 };
 
+/// Thickness of elements, groups written out.
+double total_thickness(const std::vector<Element>& elements);
+
 /// The element at a place, nullptr if there is none.
 Element* element_at(Stack& stack, const LayerPlace& place);
 

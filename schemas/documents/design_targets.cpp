@@ -25,7 +25,7 @@ namespace {
 using nlohmann::json;
 using Quantity = DesignQuantity;
 
-constexpr std::array<std::pair<std::string_view, Quantity>, 17> kQuantities{
+constexpr std::array<std::pair<std::string_view, Quantity>, 18> kQuantities{
     {{"R", Quantity::R},
      {"T", Quantity::T},
      {"A", Quantity::A},
@@ -42,7 +42,8 @@ constexpr std::array<std::pair<std::string_view, Quantity>, 17> kQuantities{
      {"tod_t_fs3", Quantity::tod_t_fs3},
      {"lab", Quantity::lab},
      {"xyz", Quantity::lab},
-     {"hex", Quantity::lab}}};
+     {"hex", Quantity::lab},
+     {"total_thickness_nm", Quantity::total_thickness_nm}}};
 
 /// One target of the document, which is several where a file has several angles.
 class TargetReader {
@@ -74,6 +75,12 @@ public:
         if (json_.contains("sigma")) task_.has_sigma = true;
         if (target.quantity == Quantity::lab) return read_color(std::move(target));
         if (json_.contains("color")) fail("/color", "belongs to lab, xyz and hex");
+        if (target.quantity == Quantity::total_thickness_nm) {
+            for (const char* key : {"wavelengths_nm", "angles_deg", "angle_deg", "file"})
+                if (json_.contains(key)) fail(std::string("/") + key, "does not belong to it");
+            target.target = numbers("target", target, 0);
+            return finish(std::move(target));
+        }
         if (json_.contains("file")) return read_file(target);
         if (!json_.contains("wavelengths_nm")) fail("", "must have the key \"wavelengths_nm\"");
         target.wavelength_nm = list("wavelengths_nm", 1, 1e7);
@@ -156,7 +163,7 @@ private:
     void finish(DesignTarget target) {
         target.weight = numbers("weight", target, 1);
         if (target.sigma.empty()) target.sigma = numbers("sigma", target, 1);
-        if (target.quantity != Quantity::lab) require_indices(target);
+        if (!target.wavelength_nm.empty()) require_indices(target);
         task_.problem.targets.push_back(std::move(target));
         task_.target_numbers.push_back(number_);
     }
@@ -279,7 +286,7 @@ void note_contradictions(DesignTask& task) {
     std::map<Key, std::pair<std::size_t, double>> equal;
     for (std::size_t t = 0; t < task.problem.targets.size(); ++t) {
         const DesignTarget& target = task.problem.targets[t];
-        if (target.side != TargetSide::equal || target.quantity == Quantity::lab) continue;
+        if (target.side != TargetSide::equal || target.wavelength_nm.empty()) continue;
         const std::size_t count = target.wavelength_nm.size();
         for (std::size_t e = 0; e < target.target.size(); ++e) {
             const std::size_t lights = entry_count(target) / count / target.angle_deg.size();

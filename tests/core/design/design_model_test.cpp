@@ -178,6 +178,23 @@ TEST_CASE("targets of inequality count where they are violated", "[design]") {
     CHECK(none);
 }
 
+TEST_CASE("the total thickness may be bounded", "[design]") {
+    DesignProblem problem = mixed_problem();
+    DesignTarget total{.quantity = DesignQuantity::total_thickness_nm, .angle_deg = {0}};
+    total.target = {500};
+    total.weight = {1e-4};
+    total.sigma = {1};
+    problem.targets = {plain_target(DesignQuantity::R, {Light::s}, 0.3), total};
+    CHECK(jacobian_error(problem, start_of(problem)) < 1e-6);
+    DesignRows rows;
+    exact_merit(problem, start_of(problem), &rows);
+    CHECK(rows.value.back() == 120 + 3 * (60 + 120) + 12 + 70);  // of linked layers
+    problem.targets[1].side = TargetSide::at_most;
+    problem.targets[1].target = {1000};
+    exact_merit(problem, start_of(problem), &rows);
+    CHECK(rows.residual.back() == 0);
+}
+
 TEST_CASE("derivatives across incoherent plates", "[design]") {
     using enum DesignQuantity;
     for (const DesignQuantity quantity : {R, T, A}) {
