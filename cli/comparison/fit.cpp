@@ -203,8 +203,8 @@ std::vector<NamedFit> fits_of(const ComparisonQuery& query, const PreparedStack&
                                      comparison.given().with_thickness_of(stack), threads)});
         const double mean = fits.back().fit.delta_e_mean;
         if (mean >= kNoMatch)
-            say(prepared.document.file + ": no parameters of " + engine.name +
-                " match: the mean difference stays at " + two_digits(mean));
+            say(prepared.document.file + ": no match exists: the mean difference of " +
+                engine.name + " stays at " + two_digits(mean));
     }
     return fits;
 }

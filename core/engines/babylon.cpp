@@ -21,7 +21,7 @@ constexpr Engine kBabylonEngine{
     .name = "babylon",
     .title = "Babylon.js, PBRMaterial.iridescence",
     .version = "pbrBRDFFunctions at 00e0487, pbrBlockIridescence at 2851755",
-    .date = "2026",
+    .date = "read in 2026",
     .source =
         "https://github.com/BabylonJS/Babylon.js, packages/dev/core/src/Shaders/"
         "ShadersInclude/pbrBRDFFunctions.fx",

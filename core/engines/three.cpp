@@ -33,7 +33,7 @@ constexpr Engine kThreeEngine{
     .name = "three",
     .title = "three.js, MeshPhysicalMaterial (WebGL)",
     .version = "0.187.0",
-    .date = "2026-07",
+    .date = "2026-10",
     .source =
         "https://www.npmjs.com/package/three, src/renderers/shaders/ShaderChunk/"
         "iridescence_fragment.glsl.js",

@@ -36,7 +36,7 @@ constexpr Engine kUnityEngine{
     .name = "unity",
     .title = "Unity HDRP, EvalIridescence",
     .version = "core BSDF.hlsl with the colour matrix of SRP pull request 5691",
-    .date = "2021",
+    .date = "read in 2026",
     .source =
         "https://github.com/Unity-Technologies/Graphics, "
         "com.unity.render-pipelines.core/ShaderLibrary/BSDF.hlsl",

@@ -224,13 +224,17 @@ TEST_CASE("compare fits engines and writes their materials", "[cli][compare][slo
     CHECK_THAT(material("materialx-gltf", "mtlx"), Contains("<gltf_pbr name="));
     CHECK_THAT(material("cycles", "py"), Contains("\"PHYSICAL_CONDUCTOR\""));
     CHECK_THAT(material("cycles-principled", "py"), Contains("nodes[\"Principled BSDF\"]"));
-    // a mirror has no match, which is said
-    const Outcome mirror = compare({"1 | (1@200 | 1.5@180)^10 | 1", "--engine", "gltf", "--fit",
-                                    "--weights", "1,0,1", "-a", "0,20,40"});
-    CHECK(mirror.status == 0);
-    const Outcome beetle = compare({"schemas/examples/jewel-beetle-green.json", "--set",
-                                    "incident=1.5", "--engine", "gltf", "--fit"});
-    CHECK(beetle.status == 0);
+    // what cannot be matched is said: a beetle's mirror seen from inside its cuticle
+    const std::string beetle = "schemas/examples/jewel-beetle-green.json";
+    const Outcome inside = compare({beetle, "--set", "incident=1.59", "--engine", "gltf", "--fit"});
+    CHECK(inside.status == 0);
+    CHECK_THAT(inside.err, Contains("no match exists: the mean difference of gltf stays at 17"));
+    const Outcome outside = compare({beetle, "--engine", "gltf", "--fit"});
+    CHECK_THAT(outside.err, !Contains("no match exists"));
+    // weights: one angle alone can be met
+    const Rows one = compared({beetle, "--set", "incident=1.59", "--engine", "gltf", "--fit", "-a",
+                               "0,20,40", "--weights", "0,1,0", "--quiet"});
+    CHECK(number(one[one.size() - 2][2]) < 1);
 }
 
 TEST_CASE("compare reads materials of glTF assets", "[cli][compare]") {
