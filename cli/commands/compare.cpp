@@ -286,7 +286,7 @@ void add_film_options(CLI::App& command, CompareCommand& typed) {
 
 void add_compare_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "compare", "What renderers make of a thin film, beside its exact colour.");
+        "compare", "Thin films as renderers compute them, compared with their exact colours.");
     const auto options = std::make_shared<CompareCommand>();
     add_stack_options(*command, options->stack);
     command->get_option("STACK")->required(false);
@@ -323,7 +323,7 @@ void add_compare_command(CLI::App& program, Run& run) {
          "irido compare list -f json"},
         "Each row has the engine's r, g, b, the exact ones in linear sRGB and their\n"
         "CIEDE2000 difference. Engines take the first layer with its index at 550 nm over\n"
-        "the substrate; notes name what else the stack has. STACK may be the word list.");
+        "the substrate; notes name the properties left out. STACK may be the word list.");
     command->callback([options, &run] { run = [options] { return run_compare(*options); }; });
 }
 

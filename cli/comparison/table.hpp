@@ -8,7 +8,7 @@
 
 namespace irido::cli {
 
-/// What irido compare asks of a table of colours, as typed.
+/// Options of irido compare --lut, as typed.
 struct TableComparison {
     std::string file;
     schemas::StackRequest

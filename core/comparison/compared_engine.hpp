@@ -8,7 +8,7 @@
 
 namespace irido {
 
-/// What is compared with exact colours: a renderer's formula, or a method of core/color/baselines.
+/// A candidate for comparison: a renderer's formula, or a method of core/color/baselines.
 struct ComparedEngine {
     std::string name;                ///< as typed
     const Engine* engine = nullptr;  ///< or

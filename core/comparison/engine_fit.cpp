@@ -17,7 +17,7 @@ namespace irido {
 
 namespace {
 
-/// What parameters set.
+/// The state that parameters set.
 struct EngineSetting {
     EngineFilm film;
     double factor = 1;
@@ -25,7 +25,7 @@ struct EngineSetting {
 
 struct FormParameter {
     std::string_view name;
-    double first, last, step;  ///< range, and what it is rounded to
+    double first, last, step;  ///< range and rounding
     void (*set)(EngineSetting& setting, double value);
     double (*get)(const EngineSetting& setting);
 };
@@ -274,7 +274,7 @@ public:
         return ciede2000(difference_.lab_of_engine(engine_, rgb(at, angle)), exact_lab_[angle]);
     }
 
-    /// The parameters rounded, and what they give.
+    /// The rounded parameters with their differences.
     EngineFit result(std::span<const double> x) const {
         EngineFit fit;
         fit.form = form_.name;

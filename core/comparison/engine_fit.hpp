@@ -25,7 +25,7 @@ struct EngineFit {
     double value_of(std::string_view name) const;
 };
 
-/// What an engine is fitted to.
+/// The colours that a fit aims at.
 struct FitTarget {
     std::span<const double> angles_deg;  ///< [0, 90]
     std::span<const double> weights;     ///< of the angles, >= 0, not all 0

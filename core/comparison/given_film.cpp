@@ -39,7 +39,7 @@ bool absorbs(const Material& material) {
     return false;
 }
 
-/// Whether an incident medium is what engines take for it: real air is 3e-4 denser than vacuum.
+/// Whether an incident medium counts as air, which engines assume; real air has 1.0003.
 bool is_air(double n) {
     return std::abs(n - 1) < 5e-4;
 }

@@ -21,7 +21,7 @@ struct GivenFilm {
     LayerPlace layer;
     double thickness_scale = 1;  ///< n0
 
-    /// The film over the base as a stack: what `gaussian` and `smits` take.
+    /// The film over the base as a stack, for `gaussian` and `smits`.
     Stack reduced;
     /// Properties of the stack that no engine can be given, in words. Air counts as vacuum.
     std::vector<std::string> dropped;

@@ -27,7 +27,7 @@ public:
     StackComparison(const ColorTables& tables, std::span<const ComparedEngine> engines,
                     const EngineDifference& difference, const Stack& stack,
                     const ColorRequest& request);
-    /// The same where it is known what engines are given.
+    /// The same with known engine inputs.
     StackComparison(const ColorTables& tables, std::span<const ComparedEngine> engines,
                     const EngineDifference& difference, const Stack& stack,
                     const ColorRequest& request, GivenFilm given);

@@ -17,7 +17,7 @@ struct Engine {
     std::string_view inputs;  ///< with units
     std::string_view space;   ///< of the result, as the engine claims
     std::string_view white;
-    std::string_view limits;  ///< what it cannot take, and where its formula is off
+    std::string_view limits;  ///< inputs it lacks, known errors of its formula
     /// r, g, b of a film; a perfect mirror is 1. Finite for every film that with_base() returns.
     Triple (*reflectance)(const EngineFilm& film);
 };

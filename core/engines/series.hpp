@@ -46,7 +46,7 @@ inline bool is_below(double base_n, double film_n) {
     return base_n < film_n * (1 - 1e-12);
 }
 
-/// Both reflectances of a film for one polarization and one channel, and what follows from them:
+/// The Airy series of one polarization and one channel, from the reflectances of both faces:
 /// I = constant + sum_m amplitude step^m 2 S(m D, m phase).
 struct AirySeries {
     /// R12 of the upper face, R23 of the lower one, each in [0, 1]; an R23 below 0, which
@@ -62,15 +62,14 @@ struct AirySeries {
 /// the Gaussian observer. The phases of r, g, b serve X, Y, Z.
 Triple shader_series(const std::array<AirySeries, 3>& series, double opd_nm, const Triple& phase);
 
-/// What glTF's shader and its relatives compute before they clip: the series over Schlick's
-/// reflectances. {1, 1, 1} under total reflection.
-/// film_n   index of the film, instead of the one in `film`
+/// The series of glTF's shader and its relatives over Schlick's reflectances, before any clipping.
+/// {1, 1, 1} under total reflection. film_n   index of the film, instead of the one in `film`
 /// base_n   real indices of the base for r, g, b; may be infinite
 /// fresnel  Schlick's reflectance of F0 and the cosine
 Triple schlick_film(const EngineFilm& film, double film_n, const Triple& base_n,
                     double (*fresnel)(double f0, double cos_theta));
 
-/// F82-Schlick: schlick(f0, cos_theta) less what `tint` takes away at a cosine of 1/7.
+/// F82-Schlick: schlick(f0, cos_theta) with a dip that scales it by `tint` at a cosine of 1/7.
 double f82_schlick(double f0, double tint, double cos_theta);
 
 }  // namespace irido
