@@ -10,8 +10,8 @@ namespace irido::schemas {
 /// A material of a glTF asset with the extension KHR_materials_iridescence.
 struct GltfIridescence {
     std::string name;  ///< or "material N", counted from 0
-    /// Reflectance of the base at normal incidence, linear Rec.709, [0, 1]: baseColorFactor of a
-    /// metal, what KHR_materials_ior and KHR_materials_specular say of a dielectric, mixed by
+    /// Reflectance of the base at normal incidence, linear Rec.709, [0, 1]: baseColorFactor for a
+    /// metal, KHR_materials_ior and KHR_materials_specular for a dielectric, mixed by
     /// metallicFactor.
     std::array<double, 3> base_f0{};
     double factor = 0;  ///< [0, 1]
