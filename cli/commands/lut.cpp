@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/commands/lut_brdf.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/options/color_options.hpp"
 #include "cli/options/long_work.hpp"
@@ -455,6 +456,7 @@ void add_lut_command(CLI::App& program, Run& run) {
     CLI::App* lut = program.add_subcommand("lut", "Look-up tables for shaders and renderers.");
     lut->require_subcommand(1);
     for (const tables::LutKind* kind : tables::lut_kinds()) add_lut_kind(*lut, *kind, run);
+    add_lut_brdf(*lut, run);
     add_list(*lut, run);
     add_info(*lut, run);
     add_check(*lut, run);
