@@ -14,6 +14,7 @@ inline constexpr double kLargestSeed = 0x1p53;
 void add_bench_speed(CLI::App& bench, Run& run);
 void add_bench_stability(CLI::App& bench, Run& run);
 void add_bench_pareto(CLI::App& bench, Run& run);
+void add_bench_layered(CLI::App& bench, Run& run);
 void add_bench_scene(CLI::App& bench, Run& run);
 
 /// The names of cases, "all" first.

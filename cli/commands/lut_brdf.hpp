@@ -4,7 +4,8 @@
 
 namespace irido::cli {
 
-/// irido lut brdf
+/// irido lut brdf and irido lut layered, whose tables are of surfaces.
 void add_lut_brdf(CLI::App& lut, Run& run);
+void add_lut_layered(CLI::App& lut, Run& run);
 
 }  // namespace irido::cli
