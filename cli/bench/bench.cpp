@@ -7,6 +7,7 @@ void add_bench_command(CLI::App& program, Run& run) {
         "bench", "Benchmarks: speed, accuracy and stability on this machine.");
     command->require_subcommand(1);
     add_bench_design(*command, run);
+    add_bench_layered(*command, run);
     add_bench_pareto(*command, run);
     add_bench_render(*command, run);
     add_bench_scene(*command, run);

@@ -16,6 +16,7 @@ void add_bench_speed(CLI::App& bench, Run& run);
 void add_bench_stability(CLI::App& bench, Run& run);
 void add_bench_pareto(CLI::App& bench, Run& run);
 void add_bench_render(CLI::App& bench, Run& run);
+void add_bench_layered(CLI::App& bench, Run& run);
 void add_bench_scene(CLI::App& bench, Run& run);
 void add_bench_scratch(CLI::App& bench, Run& run);
 

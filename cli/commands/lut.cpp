@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/commands/lut_brdf.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/options/color_options.hpp"
 #include "cli/options/long_work.hpp"
@@ -378,9 +379,9 @@ std::vector<std::string> problems_of_table(const std::string& file) {
         const tables::Lut lut = tables::read_lut(file);
         std::vector<std::string> problems = tables::lut_problems(lut);
         const tables::LutKind* const kind = tables::find_lut_kind(lut.kind);
-        if (!kind)
+        if (!kind && lut.kind != "layered")
             problems.push_back("unknown kind '" + lut.kind + "'");
-        else if (problems.empty() && kind->problems)
+        else if (kind && problems.empty() && kind->problems)
             problems = kind->problems(lut);
         return problems;
     } catch (const tables::LutError& error) {
@@ -472,6 +473,8 @@ void add_lut_command(CLI::App& program, Run& run) {
     CLI::App* lut = program.add_subcommand("lut", "Look-up tables for shaders and renderers.");
     lut->require_subcommand(1);
     for (const tables::LutKind* kind : tables::lut_kinds()) add_lut_kind(*lut, *kind, run);
+    add_lut_brdf(*lut, run);
+    add_lut_layered(*lut, run);
     add_list(*lut, run);
     add_info(*lut, run);
     add_check(*lut, run);

@@ -105,6 +105,7 @@ LayeredScattering::Straight LayeredScattering::straight_through(
 
 std::vector<double> LayeredScattering::base_factors(const std::vector<double>& wavelength_nm,
                                                     Paths paths) const {
+    require_closed(paths);
     std::vector<double> factors;
     for (const double wavelength : wavelength_nm) factors.push_back(base_albedo(wavelength));
     if (paths == Paths::single) return factors;

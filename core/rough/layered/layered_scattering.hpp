@@ -81,6 +81,10 @@ public:
                                         const std::vector<double>& wavelength_nm,
                                         unsigned threads) const;
 
+    /// Albedo of the base, for all paths over 1 - albedo rbar, [wavelength]. Throws DomainError for
+    /// Paths::all unless is_closed().
+    std::vector<double> base_factors(const std::vector<double>& wavelength_nm, Paths paths) const;
+
     /// Of the base, 0 where there is none.
     double base_albedo(double wavelength_nm) const;
 
@@ -104,7 +108,6 @@ private:
     std::size_t crossed_layers() const;
     Straight straight_through(std::span<const double> theta_deg, std::size_t count,
                               const std::vector<double>& wavelength_nm) const;
-    std::vector<double> base_factors(const std::vector<double>& wavelength_nm, Paths paths) const;
     double masking(std::size_t count, double theta_deg) const;
     AngleSeries exits(std::size_t count, const std::vector<double>& wavelength_nm) const;
     std::vector<double> base_exit(const std::vector<double>& wavelength_nm) const;
