@@ -23,7 +23,7 @@ namespace irido::tables {
 /// An option specific to a kind of table, as the command line shows it.
 struct LutOption {
     enum class Type { list, number, whole, word, range, flag };  ///< range: a list of LO, HI
-    std::string_view name;  ///< without dashes
+    std::string_view name;                                       ///< without dashes
     Type type = Type::list;
     std::string_view help;        ///< with unit, range and default
     std::string_view fallback{};  ///< as typed; "" for none
