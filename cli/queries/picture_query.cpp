@@ -110,7 +110,7 @@ void PictureQueryOptions::add(CLI::App& command) {
            "ring, or gem (light is refracted into the substrate) [sphere]",
            "NAME");
     option("--tilt", tilt, "angle between a plane's normal and the line of sight, degrees [0]",
-           "DEGREES");
+           "ANGLE");
     option("--environment", environment,
            "light from all around: studio, sky, white (radiance 1), or a\n"
            "latitude-longitude picture .exr, twice as wide as high, in linear\n"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/random.hpp"
+#include "tables/pictures/figure.hpp"
 #include "tables/pictures/png_file.hpp"
 
 using namespace irido;
