@@ -113,7 +113,7 @@ MaterialFile table_of(const OpenFiltersMaterial& read, const std::string& name) 
 /// k = A exp(12400 B (1/(10000 L) - 1/C)), L in um, C in angstroms, as a table.
 std::optional<Table> urbach_tail(std::span<const double> numbers, std::vector<std::string>& notes) {
     if (numbers.size() < 3 || numbers[0] == 0) return std::nullopt;
-    constexpr double kFirst_nm = 200, kLast_nm = 20000, kMost_k = 100, kStep = 1.002;
+    constexpr double kFirst_nm = 200, kLast_nm = 20000, kMost_k = 100, kStep = 1.001;
     Table k;
     for (double nm = kFirst_nm; nm <= kLast_nm; nm *= kStep) {
         const double value =
