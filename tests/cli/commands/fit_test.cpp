@@ -10,15 +10,16 @@ namespace {
 
 /// A table of what the program itself prints, with noise that is the same every time.
 std::string measured(const std::string& stack, const std::string& angles, double noise) {
-    const Outcome outcome = run_irido(
-        {"spectrum", stack, "-w", "400:800:10", "-a", angles, "--columns", "psi_deg,delta_deg"});
+    const Outcome outcome = run_irido({"spectrum", stack, "-w", "400:800:10", "-a", angles, "-p",
+                                       "s", "--columns", "psi_deg,delta_deg"});
+    INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     const auto rows = parse_csv(outcome.out);
     std::string text = "wavelength_nm,angle_deg,psi_deg,delta_deg\n";
     double phase = 0;
     for (std::size_t i = 1; i < rows.size(); ++i) {
-        const double psi = std::stod(rows[i][3]) + noise * std::sin(phase += 7.3);
-        const double delta = std::stod(rows[i][4]) + 5 * noise * std::sin(phase += 3.1);
+        const double psi = std::stod(rows[i][6]) + noise * std::sin(phase += 7.3);
+        const double delta = std::stod(rows[i][7]) + 5 * noise * std::sin(phase += 3.1);
         text += rows[i][0] + "," + rows[i][1] + "," + irido::to_text(psi) + "," +
                 irido::to_text(delta) + "\n";
     }
