@@ -296,7 +296,7 @@ TEST_CASE("delays and colours of graded layers and crystals", "[cli][spectrum]")
 }
 
 TEST_CASE("quarter waves and mixtures on the command line", "[cli][spectrum]") {
-    const auto quarter = rows_of({"spectrum", "air | (H@1Q | L@1Q)^8 | 1.52", "--reference", "550",
+    const auto quarter = rows_of({"spectrum", "1 | (H@1Q | L@1Q)^8 | 1.52", "--reference", "550",
                                   "--material", "H=2.35", "--material", "L=1.46", "-w", "550"});
     // H^16 over L^16: (n0/ns) (H/L)^16 at the centre
     const double y = std::pow(2.35 / 1.46, 16) * 1.52;
