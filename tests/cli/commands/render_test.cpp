@@ -85,7 +85,7 @@ TEST_CASE("an environment from a file lights the picture", "[cli][render]") {
         "b.exr");
 }
 
-TEST_CASE("the same bytes for every number of threads", "[cli][render]") {
+TEST_CASE("pictures have the same bytes for every number of threads", "[cli][render]") {
     TemporaryFolder folder;
     const auto bytes = [&](const std::string& threads, const std::string& name) {
         REQUIRE(run_irido({"render", "air | 1.33@400 | air", "--shape", "bubble", "--size", "64",
