@@ -289,7 +289,7 @@ TEST_CASE("compare reads back the asset of a fit", "[cli][compare][slow]") {
     CHECK(rows[1][1] == fit[5][2]);
 }
 
-TEST_CASE("compare holds a table of colours against the exact ones", "[cli][compare]") {
+TEST_CASE("compare holds a table of colours against the exact ones", "[cli][compare][slow]") {
     const TemporaryFolder folder;
     const std::string stack = "air | 1.33@400 | 1.9+1.5i", file = folder / "film.ktx2";
     const auto make = [&](const std::string& size) {
@@ -349,7 +349,7 @@ TEST_CASE("compare draws strips, maps and histograms", "[cli][compare]") {
     CHECK_THAT(histogram, Contains("50 random films"));
 }
 
-TEST_CASE("compare refuses what it cannot do", "[cli][compare]") {
+TEST_CASE("compare refuses what it cannot do", "[cli][compare][slow]") {
     const TemporaryFolder folder;
     const std::string stack = "1 | 1.3@300 | 2";
     check_refused(compare({}), "STACK is required (see irido compare --help)");
