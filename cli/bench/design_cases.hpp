@@ -9,7 +9,7 @@ namespace irido::cli {
 struct DesignCase {
     std::string_view name;
     std::string_view summary;
-    double best;            ///< best known merit; 0: what fits exactly
+    double best;  ///< best known merit, published or by longer searches; 0: what fits exactly
     std::string_view task;  ///< a design task, JSON
 };
 

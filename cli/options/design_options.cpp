@@ -115,7 +115,7 @@ void add_needle_options(CLI::App& command, TaskOptions& options) {
     command
         .add_option("--materials", options.materials,
                     "needle: materials to choose from, with commas: SiO2,TiO2")
-        ->type_name("NAMES");
+        ->type_name("MATERIALS");
     command
         .add_option("--max-layers", options.max_layers,
                     "needle: most layers that are not fixed, [1, 500] [20]")

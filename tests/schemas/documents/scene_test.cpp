@@ -386,7 +386,8 @@ TEST_CASE("validate prints each schema", "[cli][validate][scene]") {
         CHECK(outcome.status == 0);
         CHECK(outcome.out == read_file(IRIDO_SOURCE_DIR "/schemas/" + name + ".schema.json"));
     }
-    check_refused(run_irido({"validate", "--schema", "scenes"}),
-                  "--schema: must be one of stack, scene, manifest, lut (got 'scenes') (did you "
-                  "mean \"scene\"?)");
+    check_refused(
+        run_irido({"validate", "--schema", "scenes"}),
+        "--schema: must be one of stack, design, scene, manifest, lut (got 'scenes') (did you "
+        "mean \"scene\"?)");
 }
