@@ -17,7 +17,7 @@ using nlohmann::json;
 namespace {
 
 StackDocument read_form(const json& document) {
-    return read_stack(document, "f", std::string(IRIDO_SOURCE_DIR) + "/tests/data");
+    return read_stack(document, "f", IRIDO_SOURCE_DIR "/tests/data");
 }
 
 std::string refusal_of(const json& document) {
