@@ -5,7 +5,7 @@ import { describe, it } from 'node:test';
 import { runInBrowser } from './support/chromium.js';
 import { kinds, temporaryFolder } from './support/irido.js';
 
-const rooms = ['textures', 'color', 'cumulative', 'sensitivity', 'fourier', 'bragg', 'falpha-closed', 'kinds'];
+const rooms = ['textures', 'color', 'cumulative', 'sensitivity', 'fourier', 'bragg', 'falpha-closed', 'layered', 'kinds'];
 const folder = temporaryFolder();
 const jobs = [], skipped = [];
 for (const room of rooms) {
