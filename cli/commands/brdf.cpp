@@ -33,6 +33,10 @@ int run_brdf(const BrdfCommand& command) {
                                       kAllWavelengths.first_nm, kAllWavelengths.last_nm);
     query.execution = execution_of(command.threads);
     query.note = [&](const std::string& text) { note(text, command.quiet); };
+    constexpr double kManySamples = 1e8;
+    if (!query.samples.empty() && command.output.file.empty() &&
+        parse_one_number("--samples", query.samples, 2, 1e12) > kManySamples)
+        throw UsageError("--samples: more than 1e8 require --output, where the rows are kept");
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
     check_writable(command.output);
     SurfaceRows rows =

@@ -8,6 +8,13 @@
 
 namespace irido {
 
+namespace {
+
+/// Angles whose moments are kept: 100 MB.
+constexpr std::size_t kMostKept = 8192;
+
+}  // namespace
+
 /// Moments of one angle, for one thread at a time.
 struct LayerTransport::Moments {
     explicit Moments(FilterNodes nodes) : moments(std::move(nodes)) {}
@@ -22,12 +29,15 @@ LayerTransport::LayerTransport(const RoughLayer& layer, SimdLevel simd)
 
 std::shared_ptr<LayerTransport::Moments> LayerTransport::moments_of(double theta_deg,
                                                                     bool behind) const {
-    const std::scoped_lock guard(lock_);
-    auto& moments = moments_[{theta_deg, behind}];
     const auto facets = behind ? FilterNodes::Facets::behind : FilterNodes::Facets::seen;
-    if (!moments)
-        moments = std::make_shared<Moments>(FilterNodes(filter_, theta_deg, simd_, facets));
-    return moments;
+    const auto made = [&] {
+        return std::make_shared<Moments>(FilterNodes(filter_, theta_deg, simd_, facets));
+    };
+    const std::scoped_lock guard(lock_);
+    const auto found = moments_.find({theta_deg, behind});
+    if (found != moments_.end()) return found->second;
+    if (moments_.size() >= kMostKept) return made();
+    return moments_[{theta_deg, behind}] = made();
 }
 
 std::vector<double> LayerTransport::straight(double theta_deg,

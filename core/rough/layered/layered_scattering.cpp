@@ -21,6 +21,9 @@ namespace irido {
 
 namespace {
 
+/// Of straight light relative to masking, where it is integrated over.
+constexpr double kExitTolerance = 1e-7;
+
 /// Pairs whose facets are computed together.
 constexpr std::size_t kPairsTogether = 16;
 
@@ -81,7 +84,8 @@ double LayeredScattering::base_albedo(double wavelength_nm) const {
     return std::get<Constant>(surface_.base_albedo).value;
 }
 
-LayeredScattering::Straight LayeredScattering::straight_through(
+/// f_t cos of every layer at every angle.
+LayeredScattering::Straight LayeredScattering::straight_directly(
     std::span<const double> theta_deg, std::size_t count,
     const std::vector<double>& wavelength_nm) const {
     Straight straight;
@@ -100,6 +104,34 @@ LayeredScattering::Straight LayeredScattering::straight_through(
                 products.push_back(products[l * tau.size() + w] * tau[w]);
         }
     });
+    return straight;
+}
+
+/// The same, of very many angles from series over the angle where these are shorter: 1e-9 of what
+/// is not masked.
+LayeredScattering::Straight LayeredScattering::straight_through(
+    std::span<const double> theta_deg, std::size_t count,
+    const std::vector<double>& wavelength_nm) const {
+    constexpr std::size_t kMany = 2000;
+    constexpr double kSmoothEnough = 0.03, kTolerance = 1e-9;
+    double alpha = kRoughest;
+    for (std::size_t l = 0; l < count; ++l) alpha = std::min(alpha, layers_[l]->alpha());
+    if (count == 0 || theta_deg.size() < kMany || alpha < kSmoothEnough)
+        return straight_directly(theta_deg, count, wavelength_nm);
+    const std::size_t W = wavelength_nm.size();
+    Straight straight;
+    straight.wavelengths = W;
+    for (const double theta : theta_deg) straight.products.try_emplace(theta);
+    for (auto& [theta, products] : straight.products) products.assign((count + 1) * W, 1);
+    for (std::size_t l = 1; l <= count; ++l) {
+        const AngleSeries series = exits(l, wavelength_nm, kTolerance);
+        for (auto& [theta, products] : straight.products) {
+            const std::span<double> values = std::span(products).subspan(l * W, W);
+            series.values(theta, values);
+            const double G1 = masking(l, theta);
+            for (double& value : values) value = std::max(0.0, value * G1);
+        }
+    }
     return straight;
 }
 
@@ -218,15 +250,15 @@ double LayeredScattering::masking(std::size_t count, double theta_deg) const {
 
 /// prod_{k<count} f_t cos relative to masking(), which has the features at grazing: a function of
 /// the angle inside for each wavelength.
-AngleSeries LayeredScattering::exits(std::size_t count,
-                                     const std::vector<double>& wavelength_nm) const {
-    constexpr double kExitTolerance = 1e-7, kNearGrazing_deg = 1e-6;
-    return {wavelength_nm.size(), kExitTolerance, [&](std::span<const double> angles) {
+AngleSeries LayeredScattering::exits(std::size_t count, const std::vector<double>& wavelength_nm,
+                                     double tolerance) const {
+    constexpr double kNearGrazing_deg = 1e-6;
+    return {wavelength_nm.size(), tolerance, [&](std::span<const double> angles) {
                 // at grazing both vanish: the limit from above the surface
                 std::vector<double> below;
                 for (const double theta : angles)
                     below.push_back(std::min(theta, 90 - kNearGrazing_deg));
-                const Straight straight = straight_through(below, count, wavelength_nm);
+                const Straight straight = straight_directly(below, count, wavelength_nm);
                 std::vector<double> values;
                 values.reserve(angles.size() * wavelength_nm.size());
                 for (const double theta : below) {
@@ -240,7 +272,7 @@ AngleSeries LayeredScattering::exits(std::size_t count,
 std::vector<double> LayeredScattering::base_exit(const std::vector<double>& wavelength_nm) const {
     double alpha = kRoughest;
     for (const auto& layer : layers_) alpha = std::min(alpha, layer->alpha());
-    const AngleSeries series = exits(layers_.size(), wavelength_nm);
+    const AngleSeries series = exits(layers_.size(), wavelength_nm, kExitTolerance);
     return exit_from_below(coating_, alpha, series,
                            [&](double theta) { return masking(layers_.size(), theta); });
 }
@@ -288,7 +320,7 @@ void LayeredScattering::add_lower_layer_albedo(std::size_t l, std::span<const do
                                                std::span<double> out) const {
     const std::size_t W = wavelength_nm.size();
     const Straight in = straight_through(theta_deg, l, wavelength_nm);
-    const AngleSeries above = exits(l, wavelength_nm);
+    const AngleSeries above = exits(l, wavelength_nm, kExitTolerance);
     layers_[l]->facets().prepare(wavelength_nm, execution_.threads);
     const auto series = layers_[l]->facets()(wavelength_nm);
     parallel_for(theta_deg.size(), execution_.threads, [&](std::size_t i) {

@@ -106,10 +106,13 @@ private:
     struct Straight;
     struct Moments;
     std::size_t crossed_layers() const;
+    Straight straight_directly(std::span<const double> theta_deg, std::size_t count,
+                               const std::vector<double>& wavelength_nm) const;
     Straight straight_through(std::span<const double> theta_deg, std::size_t count,
                               const std::vector<double>& wavelength_nm) const;
     double masking(std::size_t count, double theta_deg) const;
-    AngleSeries exits(std::size_t count, const std::vector<double>& wavelength_nm) const;
+    AngleSeries exits(std::size_t count, const std::vector<double>& wavelength_nm,
+                      double tolerance) const;
     std::vector<double> base_exit(const std::vector<double>& wavelength_nm) const;
     void add_first_layer_albedo(std::span<const double> theta_deg,
                                 const std::vector<double>& wavelength_nm,

@@ -203,3 +203,17 @@ TEST_CASE("bench scene compares a bake with tables of everything", "[cli][bench]
     check_refused(run_irido({"bench", "scene", "-n", "0"}), "--count");
     check_refused(run_irido({"bench", "scene", "missing.json"}), "missing.json");
 }
+
+TEST_CASE("bench layered measures four methods", "[cli][bench]") {
+    const Outcome outcome =
+        run_irido({"bench", "layered", "--cases", "A", "--samples", "500", "--budget", "0"});
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const auto rows = parse_csv(outcome.out);
+    REQUIRE(rows.size() == 5);
+    CHECK(rows[0] == std::vector<std::string>{"case", "method", "prepare_s", "evaluate_s",
+                                              "smape_percent", "efficiency"});
+    // all paths have no bias, unlike single reflections
+    CHECK(std::stod(rows[4][4]) < std::stod(rows[2][4]));
+    CHECK_THAT(rows[2][4], StartsWith(rows[3][4].substr(0, 2)));
+}

@@ -136,6 +136,7 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--light-theta", "nan"}, "--light-theta");
     refuse({kPale, "--quantity", "colour"}, "--quantity: must be one of brdf, albedo");
     refuse({kPale, "--paths", "few"}, "--paths: must be one of single, all");
+    refuse({kPale, "--paths", "simulation", "--samples", "1e9"}, "require --output");
     refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");
     refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e+12]");
     refuse({kPale, "--paths", "simulation", "--facets", "none"}, "--facets: must be one of");

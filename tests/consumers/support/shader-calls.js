@@ -35,6 +35,7 @@ export const calls = {
         'float4(irido_scratch_nodes($table, 33.0, x, y, 0.28), 1.0)',
         'float4(irido_scratch_nodes_slope($table, 33.0, x, y), 1.0)',
     ],
+    layered: ['two_layers($table, x, y)'],
     sensitivity: [
         `float4(irido_sensitivity_real($table, ${axis}, x, y), 1.0)`,
         `both($table, x, y)`,
@@ -47,6 +48,20 @@ export const calls = {
 
 /** What a call needs beside the snippet. */
 export const helpers = {
+    layered: {
+        glsl: `vec4 two_layers(highp sampler2D table, float x, float y) {
+    float alpha[IRIDO_LAYERS];
+    for (int layer = 0; layer < IRIDO_LAYERS; ++layer) alpha[layer] = 0.1;
+    return vec4(irido_layered(table, ${axis.replace('float3', 'vec3')}, ${axis.replace('float3', 'vec3')}, 4, alpha, 1.0, 1.35,
+        normalize(vec3(x, y, 1.0)), normalize(vec3(y, x, 1.0))), 1.0);
+}`,
+        hlsl: `float4 two_layers(Texture2D table, SamplerState table_sampler, float x, float y) {
+    float alpha[IRIDO_LAYERS];
+    for (int layer = 0; layer < IRIDO_LAYERS; ++layer) alpha[layer] = 0.1;
+    return float4(irido_layered(table, table_sampler, ${axis}, ${axis}, 4, alpha, 1.0, 1.35,
+        normalize(float3(x, y, 1.0)), normalize(float3(y, x, 1.0))), 1.0);
+}`,
+    },
     sensitivity: {
         glsl: `vec4 both(highp sampler2D table, float x, float y) {
     vec3 re, im;

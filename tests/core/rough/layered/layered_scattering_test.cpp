@@ -119,6 +119,19 @@ TEST_CASE("what the layers let through and how they are sampled", "[rough][layer
     }
 }
 
+TEST_CASE("very many directions are as exact as few", "[rough][layered]") {
+    const LayeredScattering scattering = scattering_of(kCoated);
+    const std::vector<double> nm{450, 600};
+    std::vector<ScatterPair> pairs;
+    for (int k = 0; k < 1500; ++k) pairs.push_back({0.03 * k, 80 - 0.05 * k, 0.1 * k});
+    const std::vector<double> many = scattering.brdf(pairs, nm, Paths::single);
+    for (std::size_t p = 0; p < pairs.size(); p += 97) {
+        const std::vector<double> one = scattering.brdf({&pairs[p], 1}, nm, Paths::single);
+        for (std::size_t w = 0; w < nm.size(); ++w)
+            CHECK_THAT(many[p * nm.size() + w], WithinRel(one[w], 1e-8));
+    }
+}
+
 TEST_CASE("BRDFs are reciprocal", "[rough][layered]") {
     Random random(3);
     for (int i = 0; i < 20; ++i) {

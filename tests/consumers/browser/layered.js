@@ -1,0 +1,47 @@
+// Rough layered surfaces in a shader, against irido's own BRDF at 100 pairs of directions.
+import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { csv, irido, randomNumbers } from '../support/irido.js';
+import { deltaE2000, labFromSrgb } from '../support/color.js';
+import { axis, flat, glsl, makeTable, rows, snippet } from './jobs.js';
+
+const surfaces = { 'green-on-pale': 1, 'blue-over-red': 2 };
+
+const direction = (theta, phi) => {
+    const [t, p] = [theta * Math.PI / 180, phi * Math.PI / 180];
+    return [Math.sin(t) * Math.cos(p), Math.sin(t) * Math.sin(p), Math.cos(t)];
+};
+
+export function makeJobs(folder) {
+    const random = randomNumbers(9);
+    return Object.entries(surfaces).map(([name, layers]) => {
+        const surface = `schemas/examples/surfaces/${name}.json`;
+        const metadata = makeTable(folder, `${name}.ktx2`, 'layered', surface, '--bands', '24', '--size', '1024');
+        const { alpha, groups, n_outside_per_n_inside: ratio } = metadata.request;
+        const pairs = Array.from({ length: 100 }, () => [random(0, 80), random(0, 360), random(0, 80), random(0, 360)]);
+        const file = `${folder}/${name}.csv`;
+        writeFileSync(file, ['light_theta_deg,light_phi_deg,view_theta_deg,view_phi_deg', ...pairs.map(String)].join('\n'));
+        const expected = csv(irido('brdf', surface, '--directions', file, '--color'))
+            .map(({ r, g, b }) => [Number(r), Number(g), Number(b)]);
+        const axes = metadata.axes.map(axis);
+        return {
+            name,
+            tables: { table: `/tables/${name}.ktx2` },
+            source: `#define IRIDO_LAYERS ${layers}\n${snippet('layered')}`,
+            result: `float alpha[IRIDO_LAYERS];\n${alpha.map((a, l) => `alpha[${l}] = ${glsl(a)};`).join(' ')}
+return vec4(irido_layered(table, ${axes.join(', ')}, ${groups}, alpha, ${glsl(ratio)}, 1.0, a.xyz, vec3(a.w, b.xy)), 1.0);`,
+            points: flat(pairs.map(([lt, lp, vt, vp]) => [...direction(lt, lp), ...direction(vt, vp)])),
+            check(values) {
+                const differences = rows(values, 3).map((rgb, i) => {
+                    const seen = rgb.map((value) => value * Math.PI);
+                    const bright = Math.max(1, ...expected[i], ...seen);
+                    const lab = (color) => labFromSrgb(color.map((value) => value / bright));
+                    return deltaE2000(lab(seen), lab(expected[i]));
+                });
+                const largest = Math.max(...differences), stated = metadata.error.value;
+                assert.ok(largest <= 2 * stated + 0.5, `Delta E 2000 is ${largest}, stated are ${stated}`);
+                return `largest Delta E 2000 ${largest.toPrecision(2)}, stated ${stated.toPrecision(2)}`;
+            },
+        };
+    });
+}
