@@ -11,6 +11,7 @@
 #include "cli/queries/picture_query.hpp"
 #include "cli/sweep/space.hpp"
 #include "core/error.hpp"
+#include "core/rough/ggx.hpp"
 #include "schemas/documents/canonical_stack.hpp"
 #include "schemas/documents/varied_stack.hpp"
 #include "tables/pictures/glyphs.hpp"
@@ -23,6 +24,7 @@ namespace irido::cli {
 namespace {
 
 constexpr std::size_t kMostSheetPictures = 1024;
+constexpr std::string_view kRoughness = "alpha";  ///< the one varied value outside the stack
 
 struct RenderCommand {
     schemas::StackRequest stack;
@@ -177,7 +179,8 @@ int render_sheet(const RenderCommand& command, const PictureQuery& query,
                  const schemas::StackSource& source, const SweepSpace& space) {
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     std::vector<std::string> paths;
-    for (const SweptColumn& column : space.columns()) paths.push_back(column.path);
+    for (const SweptColumn& column : space.columns())
+        if (column.path != kRoughness) paths.push_back(column.path);
     const schemas::VariedStack varied(source, paths);
     const SheetLayout layout(space, query.scene().camera);
     constexpr std::size_t kMostSide = 16384;
@@ -187,10 +190,16 @@ int render_sheet(const RenderCommand& command, const PictureQuery& query,
                          " pixels, at most 16384 a side are drawn");
     const auto count = static_cast<std::size_t>(space.size());
     std::vector<schemas::StackDocument> documents;
+    std::vector<std::optional<double>> alphas(count);
     for (std::size_t i = 0; i < count; ++i) {
         std::vector<nlohmann::json> values;
-        for (std::size_t c = 0; c < paths.size(); ++c)
-            values.push_back(space.columns()[c].value(space.at(c, i)));
+        for (std::size_t c = 0; c < space.columns().size(); ++c) {
+            nlohmann::json value = space.columns()[c].value(space.at(c, i));
+            if (space.columns()[c].path == kRoughness)
+                alphas[i] = value.get<double>();
+            else
+                values.push_back(std::move(value));
+        }
         documents.push_back(varied.document(values));
     }
     for (const std::string& text : documents.front().notes) say(text);
@@ -199,8 +208,8 @@ int render_sheet(const RenderCommand& command, const PictureQuery& query,
     RenderProgress progress(command.quiet, count);
     constexpr Triple kWhite{1, 1, 1};
     for (std::size_t i = 0; i < count; ++i) {
-        const DrawnPicture drawn =
-            query.draw(documents[i], [&](double part) { progress.set(i, part); });
+        const DrawnPicture drawn = query.draw(
+            documents[i], [&](double part) { progress.set(i, part); }, alphas[i]);
         const tables::Pixels pixels = tables::pixels_over(drawn.picture, kWhite);
         for (std::size_t y = 0; y < layout.height; ++y)
             std::copy_n(&pixels.inks[y * layout.width], layout.width,
@@ -218,6 +227,18 @@ int render_sheet(const RenderCommand& command, const PictureQuery& query,
     return 0;
 }
 
+/// Throws UsageError for values that pictures cannot vary.
+void check_column(const SweptColumn& column, ShapeKind shape) {
+    if (column.is_light())
+        throw UsageError("--vary: " + column.path + " is not a value of the stack");
+    if (column.path != kRoughness) return;
+    if (!is_simple(shape)) throw UsageError("--vary alpha: only spheres and planes can be rough");
+    if (column.is_text()) throw UsageError("--vary alpha: must be numbers");
+    for (const double alpha : column.numbers)
+        if (!(alpha >= kSmoothest && alpha <= kRoughest))
+            throw UsageError("--vary alpha: must be in [0.0001, 1] (got " + to_text(alpha) + ")");
+}
+
 int run_render(const RenderCommand& command) {
     const RenderFormat format = render_format(command);
     const bool is_sheet = !command.vary.empty();
@@ -228,10 +249,7 @@ int run_render(const RenderCommand& command) {
     if (!is_sheet) return render_one(command, query, source, format);
     if (format != RenderFormat::png) throw UsageError("--vary: a contact sheet must be .png");
     const SweepSpace space(command.vary, "");
-    for (const SweptColumn& column : space.columns())
-        if (column.is_light() || column.path == "alpha")
-            throw UsageError("--vary: " + column.path +
-                             " is no value of the stack, and cannot be varied in pictures yet");
+    for (const SweptColumn& column : space.columns()) check_column(column, query.scene().shape);
     if (space.size() > kMostSheetPictures)
         throw UsageError("--vary: must be at most " + std::to_string(kMostSheetPictures) +
                          " pictures (got " + std::to_string(space.size()) + ")");
@@ -250,7 +268,7 @@ void add_render_command(CLI::App& program, Run& run) {
         ->add_option("--vary", options->vary,
                      "draw a picture for every value of a number of the stack, by dotted path,\n"
                      "and make a labelled sheet of them; repeatable, the last changes fastest:\n"
-                     "layers.0.thickness_nm=100:700/6")
+                     "layers.0.thickness_nm=100:700/6; alpha is the roughness")
         ->type_name("PATH=LIST")
         ->allow_extra_args(false);
     add_output_options(*command, options->output, "png or exr");
@@ -267,7 +285,7 @@ void add_render_command(CLI::App& program, Run& run) {
          "-o bubble.png",
          "irido render \"air | TiO2@60 | Ti\" --environment white -o sphere.exr",
          "irido render \"air | 1.38@100 | 1.9+1.5i\" --vary layers.0.thickness_nm=100:700/6 "
-         "-o sheet.png"},
+         "--vary alpha=0.05,0.1,0.2 -o sheet.png"},
         "PNG is sRGB; EXR is linear, single precision, with alpha multiplied in. A pixel is the\n"
         "colour of irido color (D65, 2 degrees, Bradford) times the light that it mirrors. The\n"
         "sphere, of radius 0.9 times half of the smaller side, is seen by parallel rays: at the\n"

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/rough/ggx.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
 #include "tables/files/hash.hpp"
@@ -15,6 +16,7 @@ namespace irido::cli {
 
 namespace {
 
+constexpr std::size_t kRoughSamples = 64;
 constexpr double kMostSide = 8192, kMostExposure = 40, kMostSeed = 1e15;
 
 /// W,H or one number for both.
@@ -128,9 +130,15 @@ void PictureQueryOptions::add(CLI::App& command) {
            "the layer whose thickness varies, counted from 1 as light meets them;\n"
            "the layers of a group count once [1]",
            "N");
+    option("--alpha", alpha,
+           "roughness of a sphere or a plane: facets of the GGX distribution, each the\n"
+           "stack, [1e-4, 1] [smooth]",
+           "ALPHA");
     option("--samples", samples,
-           "rays per pixel, spread over it, [1, 65536] [one, through its centre]", "N");
-    option("--seed", seed, "of the rays' places in a pixel [1]", "N");
+           "rays per pixel, spread over it, [1, 65536] [one, through its centre; 64\n"
+           "with --alpha]",
+           "N");
+    option("--seed", seed, "of the rays' places in a pixel, and of facets [1]", "N");
     option("--exposure", exposure, "brighten by 2^EV, [-40, 40] [0]", "EV");
     option("--tolerance", tolerance,
            "largest error of colours by a table, CIEDE2000, [0.001, 10] [0.1]", "E");
@@ -163,6 +171,10 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
     if (!typed.samples.empty())
         scene_.samples = parse_whole_number("--samples", typed.samples, 1,
                                             static_cast<double>(kMostPictureSamples));
+    if (!typed.alpha.empty())
+        scene_.alpha = parse_one_number("--alpha", typed.alpha, kSmoothest, kRoughest);
+    if (scene_.alpha && !is_simple(scene_.shape))
+        throw UsageError("--alpha: a rough " + typed.shape + " cannot be drawn yet");
     scene_.seed = parse_whole_number("--seed", typed.seed, 0, kMostSeed);
     exposure_ = parse_one_number("--exposure", typed.exposure, -kMostExposure, kMostExposure);
     tolerance_ = parse_one_number("--tolerance", typed.tolerance, 0.001, 10);
@@ -178,22 +190,26 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
 }
 
 DrawnPicture PictureQuery::draw(const schemas::StackDocument& document,
-                                const std::function<void(double)>& progress) const {
+                                const std::function<void(double)>& progress,
+                                std::optional<double> alpha) const {
     try {
-        return draw_stack(document.stack, progress);
+        return draw_stack(document.stack, progress, alpha ? alpha : scene_.alpha);
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());
     }
 }
 
 DrawnPicture PictureQuery::draw_stack(const Stack& stack,
-                                      const std::function<void(double)>& progress) const {
+                                      const std::function<void(double)>& progress,
+                                      std::optional<double> alpha) const {
     if (scene_.shape == ShapeKind::bubble && stack.incident != stack.substrate)
         throw DomainError("a bubble has the same medium inside as outside (the stack has " +
                           stack.materials[stack.substrate].name + " and " +
                           stack.materials[stack.incident].name + ")");
     SurfaceStack surface{stack};
     PictureScene scene = scene_;
+    scene.alpha = alpha;
+    if (alpha && typed_.samples.empty()) scene.samples = kRoughSamples;
     if (scene.shape == ShapeKind::gem) scene.inner_index = index_of_gem(stack);
     if (scene.noise) {
         surface.varied = layer_number(stack, noise_layer_);
@@ -231,10 +247,11 @@ nlohmann::json PictureQuery::request() const {
         {"environment",
          environment_hash_.empty() ? typed_.environment : "sha256:" + environment_hash_},
         {"background", typed_.background},
-        {"samples", scene_.samples},
+        {"samples", scene_.alpha && typed_.samples.empty() ? kRoughSamples : scene_.samples},
         {"seed", scene_.seed},
         {"exposure", exposure_},
         {"observer", typed_.light.observer}};
+    if (scene_.alpha) request["alpha"] = *scene_.alpha;
     if (scene_.shape == ShapeKind::plane) request["tilt_deg"] = scene_.tilt_deg;
     request["illuminant"] = typed_.light.illuminant;
     if (typed_.exact)

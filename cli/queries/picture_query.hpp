@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,8 @@ struct PictureQueryOptions {
     std::string thickness_noise;  ///< "" for none
     std::string octaves = "1";
     std::string noise_layer = "1";
-    std::string samples;  ///< "" for the centres of the pixels
+    std::string alpha;    ///< "" for a smooth surface
+    std::string samples;  ///< "" for the default
     std::string seed = "1";
     std::string exposure = "0";
     std::string tolerance = "0.1";
@@ -48,10 +50,11 @@ public:
     PictureQuery(const PictureQueryOptions& typed, const Execution& execution,
                  std::size_t usual_size = 512);
 
-    /// `progress` gets a growing fraction, from any thread. Throws InputError for a stack that
-    /// cannot be drawn.
+    /// `progress` gets a growing fraction, from any thread; `alpha`, if any, replaces the roughness
+    /// typed. Throws InputError for a stack that cannot be drawn.
     DrawnPicture draw(const schemas::StackDocument& document,
-                      const std::function<void(double)>& progress) const;
+                      const std::function<void(double)>& progress,
+                      std::optional<double> alpha = {}) const;
 
     const PictureScene& scene() const { return scene_; }
     const Sensitivity& sensitivity() const { return light_->tables.sensitivity(); }
@@ -63,7 +66,8 @@ public:
     static std::string caution(const DrawnPicture& drawn);
 
 private:
-    DrawnPicture draw_stack(const Stack& stack, const std::function<void(double)>& progress) const;
+    DrawnPicture draw_stack(const Stack& stack, const std::function<void(double)>& progress,
+                            std::optional<double> alpha) const;
 
     PictureQueryOptions typed_;
     Execution execution_;

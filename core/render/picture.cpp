@@ -1,12 +1,15 @@
 #include "core/render/picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/random.hpp"
+#include "core/render/facet_sample.hpp"
+#include "core/rough/ggx.hpp"
 
 namespace irido {
 
@@ -32,40 +35,57 @@ std::unique_ptr<const Shape> shape_of(const PictureScene& scene) {
 }
 
 std::uint32_t reversed_bits(std::uint32_t bits) {
-    std::uint32_t result = 0;
-    for (int i = 0; i < 32; ++i, bits >>= 1U) result = (result << 1U) | (bits & 1U);
-    return result;
+    bits = ((bits >> 1U) & 0x55555555U) | ((bits & 0x55555555U) << 1U);
+    bits = ((bits >> 2U) & 0x33333333U) | ((bits & 0x33333333U) << 2U);
+    bits = ((bits >> 4U) & 0x0f0f0f0fU) | ((bits & 0x0f0f0f0fU) << 4U);
+    bits = ((bits >> 8U) & 0x00ff00ffU) | ((bits & 0x00ff00ffU) << 8U);
+    return (bits >> 16U) | (bits << 16U);
 }
 
-/// The second dimension of Sobol's sequence.
+/// The second dimension of Sobol's sequence: Pascal's triangle modulo 2 times the reversed index.
 std::uint32_t second_sobol(std::uint32_t index) {
-    std::uint32_t result = 0;
-    for (std::uint32_t v = 1U << 31U; index != 0; index >>= 1U, v ^= v >> 1U)
-        if (index & 1U) result ^= v;
-    return result;
+    std::uint32_t bits = reversed_bits(index);
+    bits ^= bits << 16U;
+    bits ^= (bits & 0x00ff00ffU) << 8U;
+    bits ^= (bits & 0x0f0f0f0fU) << 4U;
+    bits ^= (bits & 0x33333333U) << 2U;
+    bits ^= (bits & 0x55555555U) << 1U;
+    return bits;
 }
 
-/// Where the samples of a pixel lie: a (0, 2)-sequence, shifted by random bits.
-/// Source: T. Kollig, A. Keller, Efficient multidimensional sampling, Computer Graphics Forum
-/// 21, 557 (2002).
+/// A permutation of 32-bit numbers whose lower bits depend on the higher ones only if read from the
+/// other end: Owen's scrambling of a sequence in base 2.
+std::uint32_t scrambled(std::uint32_t bits, std::uint32_t seed) {
+    bits = reversed_bits(bits);
+    bits ^= bits * 0x3d20adeaU;
+    bits += seed;
+    bits *= (seed >> 16U) | 1U;
+    bits ^= bits * 0x05526c56U;
+    bits ^= bits * 0x53a22864U;
+    return reversed_bits(bits);
+}
+
+/// Pairs of numbers for the samples of a pixel: scrambled (0, 2)-sequences, in an order of their
+/// own for each `pair`. Source: B. Burley, Practical hash-based Owen scrambling, JCGT 9(4), 1
+/// (2020).
 class PixelSamples {
 public:
-    PixelSamples(std::uint64_t seed, std::size_t pixel) {
-        Random random(Random(seed).bits() ^ (0x9e3779b97f4a7c15U * (pixel + 1)));
+    PixelSamples(std::uint64_t seed, std::size_t pixel, std::size_t pair) {
+        Random random(Random(seed).bits() ^ (0x9e3779b97f4a7c15U * (2 * pixel + pair + 1)));
         const std::uint64_t bits = random.bits();
-        shift_x_ = static_cast<std::uint32_t>(bits);
-        shift_y_ = static_cast<std::uint32_t>(bits >> 32U);
+        first_ = static_cast<std::uint32_t>(bits);
+        second_ = static_cast<std::uint32_t>(bits >> 32U);
+        order_ = static_cast<std::uint32_t>(random.bits());
     }
-    double x(std::size_t sample) const {
-        return part(reversed_bits(static_cast<std::uint32_t>(sample)) ^ shift_x_);
-    }
-    double y(std::size_t sample) const {
-        return part(second_sobol(static_cast<std::uint32_t>(sample)) ^ shift_y_);
+    std::array<double, 2> operator()(std::size_t sample) const {
+        const std::uint32_t index = scrambled(static_cast<std::uint32_t>(sample), order_);
+        return {part(scrambled(reversed_bits(index), first_)),
+                part(scrambled(second_sobol(index), second_))};
     }
 
 private:
     static double part(std::uint32_t bits) { return (static_cast<double>(bits) + 0.5) * 0x1p-32; }
-    std::uint32_t shift_x_, shift_y_;
+    std::uint32_t first_, second_, order_;
 };
 
 Triple product(const Triple& a, const Triple& b) {
@@ -99,6 +119,10 @@ Painter::Painter(PictureScene scene) : scene_(std::move(scene)), shape_(shape_of
     require_in_range("samples", static_cast<double>(scene_.samples), 0,
                      static_cast<double>(kMostPictureSamples));
     if (scene_.noise) field_.emplace(*scene_.noise);
+    if (!scene_.alpha) return;
+    require_in_range("alpha", *scene_.alpha, kSmoothest, kRoughest);
+    if (!is_simple(scene_.shape)) throw DomainError("only spheres and planes can be rough");
+    if (scene_.samples == 0) throw DomainError("samples of a rough surface must be at least 1");
 }
 
 FilmPoint Painter::surface_point(const Hit& hit, const Vector3& direction) const {
@@ -129,11 +153,26 @@ void Painter::trace_through(Ray ray, Hit hit, std::vector<PathStep>& path) const
     }
 }
 
-bool Painter::trace(const Ray& first, std::vector<PathStep>& path) const {
+PathStep Painter::rough_step(const Hit& hit, const Sample& sample) const {
+    const FacetSample facet =
+        facet_sample(hit.normal, -sample.ray.direction, *scene_.alpha, sample.u, sample.v);
+    FilmPoint at = surface_point(hit, sample.ray.direction);
+    at.cosine = facet.cosine;
+    Triple light{};
+    if (facet.visible_part > 0) light = scene_.environment(facet.direction);
+    for (double& channel : light) channel *= facet.visible_part;
+    return {at, false, true, light};
+}
+
+bool Painter::trace(const Sample& sample, std::vector<PathStep>& path) const {
     path.clear();
-    Ray ray = first;
+    Ray ray = sample.ray;
     std::optional<Hit> hit = shape_->first_hit(ray);
     if (!hit) return false;
+    if (scene_.alpha) {
+        path.push_back(rough_step(*hit, sample));
+        return true;
+    }
     if (!is_opaque(scene_.shape)) {
         trace_through(ray, *hit, path);
         return true;
@@ -153,18 +192,22 @@ bool Painter::trace(const Ray& first, std::vector<PathStep>& path) const {
     }
 }
 
-void Painter::each_sample(std::size_t y,
-                          const std::function<void(std::size_t, const Ray&)>& visit) const {
+void Painter::each_sample(std::size_t y, std::size_t samples,
+                          const std::function<void(std::size_t, const Sample&)>& visit) const {
     const Camera& camera = scene_.camera;
     for (std::size_t x = 0; x < camera.width; ++x) {
         const auto left = static_cast<double>(x), top = static_cast<double>(y);
-        if (scene_.samples == 0) {
-            visit(x, camera.ray(left + 0.5, top + 0.5));
+        if (samples == 0) {
+            visit(x, {camera.ray(left + 0.5, top + 0.5), 0.5, 0.5});
             continue;
         }
-        const PixelSamples places(scene_.seed, y * camera.width + x);
-        for (std::size_t i = 0; i < scene_.samples; ++i)
-            visit(x, camera.ray(left + places.x(i), top + places.y(i)));
+        const std::size_t pixel = y * camera.width + x;
+        const PixelSamples places(scene_.seed, pixel, 0), facets(scene_.seed, pixel, 1);
+        for (std::size_t i = 0; i < samples; ++i) {
+            const auto [dx, dy] = places(i);
+            const auto [u, v] = scene_.alpha ? facets(i) : std::array{0.5, 0.5};
+            visit(x, {camera.ray(left + dx, top + dy), u, v});
+        }
     }
 }
 
@@ -174,8 +217,8 @@ Painter::Survey Painter::survey(unsigned threads) const {
     parallel_for(rows.size(), threads, [&](std::size_t y) {
         Survey found{{kMost, -kMost, kMost, -kMost}, 0};
         std::vector<PathStep> path;
-        each_sample(y, [&](std::size_t, const Ray& ray) {
-            if (!trace(ray, path)) return;
+        each_sample(y, scene_.alpha ? 0 : scene_.samples, [&](std::size_t, const Sample& sample) {
+            if (!trace(sample, path)) return;
             found.points += path.size();
             for (const PathStep& step : path) {
                 ShownRange& range = found.range;
@@ -196,6 +239,15 @@ Painter::Survey Painter::survey(unsigned threads) const {
         all.range.largest_nm = std::max(all.range.largest_nm, row.range.largest_nm);
     }
     if (all.points == 0) all.range = {0, 1, scene_.thickness_nm, scene_.thickness_nm};
+    if (scene_.alpha) {  // facets have all angles, and samples lie between the centres of pixels
+        all.range.least_cosine = 0;
+        all.range.largest_cosine = 1;
+        if (scene_.noise) {
+            all.range.least_nm = scene_.noise->least_nm;
+            all.range.largest_nm = scene_.noise->most_nm;
+        }
+        all.points *= scene_.samples;
+    }
     return all;
 }
 
@@ -232,8 +284,8 @@ Picture Painter::paint(const ReflectedColors& colors, unsigned threads,
         std::vector<PathStep> path;
         std::vector<FilmPoint> points;
         std::vector<std::pair<std::size_t, Triple>> lit;  // column and light of each point
-        each_sample(y, [&](std::size_t x, const Ray& ray) {
-            if (!trace(ray, path)) return add(sums.behind[x], behind(ray));
+        each_sample(y, scene_.samples, [&](std::size_t x, const Sample& sample) {
+            if (!trace(sample, path)) return add(sums.behind[x], behind(sample.ray));
             points.push_back(path.front().at);
             lit.emplace_back(x, path.front().light);
         });
@@ -251,8 +303,8 @@ Picture Painter::paint(const PathColors& colors, unsigned threads,
     return paint_rows(threads, progress, [&](std::size_t y, RowSums& sums) {
         std::vector<PathStep> path;
         PathColors::Scratch scratch;
-        each_sample(y, [&](std::size_t x, const Ray& ray) {
-            if (!trace(ray, path)) return add(sums.behind[x], behind(ray));
+        each_sample(y, scene_.samples, [&](std::size_t x, const Sample& sample) {
+            if (!trace(sample, path)) return add(sums.behind[x], behind(sample.ray));
             add(sums.color[x], colors(path, scratch));
             ++sums.hits[x];
         });

@@ -13,16 +13,17 @@
 
 namespace irido {
 
-/// All that a picture of a smooth stack shows.
+/// All that a picture of a stack shows.
 struct PictureScene {
     Camera camera;
     ShapeKind shape = ShapeKind::sphere;
     double tilt_deg = 0;     ///< of a plane
     double inner_index = 1;  ///< of a gem, over that of the medium around it
     Environment environment;
+    std::optional<double> alpha;          ///< roughness of a simple shape; else it is smooth
     std::optional<ThicknessNoise> noise;  ///< else the thickness is `thickness_nm` everywhere
     double thickness_nm = 0;
-    std::size_t samples = 0;  ///< per pixel; 0: its centre
+    std::size_t samples = 0;  ///< per pixel; 0: its centre, for smooth shapes
     std::uint64_t seed = 1;
     /// Behind the shape: nothing, the environment or one colour.
     std::variant<std::monostate, Environment, Triple> background;
@@ -34,7 +35,8 @@ struct Picture {
     std::vector<float> rgba;
 };
 
-/// Whether a shape's light meets the stack once per path: then colours are ReflectedColors.
+/// Whether light meets the stack once per path: then colours are ReflectedColors, and the surface
+/// may be rough.
 bool is_simple(ShapeKind shape);
 
 /// Whether nothing is seen through a shape.
@@ -62,14 +64,21 @@ public:
                   const std::function<void(double)>& progress) const;
 
 private:
+    /// One look through a pixel.
+    struct Sample {
+        Ray ray;
+        double u = 0, v = 0;  ///< for the facet of a rough surface
+    };
     /// Steps of the path that begins with a ray; false if it meets nothing.
-    bool trace(const Ray& ray, std::vector<PathStep>& path) const;
+    bool trace(const Sample& sample, std::vector<PathStep>& path) const;
+    /// The light that a rough surface reflects there.
+    PathStep rough_step(const Hit& hit, const Sample& sample) const;
     Triple behind(const Ray& ray) const;
     void trace_through(Ray ray, Hit hit, std::vector<PathStep>& path) const;
     FilmPoint surface_point(const Hit& hit, const Vector3& direction) const;
-    /// Calls visit(x, ray) for each sample of a row.
-    void each_sample(std::size_t y,
-                     const std::function<void(std::size_t x, const Ray& ray)>& visit) const;
+    /// Calls visit(x, sample) for so many samples of each pixel of a row, 0 for its centre.
+    void each_sample(std::size_t y, std::size_t samples,
+                     const std::function<void(std::size_t x, const Sample& sample)>& visit) const;
     template <class PaintRow>
     Picture paint_rows(unsigned threads, const std::function<void(double)>& progress,
                        const PaintRow& paint_row) const;

@@ -134,8 +134,15 @@ TEST_CASE("a contact sheet has a labelled picture for every value", "[cli][rende
     CHECK(png[24] == 16);
     check_refused(render({"--vary", "layers.0.thickness_nm=1,2", "-o", folder / "x.exr"}),
                   "--vary: a contact sheet must be .png");
-    check_refused(render({"--vary", "alpha=0.05,0.1", "-o", folder / "x.png"}),
-                  "alpha is no value of the stack");
+    check_refused(render({"--vary", "alpha=0.05,2", "-o", folder / "x.png"}),
+                  "--vary alpha: must be in [0.0001, 1] (got 2)");
+    check_refused(render({"--vary", "alpha=0.05,0.1", "--shape", "ring", "-o", folder / "x.png"}),
+                  "--vary alpha: only spheres and planes can be rough");
+    check_refused(render({"--vary", "angle_deg=0,10", "-o", folder / "x.png"}),
+                  "angle_deg is not a value of the stack");
+    CHECK(render({"--vary", "alpha=0.05,0.1", "--samples", "4", "--size", "16", "-o",
+                  folder / "rough.png"})
+              .status == 0);
     check_refused(render({"--vary", "layers.7.thickness_nm=1,2", "-o", folder / "x.png"}),
                   "layers.7");
 }
@@ -168,6 +175,8 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--thickness-noise", "1:nan"}, "--thickness-noise");
     refused({"--thickness-noise", "1:2", "--noise-layer", "2"}, "the stack has no layer 2");
     refused({"--samples", "0"}, "--samples: must be in [1, 65536]");
+    refused({"--alpha", "0"}, "--alpha: must be in [1e-04, 1] (got 0)");
+    refused({"--alpha", "0.1", "--shape", "ring"}, "--alpha: a rough ring cannot be drawn yet");
     refused({"--exposure", "nan"}, "--exposure");
     refused({"--tolerance", "0"}, "--tolerance: must be in [0.001, 10]");
     refused({"--bits", "12"}, "--bits: must be 8 or 16");

@@ -7,6 +7,7 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "core/math/angle_of_cosine.hpp"
+#include "core/rough/ggx.hpp"
 #include "core/stack/builder.hpp"
 
 using namespace irido;
@@ -254,4 +255,73 @@ TEST_CASE("layers are counted through groups, and a missing one is refused", "[r
     CHECK(thickness_at(SurfaceStack{stack, {1, 1}}.at(33), {1, 1}) == 33);
     CHECK_THROWS_WITH(layer_number(stack, 5), Contains("the stack has no layer 5"));
     CHECK_THROWS_AS(layer_number(stack, 0), DomainError);
+}
+
+namespace {
+
+/// Directional albedo of a rough stack by midpoints in spherical coordinates of the light: the
+/// integral of D G1 G1 R / (4 cos_o), `colors` being R over equal steps of the half angle's cosine.
+Triple rough_albedo(double alpha, double theta_o, std::span<const Triple> colors) {
+    constexpr int kThetas = 400, kPhis = 400;
+    const double last = static_cast<double>(colors.size() - 1);
+    Triple sum{};
+    const Vector3 o{std::sin(theta_o), 0, std::cos(theta_o)};
+    for (int i = 0; i < kThetas; ++i) {
+        const double theta = (i + 0.5) * kPi / 2 / kThetas;
+        const double masking = smith_masking(alpha, o.z) * smith_masking(alpha, std::cos(theta));
+        for (int j = 0; j < kPhis; ++j) {
+            const double phi = (j + 0.5) * kPi / kPhis;  // both halves are alike
+            const Vector3 l{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                            std::cos(theta)};
+            const Vector3 h = normalized(o + l);
+            const double place = std::min(last - 1e-9, last * dot(o, h));
+            const auto at = static_cast<std::size_t>(place);
+            const double weight = std::sin(theta) * ggx_distribution(alpha, h.z) * masking;
+            for (std::size_t c = 0; c < 3; ++c)
+                sum[c] +=
+                    weight * std::lerp(colors[at][c], colors[at + 1][c], place - std::floor(place));
+        }
+    }
+    for (double& channel : sum) channel *= kPi * kPi / kThetas / kPhis / (4 * o.z);
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a rough plane in white surroundings has the albedo of its BRDF", "[render]") {
+    Drawing drawing{scene_of(ShapeKind::plane, "white", 8), film_between(1, 1.38, 420, {1.9, 1.5})};
+    std::vector<Triple> colors;
+    for (int i = 0; i <= 200; ++i)
+        colors.push_back(color_of(drawing.stack, angle_of_cosine(i / 200.0)));
+    drawing.scene.samples = 2048;
+    for (const double alpha : {0.15, 0.5, 1.0})
+        for (const double tilt_deg : {0.0, 40.0, 75.0}) {
+            drawing.scene.alpha = alpha;
+            drawing.scene.tilt_deg = tilt_deg;
+            const Picture picture = drawing.draw();
+            const Triple wanted = rough_albedo(alpha, tilt_deg * kDegree, colors);
+            for (std::size_t c = 0; c < 3; ++c) {
+                double mean = 0;
+                for (std::size_t i = 0; i < 64; ++i)
+                    mean += static_cast<double>(picture.rgba[4 * i + c]) / 64;
+                INFO(alpha << ", " << tilt_deg);
+                CHECK_THAT(mean, WithinAbs(wanted[c], 2e-3));
+            }
+        }
+}
+
+TEST_CASE("a rough sphere becomes the smooth one", "[render]") {
+    Drawing drawing{scene_of(ShapeKind::sphere, "sky", 32), film_between(1, 1.38, 420, {1.9, 1.5})};
+    drawing.scene.samples = 16;
+    const Picture smooth = drawing.draw();
+    drawing.scene.alpha = 1e-4;
+    const Picture rough = drawing.draw();
+    for (std::size_t i = 0; i < smooth.rgba.size(); i += 4)
+        if (smooth.rgba[i + 3] == 1)
+            CHECK_THAT(static_cast<double>(rough.rgba[i]),
+                       WithinAbs(static_cast<double>(smooth.rgba[i]), 0.02));
+    drawing.scene.samples = 0;
+    CHECK_THROWS_WITH(drawing.draw(), Contains("samples of a rough surface must be at least 1"));
+    drawing.scene.shape = ShapeKind::bubble;
+    CHECK_THROWS_WITH(drawing.draw(), Contains("only spheres and planes can be rough"));
 }
