@@ -39,7 +39,8 @@ TEST_CASE("every help page has a purpose and two examples", "[cli]") {
 
 TEST_CASE("materials are listed and shown", "[cli][materials]") {
     const Outcome list = run_irido({"materials", "list"});
-    CHECK_THAT(list.out, StartsWith("name,aliases,first_nm,last_nm,covers_380_780,source\n"));
+    CHECK_THAT(list.out,
+               StartsWith("name,aliases,first_nm,last_nm,covers_380_780,source,year,film\n"));
     CHECK(parse_csv(list.out).size() > 40);
     const Outcome gold = run_irido({"materials", "show", "Au", "-w", "400:800:100"});
     CHECK_THAT(gold.out, StartsWith("wavelength_nm,n,k\n400,1.46"));
