@@ -23,7 +23,7 @@ struct LayeredCase {
 constexpr std::array kLayeredCases{
     LayeredCase{"A", "periods of 250 and 250 nm, alpha 0.1, in air", 1, 250, 0.1},
     LayeredCase{"B", "periods of 494 and 494 nm, alpha 0.05, in air", 1, 494, 0.05},
-    LayeredCase{"A'", "A in a host of 1.35, under a coating", 1.35, 250, 0.1},
+    LayeredCase{"A-coated", "A in a host of 1.35, under a coating", 1.35, 250, 0.1},
 };
 
 struct LayeredOptions {

@@ -149,7 +149,7 @@ TEST_CASE("bash completes commands, options, words and files", "[cli][manual]") 
         {"irido spectrum schemas/examples/soap-bubble.", "schemas/examples/soap-bubble.json"},
         {"irido bake x -o sche", "schemas"},
         {"irido bake -o schemas/stack", ""},  // no folder
-        {"irido validate --schema ", "stack design scene manifest lut"},
+        {"irido validate --schema ", "stack surface design scene manifest lut"},
         {"irido bench speed --cases film,500_p", "film,500_periods"},
         {"irido bench stability -r all,gain", "all,gain"},
         {"irido convert -f ", "json expression zemax openfilters csv"},

@@ -482,7 +482,7 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
     const Words color{"--compute", "color"}, some{"--vary", "layers.0.thickness_nm=1,2"};
     refused(some, "--compute: is required");
     refused(some + Words{"--compute", "hue"}, "--compute: must be one of");
-    refused(color, "requires --vary PATH=LIST or --points FILE");
+    refused(color, "requires --vary PATH=LIST, --points FILE or --scatter PATH=SIGMA");
     refused(color + Words{"--vary", "layers.0.thickness_nm"}, "must be PATH=LIST");
     refused(color + Words{"--vary", "layers.0.thickness_nm=-1:5:1"},
             "must be in [0, 1e9] (got -1)");

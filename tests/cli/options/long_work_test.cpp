@@ -111,13 +111,13 @@ private:
 TEST_CASE("spectra and colours that take long say so first", "[cli][long-work][slow]") {
     const Long work;
     work.check("spectrum two.json -w 400:700/20000 -a 0:80/20000");
-    work.check("color three.json -a 0:80/2000");
+    work.check("color three.json -a 0:80/20000");
     CHECK(work.begun("color three.json -a 0:80/2000 --quiet", "30").empty());
 }
 
 TEST_CASE("sweeps that take long say so first", "[cli][long-work]") {
     const Long work;
-    work.check("sweep three.json --compute color --vary layers.0.thickness_nm=100:400/5000");
+    work.check("sweep three.json --compute color --vary layers.0.thickness_nm=100:400/50000");
 }
 
 TEST_CASE("tables that take long say so first", "[cli][long-work]") {

@@ -381,13 +381,13 @@ TEST_CASE("validate says all that is wrong with all materials", "[cli][validate]
 }
 
 TEST_CASE("validate prints each schema", "[cli][validate][scene]") {
-    for (const std::string name : {"stack", "scene", "manifest", "lut"}) {
+    for (const std::string name : {"stack", "surface", "design", "scene", "manifest", "lut"}) {
         const Outcome outcome = run_irido({"validate", "--schema", name});
         CHECK(outcome.status == 0);
         CHECK(outcome.out == read_file(IRIDO_SOURCE_DIR "/schemas/" + name + ".schema.json"));
     }
     check_refused(
         run_irido({"validate", "--schema", "scenes"}),
-        "--schema: must be one of stack, design, scene, manifest, lut (got 'scenes') (did you "
-        "mean \"scene\"?)");
+        "--schema: must be one of stack, surface, design, scene, manifest, lut (got 'scenes') "
+        "(did you mean \"scene\"?)");
 }
