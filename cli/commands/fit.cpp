@@ -172,8 +172,7 @@ void add_fit_command(CLI::App& program, Run& run) {
         ->add_option("-o,--output", options->stack.file,
                      "also write the fitted stack there (.json)")
         ->type_name("FILE");
-    command->add_option("-f,--format", options->table.format, record_formats_text())
-        ->type_name("FORMAT");
+    add_format_option(*command, options->table.format, record_formats_text());
     command->add_flag("--correlation", options->correlation,
                       "add a column correlation_NAME for every parameter");
     command

@@ -92,7 +92,11 @@ void add_output_options(CLI::App& command, OutputOptions& output, const std::str
             "write to FILE (whole or not at all); the format follows the\n"
             "extension; - is standard output [-]")
         ->type_name("FILE");
-    command.add_option("-f,--format", output.format, formats)->type_name("FORMAT");
+    add_format_option(command, output.format, formats);
+}
+
+void add_format_option(CLI::App& command, std::string& format, const std::string& formats) {
+    command.add_option("-f,--format", format, formats)->type_name("FORMAT");
     offer(command, "format", [formats] { return names_before_notes(formats); });
 }
 

@@ -64,6 +64,8 @@ std::string title_of(const schemas::StackDocument& document, const schemas::Stac
 
 /// -o and -f; `formats` as the help shows them, first their names with commas or "or" in between.
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
+/// -f alone.
+void add_format_option(CLI::App& command, std::string& format, const std::string& formats);
 
 /// Where records may go: any format, or those that standard output takes; or a picture of them.
 enum class RecordTarget { any, stream, any_or_picture, stream_or_picture };

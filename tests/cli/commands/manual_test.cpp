@@ -27,14 +27,15 @@ std::vector<Page> all_manual_pages() {
     const TemporaryFolder folder;
     REQUIRE(run_irido({"manual", "-o", folder.path()}).status == 0);
     std::vector<Page> pages;
-    static const std::regex synopsis(R"(\n\.SH SYNOPSIS\n\\fB([^\\]*)\\fR)");
+    static const std::regex synopsis(R"(\n\.SH SYNOPSIS\n\\fB((?:[^\\]|\\-)*)\\fR)");
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
         const std::string text = read_file(entry.path());
         std::smatch match;
         REQUIRE(std::regex_search(text, match, synopsis));
-        std::vector<std::string> command = words_of(match[1]);
+        const std::string name = std::regex_replace(match[1].str(), std::regex(R"(\\-)"), "-");
+        std::vector<std::string> command = words_of(name);
         command.erase(command.begin());
-        pages.push_back({command, match[1], text});
+        pages.push_back({command, name, text});
     }
     return pages;
 }
