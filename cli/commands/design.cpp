@@ -212,6 +212,7 @@ int run_design(const DesignCommand& command) {
         rows = start_rows;
     }
     const tables::Records report = target_report(task, rows);
+    for (const std::string& line : summary_lines(report)) note(line, command.quiet);
     const std::string text = designed_text(
         task, result.x, design_member(task, result, start_merit, merit, met_targets(report)),
         command.output.file);

@@ -141,6 +141,30 @@ MetTargets met_targets(const tables::Records& report) {
     return result;
 }
 
+std::vector<std::string> summary_lines(const tables::Records& report) {
+    constexpr std::size_t kMostLines = 4;
+    const MetTargets count = met_targets(report);
+    std::vector<std::string> lines{std::to_string(count.met) + " of " + std::to_string(count.all) +
+                                   " values are met"};
+    const auto& quantity = texts(report, "quantity");
+    const auto& met = texts(report, "met");
+    const auto& value = numbers(report, "value");
+    const auto& angle = numbers(report, "angle_deg");
+    const auto rounded = [](double number, double scale) {
+        return to_text(std::round(number * scale) / scale);
+    };
+    for (std::size_t r = 3; r < report.rows() && lines.size() < kMostLines; ++r) {
+        if (!quantity[r].starts_with("delta_e") || met[r] != "no") continue;
+        std::string nearest;
+        for (std::size_t c = r - 3; c < r; ++c)
+            nearest += (nearest.empty() ? "" : ", ") + rounded(value[c], 100);
+        lines.push_back("the colour at " + to_text(angle[r]) +
+                        " degrees was not reached: the nearest found is Lab " + nearest + ", " +
+                        quantity[r] + " = " + rounded(value[r], 1000));
+    }
+    return lines;
+}
+
 std::string designed_text(const schemas::DesignTask& task, const std::vector<double>& values,
                           nlohmann::json design, const std::string& path) {
     nlohmann::json document = schemas::designed_stack(task, values);

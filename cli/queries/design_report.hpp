@@ -25,6 +25,10 @@ struct MetTargets {
 };
 MetTargets met_targets(const tables::Records& report);
 
+/// Lines for people: how many targets are met, and colours that are out of reach with the nearest
+/// that was found, the first few of them.
+std::vector<std::string> summary_lines(const tables::Records& report);
+
 /// The report as a picture: values over the wavelength beside their targets, a panel a quantity;
 /// colours over the angle. With `residuals` differences instead.
 tables::Figure target_figure(const schemas::DesignTask& task, const tables::Records& report,

@@ -116,6 +116,10 @@ TEST_CASE("colours are targets, as numbers and as hex", "[cli][design]") {
                                "layers.0.thickness_nm=5:100", "--target", "lab @0 = 40,30,-45",
                                "--merit", "delta_e_2000"});
     CHECK(lab["design"]["merit"].get<double>() < lab["design"]["start_merit"].get<double>());
+    const Outcome far = run_irido({"design", "1 | 1.5@60 | 1.4", "--free",
+                                   "layers.0.thickness_nm=5:100", "--target", "lab = 90,0,0"});
+    CHECK(far.status == 0);
+    CHECK(far.err.find("the colour at 0 degrees was not reached") != std::string::npos);
     // the colour that irido prints for a stack leads back to it
     const auto printed = parse_csv(run_irido({"color", "1 | 2.45@31 | 2.6+3.6i", "-a", "0"}).out);
     std::string hex;
