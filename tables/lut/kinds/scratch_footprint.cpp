@@ -5,7 +5,6 @@
 #include "core/math/constants.hpp"
 #include "core/scratch/footprint.hpp"
 #include "tables/lut/kind_parts.hpp"
-#include "tables/lut/light_facts.hpp"
 #include "tables/lut/lut_kind.hpp"
 
 namespace irido::tables {
@@ -33,14 +32,22 @@ LutPlan plan(const LutRequest& request) {
                 values.push_back(scaled_mean(offset, extent));
         return values;
     };
-    result.measure = absolute_measure(1);
-    result.measure.name = "absolute";
+    result.measure = {"absolute, of G",
+                      [](const std::vector<LutAxis>& axes, std::span<const double> exact,
+                         std::span<const double> approximate) {
+                          const std::vector<double>& extents = axes[1].values;
+                          std::vector<double> differences;
+                          for (std::size_t i = 0; i < exact.size(); ++i)
+                              differences.push_back(std::abs(exact[i] - approximate[i]) *
+                                                    (1 - extents[i % extents.size()]));
+                          return differences;
+                      }};
     return result;
 }
 
 std::vector<std::string> problems(const Lut& lut) {
     const double rounding = rounding_of(lut.type);
-    return out_of_range(lut, [rounding](std::size_t) { return 1.3 + rounding; });
+    return out_of_range(lut, [rounding](std::size_t) { return 1.63 + rounding; });
 }
 
 }  // namespace
@@ -54,7 +61,7 @@ extern const LutKind lut_kind_scratch_footprint = {
         "from the scratch, sigma the coherence radius, h the ellipse's half extent across the\n"
         "scratch, s_b the distance of its centre: offset = |s_b|/(h + 3 sigma), extent =\n"
         "h/(h + sigma). A scratch of width W covers W G/(sqrt(pi) sigma) of the footprint. The\n"
-        "error is absolute.",
+        "error is that of G.",
     .examples = {"scratch-footprint -o footprint.ktx2",
                  "scratch-footprint --tolerance 1e-3 -o g.exr"},
     .options = {{.name = "offset",

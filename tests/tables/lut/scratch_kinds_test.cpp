@@ -77,13 +77,13 @@ TEST_CASE("tables of scratches measure their error and pass their check", "[cli]
     CHECK(carrier["axes"][0]["count"] == 256);
     CHECK(carrier["axes"][1]["count"] == 64);
     CHECK(carrier["request"]["u_scale_um"] == 2);
-    CHECK(carrier["error"]["value"].get<double>() < 1);
+    CHECK(carrier["error"]["value"].get<double>() < 3);
     CHECK(carrier["error"]["value"].get<double>() > 1e-3);
     const auto narrow = made({"scratch", "--carrier", "--per-place", "--dtype", "f16"}, "d.ktx2");
     CHECK(narrow["channels"][0] == "dX_dx_re");
     made({"scratch", "--u", "0:10/64", "--depth", "0:1/64", "--derivative"}, "plain.npy");
     const auto footprint = made({"scratch-footprint"}, "g.exr");
-    CHECK(footprint["error"]["value"].get<double>() < 1e-2);
+    CHECK(footprint["error"]["value"].get<double>() < 1e-3);
 }
 
 TEST_CASE("impossible tables of scratches are refused", "[cli][lut]") {
