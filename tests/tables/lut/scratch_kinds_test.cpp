@@ -62,7 +62,7 @@ TEST_CASE("lut scratch agrees with exact integrals", "[cli][lut]") {
     CHECK(std::abs(value(place, 1, 3) - first[4] * 2.231 * 2.231 / 1.5) < 1e-10);
 }
 
-TEST_CASE("tables of scratches measure their error and pass their check", "[cli][lut]") {
+TEST_CASE("tables of scratches measure their error and pass their check", "[cli][lut][slow]") {
     const TemporaryFolder folder;
     const auto made = [&](std::vector<std::string> arguments, const std::string& file) {
         arguments.insert(arguments.begin(), "lut");
