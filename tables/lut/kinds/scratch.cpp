@@ -99,41 +99,92 @@ private:
     std::shared_ptr<const SlitColors> colors_;
 };
 
-/// Differences of colours; with the carrier those that an error of Q makes.
-LutMeasure scratch_measure(const ScratchFunction& function) {
-    return {"delta_e_2000 of T, the full lobe at mean depth being white",
-            [function](const std::vector<LutAxis>& axes, std::span<const double> exact,
-                       std::span<const double> approximate) {
-                const ScratchForm& form = function.form();
-                const std::size_t channels = form.carrier || form.derivative ? 6 : 3;
-                const std::vector<double>&u = axes[0].values, &depth = axes[1].values;
-                std::vector<Triple> t;
-                if (form.carrier)
-                    t = form.place ? function.colors().slope(u, depth)
-                                   : function.colors().power(u, depth);
-                std::vector<double> result;
-                for (std::size_t i = 0; i * channels < exact.size(); ++i) {
-                    Triple a{}, b{};
-                    const double* const is = exact.data() + i * channels;
-                    const double* const was = approximate.data() + i * channels;
-                    for (std::size_t c = 0; c < 3; ++c) {
-                        if (!form.carrier) {
-                            a[c] = is[c], b[c] = was[c];
-                            continue;
-                        }
-                        const double scale =
-                            form.place ? function.per_place(u[i / depth.size()]) : 1;
-                        const Complex off(was[c] - is[c], was[c + 3] - is[c + 3]);
-                        a[c] = scale * t[i][c];
-                        b[c] = a[c] - 2 * (std::polar(1.0, 2 * kTwoPi * depth[i % depth.size()] /
-                                                               kSlitCarriers_um[c]) *
-                                           off)
-                                              .real();
+/// Part of x that the light covers in which derivatives are measured.
+constexpr double kNarrow = 0.05;
+
+/// What is lost of A = Q(u, 0) between the samples of an axis of u, of which A there and at the
+/// targets is known.
+class FlatError {
+public:
+    FlatError(const ScratchFunction& function, LutAxis axis)
+        : function_(function), axis_(std::move(axis)), samples_(flat(axis_.values)) {}
+
+    std::vector<Triple> operator()(const std::vector<double>& u) const {
+        std::vector<Triple> errors = flat(u);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            const std::size_t cell = axis_.cell_of(u[i]);
+            const std::size_t next = std::min(cell + 1, axis_.count() - 1);
+            const double low = axis_.place_of(axis_.values[cell]),
+                         high = axis_.place_of(axis_.values[next]);
+            const double w =
+                next == cell ? 0
+                             : std::clamp((axis_.place_of(u[i]) - low) / (high - low), 0.0, 1.0);
+            for (std::size_t c = 0; c < 3; ++c)
+                errors[i][c] = samples_[cell][c] * (1 - w) + samples_[next][c] * w - errors[i][c];
+        }
+        return errors;
+    }
+
+private:
+    /// A, or its derivative by x.
+    std::vector<Triple> flat(const std::vector<double>& u) const {
+        const std::array depth{0.0};
+        const auto q = function_.form().place
+                           ? function_.colors().carried_slope(u, depth, kSlitCarriers_um)
+                           : function_.colors().carried(u, depth, kSlitCarriers_um);
+        std::vector<Triple> values(u.size());
+        for (std::size_t i = 0; i < u.size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                values[i][c] =
+                    q[i][c].real() * (function_.form().place ? function_.per_place(u[i]) : 1);
+        return values;
+    }
+
+    ScratchFunction function_;
+    LutAxis axis_;
+    std::vector<Triple> samples_;
+};
+
+/// Differences of colours; with the carrier those that errors of A and Q make together.
+LutMeasure scratch_measure(const ScratchFunction& function, const LutAxis& u_axis) {
+    std::shared_ptr<const FlatError> flat_error;
+    if (function.form().carrier) flat_error = std::make_shared<const FlatError>(function, u_axis);
+    const std::string of = function.form().place ? "a light that covers 0.05 of x" : "T";
+    return {
+        "delta_e_2000 of " + of + ", the full lobe at mean depth being white",
+        [function, flat_error](const std::vector<LutAxis>& axes, std::span<const double> exact,
+                               std::span<const double> approximate) {
+            const ScratchForm& form = function.form();
+            const std::size_t channels = form.carrier || form.derivative ? 6 : 3;
+            const std::vector<double>&u = axes[0].values, &depth = axes[1].values;
+            std::vector<Triple> t;
+            if (form.carrier)
+                t = form.place ? function.colors().slope(u, depth)
+                               : function.colors().power(u, depth);
+            const std::vector<Triple> flat =
+                form.carrier ? (*flat_error)(u) : std::vector<Triple>();
+            const double covered = form.place ? kNarrow : 1;
+            std::vector<double> result;
+            for (std::size_t i = 0; i * channels < exact.size(); ++i) {
+                Triple a{}, b{};
+                const double* const is = exact.data() + i * channels;
+                const double* const was = approximate.data() + i * channels;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    if (!form.carrier) {
+                        a[c] = covered * is[c], b[c] = covered * was[c];
+                        continue;
                     }
-                    result.push_back(ciede2000(function.lab_of(a), function.lab_of(b)));
+                    const double scale = form.place ? function.per_place(u[i / depth.size()]) : 1;
+                    const Complex off(was[c] - is[c], was[c + 3] - is[c + 3]);
+                    const Complex wave =
+                        std::polar(1.0, 2 * kTwoPi * depth[i % depth.size()] / kSlitCarriers_um[c]);
+                    a[c] = covered * scale * t[i][c];
+                    b[c] = a[c] + covered * 2 * (flat[i / depth.size()][c] - (wave * off).real());
                 }
-                return result;
-            }};
+                result.push_back(ciede2000(function.lab_of(a), function.lab_of(b)));
+            }
+            return result;
+        }};
 }
 
 std::vector<std::string> scratch_channels(const LutRequest& request, const ScratchForm& form) {
@@ -173,11 +224,12 @@ LutPlan plan(const LutRequest& request) {
     const double largest_u = std::max(u.axis.values.front(), u.axis.values.back());
     const double largest_depth = std::max(depth.axis.values.front(), depth.axis.values.back());
     const bool is_placed = u.axis.half_at > 0;
+    const LutAxis u_axis = u.axis;
     result.axes = {std::move(u), std::move(depth)};
     result.channels = scratch_channels(request, form);
     const ScratchFunction function(request, form, largest_u, largest_depth);
     result.evaluate = function;
-    result.measure = scratch_measure(function);
+    result.measure = scratch_measure(function, u_axis);
     result.facts = light_facts(request);
     result.facts["color_space"] = request.space->name;
     auto& facts = result.facts["request"];

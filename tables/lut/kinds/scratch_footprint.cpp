@@ -5,7 +5,6 @@
 #include "core/math/constants.hpp"
 #include "core/scratch/footprint.hpp"
 #include "tables/lut/kind_parts.hpp"
-#include "tables/lut/light_facts.hpp"
 #include "tables/lut/lut_kind.hpp"
 
 namespace irido::tables {
@@ -20,9 +19,6 @@ double scaled_mean(double offset, double size) {
     return ellipse_mean(offset * (h + kBeyond), h) * (1 + h);
 }
 
-/// Its largest value, at no offset and an extent of 0.48, is 1.629.
-constexpr double kLargest = 1.63;
-
 LutPlan plan(const LutRequest& request) {
     constexpr std::size_t kCount = 128;
     LutPlan result;
@@ -36,14 +32,22 @@ LutPlan plan(const LutRequest& request) {
                 values.push_back(scaled_mean(offset, extent));
         return values;
     };
-    result.measure = absolute_measure(1);
-    result.measure.name = "absolute";
+    result.measure = {"absolute, of G",
+                      [](const std::vector<LutAxis>& axes, std::span<const double> exact,
+                         std::span<const double> approximate) {
+                          const std::vector<double>& extents = axes[1].values;
+                          std::vector<double> differences;
+                          for (std::size_t i = 0; i < exact.size(); ++i)
+                              differences.push_back(std::abs(exact[i] - approximate[i]) *
+                                                    (1 - extents[i % extents.size()]));
+                          return differences;
+                      }};
     return result;
 }
 
 std::vector<std::string> problems(const Lut& lut) {
     const double rounding = rounding_of(lut.type);
-    return out_of_range(lut, [rounding](std::size_t) { return kLargest + rounding; });
+    return out_of_range(lut, [rounding](std::size_t) { return 1.63 + rounding; });
 }
 
 }  // namespace
@@ -57,9 +61,9 @@ extern const LutKind lut_kind_scratch_footprint = {
         "from the scratch, sigma the coherence radius, h the ellipse's half extent across the\n"
         "scratch, s_b the distance of its centre: offset = |s_b|/(h + 3 sigma), extent =\n"
         "h/(h + sigma). A scratch of width W covers W G/(sqrt(pi) sigma) of the footprint. The\n"
-        "error is absolute, and largest at the edge of ellipses of infinite extent.",
+        "error is that of G.",
     .examples = {"scratch-footprint -o footprint.ktx2",
-                 "scratch-footprint --tolerance 0.02 -o g.exr"},
+                 "scratch-footprint --tolerance 1e-3 -o g.exr"},
     .options = {{.name = "offset",
                  .type = LutOption::Type::list,
                  .help = "|s_b|/(h + 3 sigma), [0, 1] [0:1/128]",

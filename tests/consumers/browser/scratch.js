@@ -45,7 +45,7 @@ export function makeJobs(folder) {
     const sides = [[9.330127, 82.978759, 0.6763527859]];
     return [
         job('scratch, wide lights', 'scratch.ktx2', call('irido_scratch_wide', wideTable), wide,
-            wide.map(difference), 1e-3),
+            wide.map(difference), 2e-3),
         job('scratch, narrow lights', 'narrow.ktx2', call('irido_scratch_narrow', narrowTable), narrow,
             narrow.map(difference), 1e-3),
         job('scratch-nodes, 49 nodes', 'nodes.ktx2',

@@ -230,6 +230,18 @@ TEST_CASE("the whole sky as a light reflects the closed total", "[scratch]") {
     }
 }
 
+// VWH18 eq. 31 takes a disc through the centre of the sphere, across the way to it: its half-angle
+// has the tangent that the cone's has as its sine.
+TEST_CASE("the published disc in the place of a sphere is too small", "[scratch]") {
+    for (const auto& [angle_deg, missing] : {std::pair(10.0, 0.03), {20.0, 0.11}, {45.0, 0.37}}) {
+        const double sine = std::sin(angle_deg * kPi / 180);
+        const LightCone cone(SphereLight{{0, 0, 1}, sine});
+        const double whole = 1 - cone.bound().least, disc = 1 - std::cos(std::atan(sine));
+        CHECK(std::abs(1 - whole / (1 - std::cos(angle_deg * kPi / 180))) < 1e-12);
+        CHECK(std::abs(1 - disc / whole - missing) < 0.006);
+    }
+}
+
 TEST_CASE("lights that are none are refused", "[scratch]") {
     CHECK_THROWS_AS(LightCone(SphereLight{{0, 0, 1}, 1}), DomainError);
     CHECK_THROWS_AS(LightCone(SphereLight{{0, 0, 1}, 0}), DomainError);

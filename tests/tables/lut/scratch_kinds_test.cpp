@@ -62,7 +62,7 @@ TEST_CASE("lut scratch agrees with exact integrals", "[cli][lut]") {
     CHECK(std::abs(value(place, 1, 3) - first[4] * 2.231 * 2.231 / 1.5) < 1e-10);
 }
 
-TEST_CASE("tables of scratches measure their error and pass their check", "[cli][lut]") {
+TEST_CASE("tables of scratches measure their error and pass their check", "[cli][lut][slow]") {
     const TemporaryFolder folder;
     const auto made = [&](std::vector<std::string> arguments, const std::string& file) {
         arguments.insert(arguments.begin(), "lut");
@@ -77,13 +77,13 @@ TEST_CASE("tables of scratches measure their error and pass their check", "[cli]
     CHECK(carrier["axes"][0]["count"] == 256);
     CHECK(carrier["axes"][1]["count"] == 64);
     CHECK(carrier["request"]["u_scale_um"] == 2);
-    CHECK(carrier["error"]["value"].get<double>() < 2.5);
+    CHECK(carrier["error"]["value"].get<double>() < 3);
     CHECK(carrier["error"]["value"].get<double>() > 1e-3);
     const auto narrow = made({"scratch", "--carrier", "--per-place", "--dtype", "f16"}, "d.ktx2");
     CHECK(narrow["channels"][0] == "dX_dx_re");
     made({"scratch", "--u", "0:10/64", "--depth", "0:1/64", "--derivative"}, "plain.npy");
     const auto footprint = made({"scratch-footprint"}, "g.exr");
-    CHECK(footprint["error"]["value"].get<double>() < 0.08);  // at the edge of an endless ellipse
+    CHECK(footprint["error"]["value"].get<double>() < 1e-3);
 }
 
 TEST_CASE("impossible tables of scratches are refused", "[cli][lut]") {
