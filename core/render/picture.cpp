@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/random.hpp"
-#include "core/render/facet_sample.hpp"
+#include "core/render/facet.hpp"
 #include "core/rough/ggx.hpp"
 
 namespace irido {
@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kOff = 1e-9;                      ///< from a face on which a ray begins
 constexpr std::size_t kDepth = 6, kGemDepth = 12;  ///< steps of a path
-constexpr double kMostPixels = 8192;               ///< of a side
+constexpr double kNearlySmooth = 0.03;  ///< alpha below which facets alone find all lights
+constexpr double kMostPixels = 8192;    ///< of a side
 
 std::unique_ptr<const Shape> shape_of(const PictureScene& scene) {
     switch (scene.shape) {
@@ -123,6 +124,8 @@ Painter::Painter(PictureScene scene) : scene_(std::move(scene)), shape_(shape_of
     require_in_range("alpha", *scene_.alpha, kSmoothest, kRoughest);
     if (!is_simple(scene_.shape)) throw DomainError("only spheres and planes can be rough");
     if (scene_.samples == 0) throw DomainError("samples of a rough surface must be at least 1");
+    lights_.emplace(scene_.environment);
+    if (*scene_.alpha > kNearlySmooth && !lights_->is_uniform()) facet_part_ = 0.5;
 }
 
 FilmPoint Painter::surface_point(const Hit& hit, const Vector3& direction) const {
@@ -153,14 +156,24 @@ void Painter::trace_through(Ray ray, Hit hit, std::vector<PathStep>& path) const
     }
 }
 
+/// By facets or by lights, weighted by the balance heuristic.
+/// Source: E. Veach, L. Guibas, Optimally combining sampling techniques, SIGGRAPH 1995.
 PathStep Painter::rough_step(const Hit& hit, const Sample& sample) const {
-    const FacetSample facet =
-        facet_sample(hit.normal, -sample.ray.direction, *scene_.alpha, sample.u, sample.v);
+    const Vector3 to = -sample.ray.direction;
+    const double alpha = *scene_.alpha;
+    const Vector3 from =
+        sample.u < facet_part_
+            ? facet_direction(hit.normal, to, alpha, sample.u / facet_part_, sample.v)
+            : lights_->direction((sample.u - facet_part_) / (1 - facet_part_), sample.v);
+    const FacetLight facet = facet_light(hit.normal, to, from, alpha);
     FilmPoint at = surface_point(hit, sample.ray.direction);
     at.cosine = facet.cosine;
-    Triple light{};
-    if (facet.visible_part > 0) light = scene_.environment(facet.direction);
-    for (double& channel : light) channel *= facet.visible_part;
+    if (facet.density == 0 || facet.visible_part == 0) return {at, false, true, {}};
+    double weight = facet.visible_part;
+    if (facet_part_ < 1)
+        weight /= facet_part_ + (1 - facet_part_) * lights_->density(from) / facet.density;
+    Triple light = scene_.environment(from);
+    for (double& channel : light) channel *= weight;
     return {at, false, true, light};
 }
 

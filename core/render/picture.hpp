@@ -7,6 +7,7 @@
 
 #include "core/render/camera.hpp"
 #include "core/render/environment.hpp"
+#include "core/render/environment_sampler.hpp"
 #include "core/render/noise.hpp"
 #include "core/render/path_colors.hpp"
 #include "core/render/shape.hpp"
@@ -88,6 +89,8 @@ private:
     PictureScene scene_;
     std::unique_ptr<const Shape> shape_;
     std::optional<ThicknessField> field_;
+    std::optional<EnvironmentSampler> lights_;  ///< of a rough surface
+    double facet_part_ = 1;  ///< of the samples that are drawn by facets, the others by lights
 };
 
 }  // namespace irido

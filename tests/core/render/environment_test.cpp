@@ -1,10 +1,11 @@
-#include "core/render/environment.hpp"
+#include "core/render/environment_sampler.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/random.hpp"
 
 using namespace irido;
@@ -67,4 +68,32 @@ TEST_CASE("images that are no environment are refused", "[render]") {
         image->rgb[3 * 16 + 2] = bad;
         CHECK_THROWS_WITH(image_environment(image), Contains("in row 1, column 0"));
     }
+}
+
+TEST_CASE("directions are drawn as their density says, and more often where it is bright",
+          "[render]") {
+    const EnvironmentSampler white(named_environment("white")), sky(named_environment("sky"));
+    CHECK(white.is_uniform());
+    CHECK_FALSE(sky.is_uniform());
+    Random random(8);
+    const Environment light = named_environment("sky");
+    // the mean of 1 / density is the whole sphere, that of light / density all light
+    double sphere = 0, drawn = 0, even = 0, even_square = 0, drawn_square = 0;
+    constexpr int kDraws = 200'000;
+    for (int i = 0; i < kDraws; ++i) {
+        const double u = random.uniform(0, 1), v = random.uniform(0, 1);
+        const Vector3 d = sky.direction(u, v), e = white.direction(u, v);
+        CHECK_THAT(dot(d, d), WithinAbs(1, 1e-12));
+        REQUIRE(sky.density(d) > 0);
+        const double by_light = light(d)[0] / sky.density(d), evenly = light(e)[0] * 4 * kPi;
+        sphere += 1 / sky.density(d) / kDraws;
+        drawn += by_light / kDraws;
+        drawn_square += by_light * by_light / kDraws;
+        even += evenly / kDraws;
+        even_square += evenly * evenly / kDraws;
+        if (i < 1000) CHECK_THAT(white.density(e), WithinAbs(1 / (4 * kPi), 1e-10));
+    }
+    CHECK_THAT(sphere, WithinAbs(4 * kPi, 0.1));
+    CHECK_THAT(drawn, WithinAbs(even, 0.02 * even));
+    CHECK(drawn_square - drawn * drawn < 0.1 * (even_square - even * even));
 }

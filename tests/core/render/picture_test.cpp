@@ -7,6 +7,7 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "core/math/angle_of_cosine.hpp"
+#include "core/render/facet.hpp"
 #include "core/rough/ggx.hpp"
 #include "core/stack/builder.hpp"
 
@@ -324,4 +325,39 @@ TEST_CASE("a rough sphere becomes the smooth one", "[render]") {
     CHECK_THROWS_WITH(drawing.draw(), Contains("samples of a rough surface must be at least 1"));
     drawing.scene.shape = ShapeKind::bubble;
     CHECK_THROWS_WITH(drawing.draw(), Contains("only spheres and planes can be rough"));
+}
+
+// The lights are found by facets, by themselves or by both: the mean is the same.
+TEST_CASE("a rough sphere under the sky has the light of its BRDF", "[render]") {
+    Drawing drawing{scene_of(ShapeKind::plane, "sky", 4), film_between(1, 1.38, 420, {1.9, 1.5})};
+    drawing.scene.alpha = 0.4;
+    drawing.scene.tilt_deg = -30;
+    drawing.scene.samples = 16384;
+    const Picture picture = drawing.draw();
+    std::array<double, 3> mean{}, wanted{};
+    for (std::size_t i = 0; i < 64; ++i)
+        if (i % 4 < 3) mean[i % 4] += static_cast<double>(picture.rgba[i]) / 16;
+    // midpoints of the sphere of directions
+    const Vector3 n = plane_shape(-30)->first_hit(drawing.scene.camera.ray(1, 1))->normal;
+    const Vector3 to{0, 0, 1};
+    std::vector<Triple> colors;
+    for (int i = 0; i <= 100; ++i)
+        colors.push_back(color_of(drawing.stack, angle_of_cosine(i / 100.0)));
+    constexpr int kSteps = 1200;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const double y = 1 - 2 * (i + 0.5) / kSteps, phi = kTwoPi * (j + 0.5) / kSteps;
+            const double across = std::sqrt(1 - y * y);
+            const Vector3 from{across * std::sin(phi), y, across * std::cos(phi)};
+            const FacetLight facet = facet_light(n, to, from, 0.4);
+            if (facet.density == 0) continue;
+            const double place = std::min(99.999, 100 * facet.cosine);
+            const auto at = static_cast<std::size_t>(place);
+            const Triple light = drawing.scene.environment(from);
+            for (std::size_t c = 0; c < 3; ++c)
+                wanted[c] +=
+                    std::lerp(colors[at][c], colors[at + 1][c], place - std::floor(place)) *
+                    facet.density * facet.visible_part * light[c] * 4 * kPi / (kSteps * kSteps);
+        }
+    for (std::size_t c = 0; c < 3; ++c) CHECK_THAT(mean[c], WithinAbs(wanted[c], 0.01 * wanted[c]));
 }

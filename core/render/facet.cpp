@@ -1,4 +1,4 @@
-#include "core/render/facet_sample.hpp"
+#include "core/render/facet.hpp"
 
 #include <algorithm>
 
@@ -7,8 +7,20 @@
 
 namespace irido {
 
-FacetSample facet_sample(const Vector3& normal, const Vector3& to, double alpha, double u,
-                         double v) {
+FacetLight facet_light(const Vector3& normal, const Vector3& to, const Vector3& from,
+                       double alpha) {
+    const double out = dot(to, normal), in = dot(from, normal);
+    if (!(out > 0 && in > 0)) return {};
+    const Vector3 facet = normalized(to + from);
+    const double cosine = std::min(1.0, dot(to, facet));
+    const double upright = std::clamp(dot(facet, normal), 0.0, 1.0);
+    const double seen = smith_masking(alpha, std::min(1.0, out));
+    return {cosine, ggx_distribution(alpha, upright) * seen / (4 * out),
+            smith_masking(alpha, std::min(1.0, in))};
+}
+
+Vector3 facet_direction(const Vector3& normal, const Vector3& to, double alpha, double u,
+                        double v) {
     // axes on the surface
     const Vector3 aside = std::abs(normal.x) < 0.9 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
     const Vector3 x = normalized(aside - dot(aside, normal) * normal);
@@ -31,10 +43,7 @@ FacetSample facet_sample(const Vector3& normal, const Vector3& to, double alpha,
     const Vector3 facet =
         normalized({alpha * stretched.x, alpha * stretched.y, std::max(1e-12, stretched.z)});
     const Vector3 m = facet.x * x + facet.y * y + facet.z * normal;
-    const double cosine = std::clamp(dot(to, m), 0.0, 1.0);
-    const Vector3 direction = 2 * dot(to, m) * m - to;
-    const double above = dot(direction, normal);
-    return {direction, cosine, above > 0 ? smith_masking(alpha, std::min(1.0, above)) : 0};
+    return 2 * dot(to, m) * m - to;
 }
 
 }  // namespace irido
