@@ -18,7 +18,7 @@ namespace {
 
 using Quantity = DesignQuantity;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array<std::string_view, 16> kQuantityNames{
     "R",           "T",           "A",       "psi_deg",           "delta_deg", "delta_nebraska_deg",
@@ -69,11 +69,12 @@ double allowed(const schemas::DesignTask& task, const DesignTarget& target, std:
     return target.quantity <= Quantity::A ? kMetFraction : kMetOther;
 }
 
-const tables::Column::Numbers& numbers(const tables::Records& records, std::string_view name) {
+const tables::Column::Numbers& number_column(const tables::Records& records,
+                                             std::string_view name) {
     return std::get<tables::Column::Numbers>(
         std::ranges::find(records.columns, name, &tables::Column::name)->values);
 }
-const tables::Column::Texts& texts(const tables::Records& records, std::string_view name) {
+const tables::Column::Texts& text_column(const tables::Records& records, std::string_view name) {
     return std::get<tables::Column::Texts>(
         std::ranges::find(records.columns, name, &tables::Column::name)->values);
 }
@@ -105,7 +106,7 @@ tables::Records target_report(const schemas::DesignTask& task, const DesignRows&
                                      ? std::abs(difference) <= allowed(task, target, e)
                                      : difference == 0;
                 report.add(number, std::string(name_of(target.quantity)), angle, letter,
-                           is_total ? kNone : target.wavelength_nm[e % count],
+                           is_total ? kNoNumber : target.wavelength_nm[e % count],
                            {value, target.target[e], difference, target.weight[e]},
                            met ? "yes" : "no");
                 ++row;
@@ -115,7 +116,7 @@ tables::Records target_report(const schemas::DesignTask& task, const DesignRows&
             for (std::size_t c = 0; c < 3; ++c) {
                 const double value = rows.value[row + c];
                 square += rows.residual[row + c] * rows.residual[row + c];
-                report.add(number, kLabNames[c], angle, letter, kNone,
+                report.add(number, kLabNames[c], angle, letter, kNoNumber,
                            {value, target.lab[e][c], value - target.lab[e][c], target.weight[e]},
                            "");
             }
@@ -123,7 +124,7 @@ tables::Records target_report(const schemas::DesignTask& task, const DesignRows&
             report.add(
                 number,
                 task.problem.merit == MeritKind::delta_e_2000 ? "delta_e_2000" : "delta_e_76",
-                angle, letter, kNone, {delta_e, 0, delta_e, target.weight[e]},
+                angle, letter, kNoNumber, {delta_e, 0, delta_e, target.weight[e]},
                 delta_e <= allowed(task, target, e) ? "yes" : "no");
             row += 3;
         }
@@ -133,7 +134,7 @@ tables::Records target_report(const schemas::DesignTask& task, const DesignRows&
 
 MetTargets met_targets(const tables::Records& report) {
     MetTargets result;
-    for (const std::string& met : texts(report, "met")) {
+    for (const std::string& met : text_column(report, "met")) {
         if (met.empty()) continue;
         ++result.all;
         if (met == "yes") ++result.met;
@@ -146,10 +147,10 @@ std::vector<std::string> summary_lines(const tables::Records& report) {
     const MetTargets count = met_targets(report);
     std::vector<std::string> lines{std::to_string(count.met) + " of " + std::to_string(count.all) +
                                    " values are met"};
-    const auto& quantity = texts(report, "quantity");
-    const auto& met = texts(report, "met");
-    const auto& value = numbers(report, "value");
-    const auto& angle = numbers(report, "angle_deg");
+    const auto& quantity = text_column(report, "quantity");
+    const auto& met = text_column(report, "met");
+    const auto& value = number_column(report, "value");
+    const auto& angle = number_column(report, "angle_deg");
     const auto rounded = [](double number, double scale) {
         return to_text(std::round(number * scale) / scale);
     };
@@ -178,12 +179,12 @@ std::string designed_text(const schemas::DesignTask& task, const std::vector<dou
 tables::Figure target_figure(const schemas::DesignTask& task, const tables::Records& report,
                              bool residuals) {
     tables::Figure figure{.title = task.name.empty() ? task.file : task.name};
-    const auto& quantity = texts(report, "quantity");
-    const auto& letter = texts(report, "polarization");
-    const auto& angle = numbers(report, "angle_deg");
-    const auto& wavelength = numbers(report, "wavelength_nm");
-    const auto& value = numbers(report, residuals ? "difference" : "value");
-    const auto& wanted = numbers(report, "target_value");
+    const auto& quantity = text_column(report, "quantity");
+    const auto& letter = text_column(report, "polarization");
+    const auto& angle = number_column(report, "angle_deg");
+    const auto& wavelength = number_column(report, "wavelength_nm");
+    const auto& value = number_column(report, residuals ? "difference" : "value");
+    const auto& wanted = number_column(report, "target_value");
     std::map<std::string, std::size_t> panels;
     std::vector<std::map<std::string, std::size_t>> curves;
     for (std::size_t r = 0; r < report.rows(); ++r) {
