@@ -97,7 +97,7 @@ TEST_CASE("brdf draws its rows", "[cli][brdf]") {
         const Outcome outcome = run_irido(arguments);
         INFO(outcome.err);
         CHECK(outcome.status == 0);
-        CHECK(outcome.out.starts_with("<?xml"));
+        CHECK(outcome.out.find("<svg") != std::string::npos);
     }
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
         check_refused(run_irido(arguments), error);
     };
     refuse({kMirror}, "a stack requires --alpha");
-    refuse({kMirror, "--alpha", "2"}, "--alpha: must be in [1e-4, 1] (got 2)");
+    refuse({kMirror, "--alpha", "2"}, "--alpha: must be in [1e-04, 1] (got 2)");
     refuse({kPale, "--alpha", "0.1"}, "--alpha is for stacks");
     refuse({kPale, "--view-theta", "91"}, "--view-theta: must be in [0, 90] (got 91)");
     refuse({kPale, "--light-theta", "nan"}, "--light-theta");
@@ -138,7 +138,7 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--paths", "few"}, "--paths: must be one of single, all");
     refuse({kPale, "--paths", "simulation", "--samples", "1e9"}, "require --output");
     refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");
-    refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e12]");
+    refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e+12]");
     refuse({kPale, "--paths", "simulation", "--facets", "none"}, "--facets: must be one of");
     refuse({kPale, "--paths", "simulation", "--color"}, "--color: takes --paths single or all");
     refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "takes --quantity brdf");
