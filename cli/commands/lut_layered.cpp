@@ -46,7 +46,7 @@ struct BandErrors {
     double bands = 0, colors = 0;  ///< largest CIEDE2000
 };
 
-/// Of the bands, and of three bands, which a product of colours would be, at random pairs.
+/// Of the bands, and of three, as many as a colour has, at random pairs.
 BandErrors band_errors(const LayeredScattering& scattering, const LayeredBands& bands,
                        const LayeredBands& three, const TabulatedScattering& exact,
                        const Triple& white) {
@@ -165,7 +165,7 @@ int run_lut_layered(const LutLayeredCommand& command) {
         lut.facts["notes"] = {
             "rows, for every three bands: R over theta_d and f_t cos / G1 over the angle inside of "
             "each layer, the base's albedo, and what the bands weigh in r, g and b",
-            "three bands alone, a product of colours, would err by up to " +
+            "products of three bands alone would err by up to " +
                 to_text(std::round(100 * errors.colors) / 100) + " in CIEDE2000"};
         lut.facts["request"] = {
             {"alpha", alphas},
@@ -179,7 +179,7 @@ int run_lut_layered(const LutLayeredCommand& command) {
             {"observer", query.color.observer}};
         query.note("CIEDE2000 of " + command.bands + " bands: up to " +
                    to_text(std::round(100 * errors.bands) / 100) +
-                   "; of a product of colours: " + to_text(std::round(100 * errors.colors) / 100));
+                   "; of three bands: " + to_text(std::round(100 * errors.colors) / 100));
         if (command.output.file.empty()) {
             write_bytes(format->write(lut, {}).back().bytes, command.output, false);
             return 0;

@@ -97,7 +97,7 @@ TEST_CASE("brdf draws its rows", "[cli][brdf]") {
         const Outcome outcome = run_irido(arguments);
         INFO(outcome.err);
         CHECK(outcome.status == 0);
-        CHECK(outcome.out.starts_with("<svg"));
+        CHECK(outcome.out.find("<svg") != std::string::npos);
     }
 }
 
