@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -98,7 +99,10 @@ TEST_CASE("A field that is deleted is missed, unless it is optional") {
                                          "reference_nm",
                                          "roughness_nm",
                                          "substrate_roughness_nm",
-                                         "roughness_placement"};
+                                         "roughness_placement",
+                                         "model",
+                                         "profile",
+                                         "axis"};
     for (const std::string& field : fields_of(complete_document())) {
         CAPTURE(field);
         json document = complete_document();
@@ -109,7 +113,11 @@ TEST_CASE("A field that is deleted is missed, unless it is optional") {
         } else {
             REQUIRE(!problems.empty());
             CHECK(problems.front().pointer == parent_of(field));
-            CHECK(problems.front().message.find("\"" + key_of(field) + "\"") != std::string::npos);
+            const std::map<std::string, std::string> instead{{"qwot", "thickness_nm"},
+                                                             {"graded", "material"}};
+            const auto other = instead.find(key_of(field));
+            const std::string missed = other == instead.end() ? key_of(field) : other->second;
+            CHECK(problems.front().message.find("\"" + missed + "\"") != std::string::npos);
         }
     }
 }
