@@ -1,4 +1,5 @@
 // Rough layered surfaces in a shader, against irido's own BRDF at 100 pairs of directions.
+import { fileURLToPath } from 'node:url';
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { csv, irido, randomNumbers } from '../support/irido.js';
@@ -15,7 +16,7 @@ const direction = (theta, phi) => {
 export function makeJobs(folder) {
     const random = randomNumbers(9);
     return Object.entries(surfaces).map(([name, layers]) => {
-        const surface = `schemas/examples/surfaces/${name}.json`;
+        const surface = fileURLToPath(new URL(`../../../schemas/examples/surfaces/${name}.json`, import.meta.url));
         const metadata = makeTable(folder, `${name}.ktx2`, 'layered', surface, '--bands', '24', '--size', '1024');
         const { alpha, groups, n_outside_per_n_inside: ratio } = metadata.request;
         const pairs = Array.from({ length: 100 }, () => [random(0, 80), random(0, 360), random(0, 80), random(0, 360)]);
