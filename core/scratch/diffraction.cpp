@@ -62,7 +62,7 @@ Complex scratch_amplitude(const VisibleScratch& scratch, const ScratchPair& pair
     const double y = kTwoPi * scratch.coherence_radius_um() * pair.xi1 * nu;
     // 1 - exp(2 i a) = -2 i sin(a) exp(i a)
     const double a = kPi * pair.path_um * nu;
-    const Complex groove = std::polar(2 * std::sin(a), a - kPi / 2);
+    const Complex groove = 2 * std::sin(a) * std::polar(1.0, a - kPi / 2);
     return std::numbers::sqrt2 * width * nu * slit_sinc(kPi * width * pair.xi2 * nu) * groove *
            scratch.amplitude(y, kTwoPi * nu, pair.xi2);
 }

@@ -19,7 +19,7 @@ ScratchBalance scratch_balance(std::span<const GrooveShare> grooves, double wave
         const double a = std::numbers::pi * path_um * wavenumber_per_um;
         all += share;
         power += share * 4 * std::sin(a) * std::sin(a);
-        amplitude += share * std::polar(2 * std::sin(a), a - std::numbers::pi / 2);
+        amplitude += share * (2 * std::sin(a)) * std::polar(1.0, a - std::numbers::pi / 2);
     }
     if (rule == ScratchEnergy::none || all == 0) return {};
     if (rule == ScratchEnergy::blend) return {std::max(0.0, 1 - 2 * all), 1};
