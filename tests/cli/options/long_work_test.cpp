@@ -87,8 +87,8 @@ public:
 
     /// What a command says in its first seconds.
     std::string begun(const std::string& command, const std::string& tries = "100") const {
-        run_shell("\"$IRIDO\" " + command + " > out 2> said &\np=$!\nfor i in $(seq " + tries +
-                      "); do [ -s said ] && break; sleep 0.02; done\nkill -9 $p",
+        run_shell("rm -f said\n\"$IRIDO\" " + command + " > out 2> said &\np=$!\nfor i in $(seq " +
+                      tries + "); do [ -s said ] && break; sleep 0.02; done\nkill -9 $p",
                   folder_.path());
         return read_file(folder_ / "said");
     }
