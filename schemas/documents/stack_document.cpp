@@ -24,6 +24,7 @@
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/material_models.hpp"
 #include "schemas/documents/material_words.hpp"
+#include "schemas/documents/plain_stack.hpp"
 #include "schemas/documents/rough_faces.hpp"
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
@@ -59,6 +60,7 @@ public:
     StackReader(const json& document, const std::string& file, const std::string& folder,
                 MaterialFiles& files)
         : document_(document), file_(file), folder_(folder), files_(files) {
+        if (is_plain_stack(document)) return;
         static const Schema schema(json::parse(stack_schema_text()));
         for (const Problem& problem : check(schema, document)) {
             broken_.insert(problem.pointer);

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "schemas/documents/plain_stack.hpp"
 #include "schemas/documents/stack_document.hpp"
 #include "schemas/readers/nearest.hpp"
 
 using irido::schemas::check;
+using irido::schemas::is_plain_stack;
 using irido::schemas::Problem;
 using irido::schemas::Schema;
 using nlohmann::json;
@@ -247,4 +249,48 @@ TEST_CASE("nearest finds misspellings and nothing far-fetched") {
     CHECK(irido::schemas::nearest("colour", keys).empty());
     CHECK(irido::schemas::nearest("", keys).empty());
     CHECK(irido::schemas::nearest(std::string(1000000, 'm'), keys).empty());
+}
+
+TEST_CASE("A plain document has no problems, whatever stands in its fields") {
+    CHECK(is_plain_stack(simple_document()));
+    const json plain{
+        {"$schema", "x"},
+        {"name", "plain"},
+        {"incident", 1},
+        {"layers",
+         {{{"repeat", 10}, {"layers", {{{"material", "TiO2"}, {"thickness_nm", 58.5}}}}},
+          {{"material", {{"n", 1.5}, {"k", 0.1}}},
+           {"thickness_nm", 100},
+           {"thickness_sigma_nm", 5},
+           {"coherent", false}}}},
+        {"substrate", "Si"}};
+    CHECK(is_plain_stack(plain));
+    const std::vector<json> values{nullptr,     true,          -1,
+                                   0,           1e-7,          0.5,
+                                   1,           1.5,           1e9,
+                                   1e10,        -1e300,        "",
+                                   "x",         "air",         {1, 2},
+                                   json{},      json::array(), {{"n", 1.5}},
+                                   {{"n", -1}}, {{"k", 1}},    {{"n", 1.5}, {"k", -1}},
+                                   {{"x", 1}}};
+    int still_plain = 0;
+    for (const json& document : {simple_document(), plain, complete_document()}) {
+        for (const std::string& field : fields_of(document)) {
+            json without = document;
+            without[json::json_pointer(parent_of(field))].erase(key_of(field));
+            if (is_plain_stack(without)) CHECK(check(stack_schema(), without).empty());
+            json extra = document;
+            extra[json::json_pointer(parent_of(field))]["other"] = 1;
+            CHECK_FALSE(is_plain_stack(extra));
+            for (const json& value : values) {
+                CAPTURE(field, value.dump());
+                json changed = document;
+                changed[json::json_pointer(field)] = value;
+                if (!is_plain_stack(changed)) continue;
+                ++still_plain;
+                CHECK(check(stack_schema(), changed).empty());
+            }
+        }
+    }
+    CHECK(still_plain > 50);
 }
