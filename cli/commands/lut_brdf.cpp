@@ -129,17 +129,7 @@ void add_lut_brdf(CLI::App& lut, Run& run) {
         "brdf", "BRDF of a rough layered surface as a file that renderers read.");
     const auto options = std::make_shared<LutBrdfCommand>();
     add_surface_options(*command, options->surface);
-    command
-        ->add_option("--paths", options->query.paths,
-                     "single: light reflected once; all: as often as it may be, where that has a\n"
-                     "closed form [single]")
-        ->type_name("PATHS");
-    offer(*command, "paths", "single all");
-    command
-        ->add_option("--transmission", options->query.transmission,
-                     "single or multiple, as of irido brdf [single]")
-        ->type_name("CROSSINGS");
-    offer(*command, "transmission", "single multiple");
+    add_table_paths_options(*command, options->query.paths, options->query.transmission);
     command
         ->add_option("-w,--wavelengths", options->wavelengths,
                      "of .bsdf files, nm, [1, 1e7] [360:830:10]")

@@ -204,17 +204,7 @@ void add_lut_layered(CLI::App& lut, Run& run) {
         ->type_name("N");
     command->add_option("--size", options->size, "angles from 0 to 90 degrees, [2, 8192] [256]")
         ->type_name("N");
-    command
-        ->add_option("--paths", options->query.paths,
-                     "single: light reflected once; all: as often as it may be, where that has a\n"
-                     "closed form [single]")
-        ->type_name("PATHS");
-    offer(*command, "paths", "single all");
-    command
-        ->add_option("--transmission", options->query.transmission,
-                     "single or multiple, as of irido brdf [single]")
-        ->type_name("CROSSINGS");
-    offer(*command, "transmission", "single multiple");
+    add_table_paths_options(*command, options->query.paths, options->query.transmission);
     add_light_options(*command, options->query.color);
     add_space_options(*command, options->query.color);
     command->add_option("--dtype", options->type, "number format: f16, f32 or f64 [f32]")

@@ -89,6 +89,19 @@ void add_surface_options(CLI::App& command, SurfaceOptions& options) {
         ->allow_extra_args(false);
 }
 
+void add_table_paths_options(CLI::App& command, std::string& paths, std::string& transmission) {
+    command
+        .add_option("--paths", paths,
+                    "single: light reflected once; all: as often as it may be, where that has a\n"
+                    "closed form [single]")
+        ->type_name("PATHS");
+    offer(command, "paths", "single all");
+    command
+        .add_option("--transmission", transmission, "single or multiple, as of irido brdf [single]")
+        ->type_name("CROSSINGS");
+    offer(command, "transmission", "single multiple");
+}
+
 schemas::SurfaceDocument read_noted_surface(const SurfaceOptions& options, bool quiet) {
     schemas::SurfaceRequest request{options.source, {}};
     if (!options.alpha.empty())

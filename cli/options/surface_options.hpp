@@ -17,6 +17,9 @@ struct SurfaceOptions {
 /// SURFACE, --alpha, --set and --material.
 void add_surface_options(CLI::App& command, SurfaceOptions& options);
 
+/// --paths and --transmission of tables of layered surfaces.
+void add_table_paths_options(CLI::App& command, std::string& paths, std::string& transmission);
+
 /// Reads the surface and says what is to be noted. Throws InputError and UsageError.
 schemas::SurfaceDocument read_noted_surface(const SurfaceOptions& options, bool quiet);
 

@@ -162,6 +162,21 @@ std::size_t ExrPixels::bytes() const {
     return static_cast<std::size_t>(row_bytes()) * static_cast<std::size_t>(height);
 }
 
+void set_chromaticities(const ExrFile& file, const RgbSpace& space) {
+    const auto& [red, green, blue] = space.primaries;
+    const double sum = space.white[0] + space.white[1] + space.white[2];
+    const auto single = [](double value) { return static_cast<float>(value); };
+    const exr_attr_chromaticities_t chromaticities{single(red.x),
+                                                   single(red.y),
+                                                   single(green.x),
+                                                   single(green.y),
+                                                   single(blue.x),
+                                                   single(blue.y),
+                                                   single(space.white[0] / sum),
+                                                   single(space.white[1] / sum)};
+    file.check(exr_attr_set_chromaticities(file, 0, "chromaticities", &chromaticities));
+}
+
 void write_rows(const ExrFile& file, const ExrPixels& pixels, const char* texels) {
     std::int32_t rows = 0;
     file.check(exr_get_scanlines_per_chunk(file, 0, &rows));

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/colorimetry/space.hpp"
 #include "tables/pictures/figure.hpp"
 
 namespace irido::tables {
@@ -51,6 +52,10 @@ struct ExrPixels {
     std::ptrdiff_t row_bytes() const;
     std::size_t bytes() const;
 };
+
+/// Says in the header of the only part which primaries and white its channels have. Throws
+/// PictureError.
+void set_chromaticities(const ExrFile& file, const RgbSpace& space);
 
 /// Writes all rows of the only part, whose header is written: scan lines in the pixels' type.
 /// Throws PictureError.

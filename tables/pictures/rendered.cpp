@@ -24,22 +24,6 @@ double alpha_of(const Picture& picture, std::size_t pixel) {
     return static_cast<double>(picture.rgba[4 * pixel + 3]);
 }
 
-void set_srgb_chromaticities(const ExrFile& file) {
-    const RgbSpace& space = rgb_space("srgb");
-    const auto& [red, green, blue] = space.primaries;
-    const double sum = space.white[0] + space.white[1] + space.white[2];
-    const auto single = [](double value) { return static_cast<float>(value); };
-    const exr_attr_chromaticities_t chromaticities{single(red.x),
-                                                   single(red.y),
-                                                   single(green.x),
-                                                   single(green.y),
-                                                   single(blue.x),
-                                                   single(blue.y),
-                                                   single(space.white[0] / sum),
-                                                   single(space.white[1] / sum)};
-    file.check(exr_attr_set_chromaticities(file, 0, "chromaticities", &chromaticities));
-}
-
 }  // namespace
 
 Pixels pixels_of(const Picture& picture) {
@@ -85,7 +69,7 @@ std::string exr_file(const Picture& picture, const std::string& metadata) {
     for (const char* channel : kRgba)
         file.check(exr_add_channel(file, part, channel, EXR_PIXEL_FLOAT,
                                    EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
-    set_srgb_chromaticities(file);
+    set_chromaticities(file, rgb_space("srgb"));
     file.check(exr_attr_set_string(file, 0, "irido.metadata", metadata.c_str()));
     file.check(exr_write_header(file));
     write_rows(file, pixels, reinterpret_cast<const char*>(picture.rgba.data()));

@@ -96,24 +96,12 @@ void set_text(const ExrFile& file, const char* name, const std::string& text) {
     file.check(exr_attr_set_string(file, 0, name, text.c_str()));
 }
 
-void set_chromaticities(const ExrFile& file, const Lut& lut) {
+void set_color_space(const ExrFile& file, const Lut& lut) {
     const auto found = lut.facts.find("color_space");
     if (found == lut.facts.end() || *found == "xyz") return;
     const std::string name = *found;
     if (std::ranges::find(rgb_space_names(), name) == rgb_space_names().end()) return;
-    const RgbSpace& space = rgb_space(name);
-    const auto& [red, green, blue] = space.primaries;
-    const double sum = space.white[0] + space.white[1] + space.white[2];
-    const auto single = [](double value) { return static_cast<float>(value); };
-    const exr_attr_chromaticities_t chromaticities{single(red.x),
-                                                   single(red.y),
-                                                   single(green.x),
-                                                   single(green.y),
-                                                   single(blue.x),
-                                                   single(blue.y),
-                                                   single(space.white[0] / sum),
-                                                   single(space.white[1] / sum)};
-    file.check(exr_attr_set_chromaticities(file, 0, "chromaticities", &chromaticities));
+    set_chromaticities(file, rgb_space(name));
 }
 
 void set_header(const ExrFile& file, const Picture& picture, const Lut& lut) {
@@ -126,7 +114,7 @@ void set_header(const ExrFile& file, const Picture& picture, const Lut& lut) {
     const exr_pixel_type_t type = lut.type == LutType::f16 ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
     for (const char* channel : picture.channels)
         file.check(exr_add_channel(file, part, channel, type, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
-    set_chromaticities(file, lut);
+    set_color_space(file, lut);
     set_text(file, "irido.kind", lut.kind);
     const auto error = lut.facts.find("error");
     if (error != lut.facts.end() && error->is_object())
