@@ -36,7 +36,7 @@ int run_brdf(const BrdfCommand& command) {
     constexpr double kManySamples = 1e8;
     if (!query.samples.empty() && command.output.file.empty() &&
         parse_one_number("--samples", query.samples, 2, 1e12) > kManySamples)
-        throw UsageError("--samples: more than 1e8 require --output, where the rows are kept");
+        throw UsageError("--samples: more than 1e8 require --output FILE");
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
     check_writable(command.output);
     SurfaceRows rows =

@@ -94,6 +94,7 @@ int run_scratches(const ScratchesCommand& command) {
         }
         if (!command.output.file.empty())
             throw UsageError("--grid: cannot be combined with --output");
+        if (command.grid == "-") throw UsageError("--grid: must name a file");
         tables::check_outputs({command.grid + ".json", command.grid});
         const tables::GridFile file = tables::grid_file(scratches, extent);
         tables::write_file(command.grid + ".json", file.header.dump(2) + "\n");

@@ -69,9 +69,9 @@ SimulationRequest parse_simulation(const SurfaceQuery& query, Crossings crossing
     else if (!query.facets.empty() && query.facets != choices[0])
         throw UsageError("--facets: " + not_one_of(choices, query.facets));
     if (crossings == Crossings::multiple && request.facets == FacetChoice::sampled)
-        throw UsageError("--transmission multiple: a simulation takes it with --facets filter");
+        throw UsageError("--transmission multiple: a simulation requires --facets filter");
     if (!query.color.tolerance.empty())
-        throw UsageError("--tolerance: a simulation takes --samples instead");
+        throw UsageError("--tolerance: does not apply to a simulation; use --samples");
     return request;
 }
 
@@ -121,7 +121,7 @@ void check_tolerance(const schemas::SurfaceDocument& document, const SurfaceQuer
 SurfaceRows layered_colors(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                            const SurfaceQuery& query) {
     if (is_simulated(query))
-        throw UsageError("--color: takes --paths single or all (got " + query.paths + ")");
+        throw UsageError("--color: requires --paths single or all (got '" + query.paths + "')");
     require_no_simulation(query);
     const ColorColumns columns(query.color);
     const double tolerance = parse_tolerance(query.color.tolerance);
@@ -141,7 +141,8 @@ SurfaceRows layered_colors(const LayeredSurface& surface, const schemas::Surface
         colors = color.albedo(thetas, paths);
         keys.emplace_back("light_theta_deg", thetas);
     } else {
-        throw UsageError("--color: takes --quantity brdf or albedo (got " + query.quantity + ")");
+        throw UsageError("--color: requires --quantity brdf or albedo (got '" + query.quantity +
+                         "')");
     }
     const bool is_added = paths == Paths::all && !color.scattering().is_closed();
     check_tolerance(document, query, is_added, colors);
@@ -169,8 +170,9 @@ public:
         if (query_.quantity == "brdf") return brdf();
         if (query_.quantity == "albedo") return albedo();
         if (is_simulated(query_))
-            throw UsageError("--paths " + query_.paths + ": takes --quantity brdf or albedo (got " +
-                             query_.quantity + ")");
+            throw UsageError("--paths " + query_.paths +
+                             ": requires --quantity brdf or albedo (got '" + query_.quantity +
+                             "')");
         if (query_.quantity == "transmissivity") return transmissivity();
         if (query_.quantity == "sampling") return sampling();
         constexpr std::array<std::string_view, 4> names{"brdf", "albedo", "transmissivity",
@@ -311,7 +313,7 @@ private:
 SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                             const SurfaceQuery& query) {
     if (const std::string typed = query.scratch.typed(); !typed.empty())
-        throw UsageError(typed + ": takes surfaces with scratches");
+        throw UsageError(typed + " applies to surfaces with scratches only");
     try {
         if (query.scatterogram) return layered_scatterogram(surface, document, query);
         return query.wants_color ? layered_colors(surface, document, query)

@@ -331,8 +331,8 @@ std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone>
                                                       const std::vector<double>& wavelength_nm,
                                                       const LightIntegral& method) const {
     if (sum_.kind != ScratchSum::Kind::separate)
-        throw DomainError("area lights take the separate sum of scratches only");
-    if (surface_.alpha) throw DomainError("area lights take smooth bases only (got an alpha)");
+        throw DomainError("area lights require the incoherent sum of scratches");
+    if (surface_.alpha) throw DomainError("area lights require a smooth base (got an alpha)");
     const std::size_t count = wavelength_nm.size();
     std::vector<std::vector<LightSlices>> slices(lights.size());  // [light][scratch]
     for (std::size_t l = 0; l < lights.size(); ++l)

@@ -70,7 +70,8 @@ bool LayeredScattering::is_closed() const {
 void LayeredScattering::require_closed(Paths paths) const {
     if (paths == Paths::all && !is_closed())
         throw DomainError(
-            "all paths have a closed form for one layer without a coating, and for a base alone");
+            "all paths have a closed form only for one layer without a coating and for a base "
+            "alone");
 }
 
 /// Layers that light crosses on its way to what reflects below.

@@ -98,7 +98,7 @@ private:
         constexpr double worst = 1e-4;
         if (!(color.error <= worst))
             throw DomainError("the colour at " + to_text(angle_deg) + " degrees has error " +
-                              to_text(color.error) + ", tables need " + to_text(worst));
+                              to_text(color.error) + ", tables require " + to_text(worst));
     }
 
     /// [angle][values][channel]

@@ -16,6 +16,7 @@
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/documents/varied_stack.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/index_rows.hpp"
 #include "tables/files/hash.hpp"
 #include "tables/lut/color_values.hpp"
 
@@ -117,8 +118,8 @@ private:
             for (const schemas::VariedRange& vary : material.vary)
                 if (!vary.range.is_one())
                     add("/vary" + schemas::pointer_step(vary.path),
-                        "nothing may vary with the shading " + name + " of a rough surface (got " +
-                            in_text(vary.range) + ")");
+                        "shading " + name + " takes no varied value (got " + in_text(vary.range) +
+                            ")");
         if (material.shading == schemas::Shading::bragg)
             if (const std::string fault = mirror_fault(material.document.stack); !fault.empty())
                 add("/shading", "bragg needs " + fault);
@@ -147,9 +148,10 @@ private:
     void plan_material(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         for (const HeldRange& held : held_ranges(material.document.stack, *sensitivity_))
             if (!held.usable)
-                throw schemas::InputError(material.source.file,
-                                          material.document.material_pointers[held.material],
-                                          "must be known from 400 to 700 nm for a colour");
+                throw schemas::InputError(
+                    material.source.file, material.document.material_pointers[held.material],
+                    material.document.stack.materials[held.material].name + " is known from " +
+                        schemas::in_words(held.range) + "; a colour needs data from 400 to 700 nm");
         const schemas::ValueRange all_angles{0, 90};
         if (material.angles_deg.first > all_angles.first ||
             material.angles_deg.last < all_angles.last)

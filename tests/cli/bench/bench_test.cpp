@@ -89,7 +89,7 @@ TEST_CASE("bench refuses what it does not know in one line", "[cli][bench][refus
         {{"stability", "--regime", "grasing"},
          "--regime: there is no regime 'grasing' (did you mean \"grazing\"?)"},
         {{"stability", "--regime", ""}, "--regime: must not be empty"},
-        {{"stability", "-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
+        {{"stability", "-f", "xml"}, "--format: must be one of csv, json, npy (got 'xml')"},
         {{"stability", "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
         {{"stability", "-o", "/no/such/folder/x.csv", "-n", "1", "-r", "thin"}, "/no/such/folder"},
         {{"stability", "extra"}, "extra"},
@@ -164,7 +164,7 @@ TEST_CASE("bench speed refuses what it does not know in one line", "[cli][bench]
         {{"--cases", "41"}, "--cases: unknown case '41'"},
         {{"--time", "0"}, "--time: must be in [0.001, 60] (got 0)"},
         {{"--time", "1,2"}, "--time: must be a single number (got '1,2')"},
-        {{"-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
+        {{"-f", "xml"}, "--format: must be one of csv, json, npy (got 'xml')"},
     };
     for (const auto& [arguments, error] : cases) {
         std::vector<std::string> all{"bench", "speed"};
