@@ -49,6 +49,10 @@ public:
             throw UsageError("--paths and --transmission: take layered surfaces");
         if (!query.samples.empty() || !query.facets.empty() || query.scatterogram)
             throw UsageError("--samples, --facets and --scatterogram: take layered surfaces");
+        if (!query.shard.empty() || !query.merge.empty())
+            throw UsageError("--shard and --merge: take simulations of layered surfaces");
+        if (query.color.sides != "R" || query.color.method != "auto")
+            throw UsageError("--side and --method: take layered surfaces");
         if (!query.seed.empty())
             throw UsageError("--seed: is of simulations; --set seed=N is of fields of scratches");
         if (sum_.kind == ScratchSum::Kind::ensemble && surface.fields.empty())
