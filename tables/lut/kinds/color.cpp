@@ -49,8 +49,9 @@ std::string path_of_spread(const LutRequest& request) {
 /// standard deviation of the first value if requested, the angle, the values.
 class ColorFunction {
 public:
-    ColorFunction(const LutRequest& request, std::size_t colors, bool by_cosine)
-        : tables_(std::make_shared<ColorTables>(*request.sensitivity)),
+    ColorFunction(std::shared_ptr<const ColorTables> tables, const LutRequest& request,
+                  std::size_t colors, bool by_cosine)
+        : tables_(std::move(tables)),
           color_(request.color),
           values_(request),
           by_cosine_(by_cosine),
@@ -174,7 +175,11 @@ LutPlan plan(const LutRequest& request) {
         colors *= axis.axis.count();
     }
     result.channels = color_channels(request);
-    result.evaluate = ColorFunction(request, colors, by_cosine);
+    const auto tables = std::make_shared<const ColorTables>(*request.sensitivity);
+    result.evaluate = ColorFunction(tables, request, colors, by_cosine);
+    result.roughly = [=](double error) -> LutPlan::Evaluate {
+        return ColorFunction(tables, rougher(request, error), colors, by_cosine);
+    };
     result.measure = color_measure(request);
     result.facts = color_facts(request);
     if (const double width_nm = remap_width(request); width_nm > 0)

@@ -121,7 +121,7 @@ Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest
 
 /// Makes one table, writes its file if it needs one, and returns its entry.
 json made_entry(const SceneTable& table, const LutFormat& format, const BakeRequest& request,
-                const std::function<void(double)>& progress) {
+                const std::function<void(double, const std::string&)>& progress) {
     LutMaking making = table.making;
     making.threads = request.threads;
     making.progress = progress;
@@ -459,13 +459,14 @@ BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRe
     TableEntries entries;
     for (std::size_t t = 0; t < plan.tables.size(); ++t) {
         const SceneTable& table = plan.tables[t];
-        const auto progress = [&](double part) {
+        const auto progress = [&](double part, const std::string& what) {
             if (request.progress)
                 request.progress(
                     (static_cast<double>(t) + part) / static_cast<double>(plan.tables.size()),
-                    table.materials.front() + ": " + std::string(table.kind->name));
+                    table.materials.front() + ": " + std::string(table.kind->name) +
+                        (what.empty() ? "" : ", ") + what);
         };
-        progress(0);
+        progress(0, "");
         try {
             Keeping keeping;
             if (!request.force)

@@ -120,7 +120,8 @@ TEST_CASE("bench speed reports every kernel beside the machine's limit", "[cli][
     CHECK(outcome.err.empty());
     CHECK_THAT(outcome.out,
                StartsWith("case,method,threads,layers,points,points_per_s,ns_per_point,worst_R,"
-                          "operations_per_point,limit_per_s,fraction_of_limit,worst_F\n"));
+                          "operations_per_point,limit_per_s,fraction_of_limit,worst_F,"
+                          "thread_efficiency\n"));
     const auto rows = parse_csv(outcome.out);
     std::set<std::string> cases, methods;
     for (std::size_t i = 1; i < rows.size(); ++i) {
