@@ -155,9 +155,12 @@ tables::RecordLayout CmQuery::layout(const schemas::StackDocument&) const {
 
 tables::RowPlot CmQuery::plot(const tables::Records&, tables::GamutMapping) const {
     tables::RowPlot plot;
-    plot.form = tables::Series::Form::bars;
+    constexpr std::size_t kMostBars = 8;  // of each order, side by side
+    const bool has_bars = angles_deg_.size() <= kMostBars;
+    plot.form = has_bars ? tables::Series::Form::bars : tables::Series::Form::line;
     for (const char* name : {"order", "angle_deg", "polarization", "side"})
-        plot.keys.push_back({name, tables::axis_of_column(name)});
+        plot.keys.push_back({name, tables::axis_of_column(name),
+                             !has_bars && std::string_view(name) == "polarization"});
     plot.values.push_back({"C", tables::axis_of_column("C")});
     return plot;
 }

@@ -66,6 +66,13 @@ double sine_square_series(double a, double b) {
     return 2 * sum;
 }
 
+/// With kz d = delta = a + ib, and x = a z/d, y = b z/d at the depth z,
+///     |cos|^2 = (cosh 2y + cos 2x)/2,   |sin|^2 = (cosh 2y - cos 2x)/2,
+///     cos conj(sin) = (sin 2x - i sinh 2y)/2,
+/// and over the depth cosh 2y, cos 2x, sin 2x and sinh 2y have the means sinh(2b)/(2b),
+/// sin(2a)/(2a), sin(a)^2/a and sinh(b)^2/b; kz/k0 = delta/(k0 d). In a thin layer the first two
+/// are nearly equal: their difference is taken term by term, u^m - v^m = (u - v) h_{m-1}(u, v) with
+/// u - v = 4 |delta|^2.
 DepthIntegrals depth_integrals(const Phase& phase, double k0_d) {
     const double a = phase.a, b = phase.b;
     const double scale = std::exp(-2 * phase.log_scale);

@@ -1,6 +1,7 @@
 #include "tables/pictures/rows_figure.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -402,6 +403,27 @@ const std::vector<KnownColumn>& known_columns() {
     return known;
 }
 
+/// "thickness of layer 1" for layers.0.thickness, "periods of layer 2" for layers.1.repeat; layers
+/// are counted from 1, as in A_1, those of a group behind a point. Any other name as it is.
+std::string words_of_path(const std::string& path) {
+    constexpr std::string_view kStep = "layers.";
+    std::string layer;
+    std::size_t at = 0;
+    while (path.compare(at, kStep.size(), kStep) == 0) {
+        std::size_t number = 0;
+        const char* const end = path.data() + path.size();
+        const auto [rest, error] = std::from_chars(path.data() + at + kStep.size(), end, number);
+        if (error != std::errc() || rest == end || *rest != '.') return path;
+        layer += (layer.empty() ? "" : ".") + std::to_string(number + 1);
+        at = static_cast<std::size_t>(rest - path.data()) + 1;
+    }
+    if (layer.empty()) return path;
+    std::string quantity = path.substr(at);
+    if (quantity == "repeat") quantity = "periods";
+    std::ranges::replace(quantity, '_', ' ');
+    return quantity + " of layer " + layer;
+}
+
 }  // namespace
 
 FigureAxis axis_of_column(const std::string& name) {
@@ -409,11 +431,14 @@ FigureAxis axis_of_column(const std::string& name) {
         if (known.name == name) return known.axis;
     if (name.starts_with("A_"))
         return {.quantity = "A of layer " + name.substr(2), .from_zero = true};
-    for (const auto& [ending, unit] : {std::pair{"_nm", "nm"}, {"_deg", "\u00b0"}})
-        if (name.ends_with(ending))
-            return {.quantity = name.substr(0, name.size() - std::string_view(ending).size()),
-                    .unit = unit};
-    return {.quantity = name};
+    FigureAxis axis{.quantity = name};
+    for (const auto& [ending, unit] : {std::pair{"_nm", "nm"}, {"_deg", "\u00b0"}}) {
+        if (!name.ends_with(ending)) continue;
+        axis.quantity.resize(name.size() - std::string_view(ending).size());
+        axis.unit = unit;
+    }
+    axis.quantity = words_of_path(axis.quantity);
+    return axis;
 }
 
 std::vector<double> column_numbers(const Records& records, const std::string& name) {

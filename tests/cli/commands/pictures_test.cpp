@@ -66,8 +66,10 @@ TEST_CASE("pictures say what they show", "[cli][pictures]") {
     CHECK_THAT(svg(all[2]), Contains(">spectral locus</text>") && Contains(">CIE 1976</text>") &&
                                 Contains(">80\u00b0</text>"));
     CHECK_THAT(svg(all[3]), Contains(">order</text>") && Contains("angle of incidence 50\u00b0"));
+    CHECK_THAT(svg({"cm", "1 | 1.5@500 | 2+1i", "-a", "0:80:10"}),
+               Contains(">order 5</text>") && Contains(">p</text>"));  // curves in two panels
     CHECK_THAT(svg(all[6]), Contains("s, gap of order 2"));
-    CHECK_THAT(svg(all[7]), Contains(">layers.0.thickness, nm</text>"));
+    CHECK_THAT(svg(all[7]), Contains(">thickness of layer 1, nm</text>"));
     CHECK_THAT(svg(all[8]),
                Contains("<metadata>{&quot;axes&quot;") && Contains("cosine of the angle"));
 }

@@ -84,8 +84,15 @@ TEST_CASE("one row is a point; no row and too much are refused", "[pictures][ref
 TEST_CASE("columns have their units", "[pictures]") {
     CHECK(axis_of_column("wavelength_nm").title() == "vacuum wavelength, nm");
     CHECK(axis_of_column("wavelength_nm").hues);
-    CHECK(axis_of_column("layers.0.thickness_nm").title() == "layers.0.thickness, nm");
+    CHECK(axis_of_column("layers.0.thickness_nm").title() == "thickness of layer 1, nm");
     CHECK(axis_of_column("A_3").title() == "A of layer 3");
+    CHECK(axis_of_column("layers.1.layers.0.thickness_nm").title() == "thickness of layer 2.1, nm");
+    CHECK(axis_of_column("layers.1.repeat").title() == "periods of layer 2");
+    CHECK(axis_of_column("layers.0.thickness_sigma_nm").title() ==
+          "thickness sigma of layer 1, nm");
+    CHECK(axis_of_column("layers.0").title() == "layers.0");
+    CHECK(axis_of_column("layers.99999999999999999999.n").title() ==
+          "layers.99999999999999999999.n");
     CHECK(axis_of_column("substrate.n").title() == "substrate.n");
 }
 
