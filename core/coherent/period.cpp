@@ -31,7 +31,7 @@ struct Traceless {
 /// The traceless part of a matrix, adjusted so that t^2 + b c equals -sin(K)^2 to the last digit:
 /// the power then has determinant 1 and energy balances. The entry adjusted is the one that changes
 /// least: t where t^2 is the larger term, else the smaller of b and c.
-///   sine2 :: sin(K)^2 without the matrix's factor exp(2 log_scale)
+///   sine2  sin(K)^2 without the matrix's factor exp(2 log_scale)
 Traceless traceless_of(const Matrix& m, Complex sine2) {
     Traceless of{(m.a - m.d) / 2.0, m.b, m.c};
     const Complex square = of.t * of.t, product = of.b * of.c;
