@@ -146,8 +146,7 @@ void spread_points(std::span<const double> turns, std::span<const std::vector<do
             require_in_range("turns", turn, -0.5, 0.5);
             const double first = std::ceil(turn * size - kHalfWidth);
             start[i] = static_cast<std::size_t>(first + size) % length;
-            kernel_exponents(std::fma(turn, size, -first),  // fma keeps the last digits of the
-                                                            // position
+            kernel_exponents(std::fma(turn, size, -first),  // keeps the position's last digits
                              std::span(kernel).subspan(i * kTaps, kTaps));
         }
         const std::span used = std::span(kernel).first(count * kTaps);
