@@ -19,21 +19,21 @@ namespace {
 
 using ModeMatrix = Eigen::MatrixXd;
 
-/// Panels of 16 angles over a quarter turn, and azimuths over half a turn.
+/// Panels of 16 angles per quarter turn, and azimuths per half turn.
 struct AddingLevel {
     std::size_t panels, azimuths;
 };
 constexpr std::array kLevels{AddingLevel{2, 32}, AddingLevel{4, 64}, AddingLevel{8, 128},
                              AddingLevel{12, 256}};
 
-/// Angles asked for that are solved together.
+/// Requested angles that are solved together.
 constexpr std::size_t kAnglesTogether = 48;
 
-/// Part of the tolerance that modes which are left out may have.
+/// Fraction of the tolerance allotted to the modes left out.
 constexpr double kModeShare = 0.05;
 
-/// R over theta_d in steps of 1/kStepsPerDegree degrees, linear in between: the fastest fringes
-/// that facets within 1 degree of each other do not wash out differ from that by 1e-5.
+/// R is tabulated over theta_d in steps of 1/kStepsPerDegree degrees and interpolated linearly: for
+/// the fastest fringes that facets 1 degree apart do not average out, the error is 1e-5.
 constexpr double kStepsPerDegree = 100;
 constexpr std::size_t kSteps = 9000;
 
@@ -42,7 +42,7 @@ constexpr std::size_t kModesTogether = 16;
 
 }  // namespace
 
-/// Angles inside: nodes, then those asked for.
+/// Angles inside: nodes, then the angles requested.
 struct Adding::Grid {
     std::vector<double> theta_deg;
     Eigen::VectorXd weight;   ///< of the nodes
@@ -50,12 +50,12 @@ struct Adding::Grid {
     std::size_t nodes = 0;
 };
 
-/// The lobe of a layer between all angles at azimuths over half a turn, R left out.
+/// The lobe of a layer, without R, between all angles at azimuths over half a turn.
 struct Adding::Lobes {
-    std::vector<double> step, lobe;  ///< [i >= j][azimuth]; theta_d in steps of the table of R
+    std::vector<double> step, lobe;  ///< [i >= j][azimuth]; theta_d in steps of R's table
     std::size_t azimuths = 0;
 
-    /// Times R at one wavelength: columns of azimuths.
+    /// Lobe times R at one wavelength; azimuths are columns.
     ModeMatrix samples(const AngleSeries& series) const {
         std::vector<double> R(kSteps + 2);
         for (std::size_t k = 0; k <= kSteps; ++k)
@@ -75,8 +75,8 @@ struct Adding::Lobes {
 
 namespace {
 
-/// Rows that make modes of samples at azimuths over half a turn: (1/2 pi) integral f cos(m phi)
-/// dphi over the whole turn.
+/// Matrix that turns samples at azimuths over half a turn into modes: (1/2 pi) integral f cos(m
+/// phi) dphi over the whole turn.
 ModeMatrix mode_rows(std::size_t azimuths, std::size_t first, std::size_t count) {
     const auto last = static_cast<Eigen::Index>(azimuths);
     ModeMatrix rows(static_cast<Eigen::Index>(count), last + 1);
@@ -134,7 +134,7 @@ Adding::Lobes Adding::lobes_of(const Grid& grid, std::size_t layer, std::size_t 
     const std::size_t all = grid.theta_deg.size(), row = azimuths + 1;
     lobes.step.resize(all * (all + 1) / 2 * row);
     lobes.lobe.resize(lobes.step.size());
-    std::vector<std::pair<double, double>> halves;  // cos and sin of half the azimuths
+    std::vector<std::pair<double, double>> halves;  // cos and sin of half of each azimuth
     for (std::size_t k = 0; k <= azimuths; ++k) {
         const double half_deg = 90 * static_cast<double>(k) / static_cast<double>(azimuths);
         halves.emplace_back(sin_deg(90 - half_deg), sin_deg(half_deg));
@@ -154,9 +154,14 @@ Adding::Lobes Adding::lobes_of(const Grid& grid, std::size_t layer, std::size_t 
     return lobes;
 }
 
-/// Calls take(mode, rest) with the light reflected more than once, [angle][angle] without what the
-/// coating takes on the way in and out, until take() says that no more is needed.
-///   tau  [layer][angle]
+/// Calls take(mode, rest) with the light reflected more than once, [angle][angle], before the
+/// coating's losses on the way in and out, until take() needs no more modes.
+///   grid           angles
+///   lobes          of the layers
+///   tau            [layer][angle]
+///   wavelength_nm  in vacuum
+///   most_modes     highest mode to compute
+///   take           receives each mode; returns whether to continue
 template <class Take>
 void Adding::solve(const Grid& grid, std::span<const Lobes> lobes, std::span<const double> tau,
                    double wavelength_nm, std::size_t most_modes, const Take& take) const {
@@ -222,7 +227,7 @@ Adding::Values Adding::brdf_rest(std::span<const ScatterPair> pairs,
     for (std::size_t l = 0; l < layers; ++l)
         scattering_.layer(l).facets().prepare(wavelength_nm, execution_.threads);
     for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
-        std::map<double, std::size_t> places;  // of angles inside
+        std::map<double, std::size_t> places;  // indices of angles inside
         for (; end < pairs.size() && (places.size() + 2 <= kAnglesTogether || end == begin); ++end)
             for (const double theta : {pairs[end].theta_i_deg, pairs[end].theta_o_deg})
                 places.try_emplace(coating.inward(theta).theta_deg, 0);

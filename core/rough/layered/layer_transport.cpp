@@ -10,12 +10,12 @@ namespace irido {
 
 namespace {
 
-/// Angles whose moments are kept: 100 MB.
+/// Number of angles whose moments are cached: 100 MB.
 constexpr std::size_t kMostKept = 8192;
 
 }  // namespace
 
-/// Moments of one angle, for one thread at a time.
+/// Moments of one angle; locked while in use.
 struct LayerTransport::Moments {
     explicit Moments(FilterNodes nodes) : moments(std::move(nodes)) {}
     std::mutex lock;
