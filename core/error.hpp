@@ -36,7 +36,10 @@ public:
 /// Shortest decimal string that reads back to the same double.
 std::string to_text(double value);
 
-/// Throws DomainError unless `value` lies in the closed range [lowest, highest]; NaN always throws.
+/// Throws DomainError unless a value lies in a closed range; NaN always throws.
+///   name             of the argument, for the message
+///   value            to check
+///   lowest, highest  ends of the range
 void require_in_range(std::string_view name, double value, double lowest, double highest);
 
 /// "must be one of a, b, c (got x)".

@@ -15,17 +15,28 @@ namespace irido {
 Matrix matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
                  Polarization polarization);
 
-/// Their matrix of wave amplitudes, see wave_matrix().
-///   elements, media, k0, polarization  as for matrix_of()
-///   y0                                 admittance of the reference medium, not 0
+/// Matrix of layers and groups acting on wave amplitudes, see wave_matrix().
+///   elements      from the incident side to the substrate
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that `media` were computed for
+///   y0            admittance of the reference medium, not 0
 Matrix wave_matrix_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
                       Polarization polarization, Complex y0);
 
-/// Their characteristic matrix and the power they absorb; arguments as for matrix_of().
+/// Characteristic matrix of layers and groups, and the power they absorb.
+///   elements      from the incident side to the substrate
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that `media` were computed for
 Slab slab_of(std::span<const Element> elements, std::span<const Medium> media, double k0,
              Polarization polarization);
 
-/// slab_of() if any element absorbs, else matrix_of() alone; arguments as for matrix_of().
+/// slab_of() if any element absorbs, else matrix_of() alone.
+///   elements      from the incident side to the substrate
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that `media` were computed for
 Slab coherent_slab(std::span<const Element> elements, std::span<const Medium> media, double k0,
                    Polarization polarization);
 
@@ -41,9 +52,11 @@ struct BlochPhase {
 };
 
 /// Bloch phase of a group's period.
-///   group                    whose elements make up one period
-///   period                   their matrix, see matrix_of()
-///   media, k0, polarization  as for matrix_of()
+///   group         whose elements make up one period
+///   period        their matrix, see matrix_of()
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that `media` were computed for
 BlochPhase bloch_phase(const Group& group, const Matrix& period, std::span<const Medium> media,
                        double k0, Polarization polarization);
 

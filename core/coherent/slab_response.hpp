@@ -52,8 +52,13 @@ Response coherent_response(const Wave& in, std::span<const Element> elements, co
 
 /// Power absorbed in each layer, as a fraction of the incident power, from the fields at its lower
 /// face.
-///   in, elements, out, media, k0, polarization  as for coherent_response()
-///   absorbed  output, one entry per layer with groups expanded, top layer first
+///   in            incident wave
+///   elements      layers and groups, from the incident side down
+///   out           transmitted wave
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that the waves and `media` were computed for
+///   absorbed      output, one per layer with groups expanded, top layer first
 void coherent_layer_absorption(const Wave& in, std::span<const Element> elements, const Wave& out,
                                std::span<const Medium> media, double k0, Polarization polarization,
                                std::span<double> absorbed);

@@ -55,8 +55,8 @@ struct PanelRule {
 /// `panel` must lie inside the support; degree is 8, 16, 32, 64 or 128.
 PanelRule panel_rule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree);
 
-/// A plain sum over samples, X = white X sum_i weight[0][i] f_i / sum_i weight[0][i] and likewise
-/// for Y and Z, so that f = 1 gives exactly the white.
+/// A plain sum over samples, X = white X sum_i weight[0][i] f_i / sum_i weight[0][i], also for Y
+/// and Z, so that f = 1 gives exactly the white.
 struct SampleRule {
     std::vector<double> wavelength_nm;
     std::array<std::vector<double>, 3> weight;

@@ -39,7 +39,7 @@ struct GivenFilm {
 /// Throws DomainError as with_base() and bare_base_color() do.
 GivenFilm given_film(const ColorTables& tables, const Stack& held);
 
-/// The same for a film in air, a single layer, whose engine inputs are known.
+/// Reduces a single film in air whose engine inputs are known.
 GivenFilm given_film(const EngineFilm& film, const Stack& held);
 
 }  // namespace irido

@@ -31,7 +31,13 @@ public:
     StackComparison(const ColorTables& tables, std::span<const ComparedEngine> engines,
                     const EngineDifference& difference, const Stack& stack,
                     const ColorRequest& request);
-    /// The same with known engine inputs `given`.
+    /// Throws DomainError as held_stack() and color_algorithm() do.
+    ///   tables      observer and illuminant; must outlive this object, as must the next two
+    ///   engines     to compare
+    ///   difference  how to compare them
+    ///   stack       structure and materials
+    ///   request     options of the exact colours
+    ///   given       inputs of the engines, if known
     StackComparison(const ColorTables& tables, std::span<const ComparedEngine> engines,
                     const EngineDifference& difference, const Stack& stack,
                     const ColorRequest& request, GivenFilm given);

@@ -29,7 +29,7 @@ Chain chain_of(const std::vector<Element>& elements, std::size_t substrate);
 /// Number of layers with groups expanded, capped at the largest std::size_t.
 std::size_t count_layers(std::span<const Element> elements);
 
-/// The same, counting each sliced layer once.
+/// Number of layers with groups expanded and each sliced layer counted once.
 std::size_t count_listed_layers(std::span<const Element> elements);
 
 /// All layers in order, with groups expanded.
@@ -43,10 +43,15 @@ std::vector<std::size_t> listed_layers(std::span<const Element> elements);
 /// if there are none.
 std::optional<Chain> joined(const Chain& chain, std::span<const Medium> media);
 
-/// A chain, joined(), at one wavelength, angle and polarization; arguments as for StackPower. It
-/// refers to its arguments. Thickness changes take effect unless gaps were joined.
+/// A chain, joined(), at one wavelength, angle and polarization.
 class ChainLight {
 public:
+    /// Refers to the chain and the media. Later changes of a thickness take effect only if joined()
+    /// had nothing to join.
+    ///   chain         blocks and incoherent layers
+    ///   media         one per material, followed by the incident medium
+    ///   k0            2 pi / wavelength, 1/nm, > 0
+    ///   polarization  s or p, the one that `media` were computed for
     ChainLight(const Chain& chain, std::span<const Medium> media, double k0,
                Polarization polarization)
         : own_(joined(chain, media)),

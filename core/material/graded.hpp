@@ -20,7 +20,10 @@ inline Series<Complex> power_of(const Series<Complex>& base, double exponent) {
     return power_series(base, exponent, std::pow(base[0], exponent));
 }
 
-/// Permittivity at depth t, as a number or a series; n1 and n2 are the indices at top and bottom.
+/// Permittivity of a graded layer at one depth, as a number or a series.
+///   profile  shape of the index
+///   n1, n2   indices at top and bottom
+///   t        relative depth, [0, 1]
 template <class Number>
 Number graded_permittivity(GradedProfile profile, const Number& n1, const Number& n2, double t) {
     switch (profile) {

@@ -22,7 +22,7 @@ struct LibraryMaterial {
 /// Names of all built-in materials without aliases, related ones together. Static data.
 std::span<const std::string_view> library_names();
 
-/// The same, each followed by its aliases, for suggestions.
+/// Names of all built-in materials, each followed by its aliases, for suggestions.
 std::vector<std::string> library_names_and_aliases();
 
 /// The built-in material of this name or alias, exact and case-sensitive; nothing if unknown.

@@ -97,7 +97,10 @@ struct Feature {
 /// 16-point Gauss rule converges to rounding on each.
 std::vector<double> graded_panels(double begin, double end, std::span<const Feature> features);
 
-/// Calls add(x, weight) at the nodes of a 16-point Gauss rule on each panel inside [begin, end].
+/// Visits the nodes of a 16-point Gauss rule on each panel.
+///   ends        panel boundaries, ascending
+///   begin, end  range to which the panels are cut
+///   add         called as add(x, weight)
 template <class Add>
 void for_each_node(std::span<const double> ends, double begin, double end, const Add& add) {
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {

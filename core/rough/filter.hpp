@@ -76,7 +76,7 @@ public:
     double operator()(double theta_i_deg, double theta_d_deg) const;
     double operator()(const HalfAngles& theta_i, const HalfAngles& theta_d) const;
 
-    /// The same for facets that straight light meets from behind,
+    /// The corresponding filter for facets that straight light meets from behind,
     ///     2 (G1(ti)/cos ti) cos td sin td  integral D(theta_m) dpsi   over cos theta_m < 0,
     /// whose integral over theta_d is 1 - G1(theta_i); 0 up to theta_d = 90 - theta_i. The error is
     /// 1e-15 of the largest value of F_alpha.

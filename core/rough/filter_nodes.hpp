@@ -17,6 +17,11 @@ public:
     /// TransmissionFilter::behind().
     enum class Facets { seen, behind };
 
+    /// Quadrature for one angle of incidence.
+    ///   filter       must outlive this object
+    ///   theta_i_deg  [0, 90] degrees
+    ///   simd         instruction set
+    ///   facets       which weight to use
     FilterNodes(const TransmissionFilter& filter, double theta_i_deg, SimdLevel simd,
                 Facets facets = Facets::seen);
 

@@ -42,11 +42,11 @@ struct ConditionedPower {
     Condition condition;
 };
 
-/// Power and condition for both polarizations, {s, p}; arguments as for reference_power(). First
-/// derivatives underestimate errors at a narrow peak (they vanish at its top) and overestimate them
-/// at the substrate's critical angle (where they are infinite). Each condition is therefore the
-/// largest over three points: the given one, unless it is within rounding of that angle, and two
-/// with all inputs moved by a relative 2^-51 so that all q2 and all phases increase, or decrease.
+/// Power and condition for both polarizations, {s, p}; see reference_power(). First derivatives
+/// underestimate errors at a narrow peak (they vanish at its top) and overestimate them at the
+/// substrate's critical angle (where they are infinite). Each condition is therefore the largest
+/// over three points: the given one, unless it is within rounding of that angle, and two with all
+/// inputs moved by a relative 2^-51 so that all q2 and all phases increase, or decrease.
 std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wavelength_nm,
                                                   double angle_deg);
 
@@ -63,7 +63,10 @@ struct LayerPowerSlopes {
 
 /// Derivatives for every layer of a stack, each group listed once, and finally for its substrate:
 /// to 50 digits, by the adjoint of the transfer matrices.
-///   stack, wavelength_nm, angle_deg, polarization  as for reference_power()
+///   stack          layers and half-spaces
+///   wavelength_nm  in vacuum, [1, 1e7]
+///   angle_deg      [0, 90)
+///   polarization   s or p
 std::vector<LayerPowerSlopes> reference_slopes(const Stack& stack, double wavelength_nm,
                                                double angle_deg, Polarization polarization);
 
@@ -73,11 +76,13 @@ std::vector<LayerPowerSlopes> reference_slopes(const Stack& stack, double wavele
 /// fringes of 1e9 periods near a gap edge, narrow peaks and critical angles. It evaluates 401
 /// points, and more near the closest, in 50 digits: "yes" is always right, "no" may be wrong if
 /// more than 100 fringes are swept.
-///   stack, wavelength_nm, angle_deg, polarization  as for reference_power()
-///   quantity                                       member of Power: R, T or A
-///   value                                          to be attained
-///   roundings                                      largest relative change of the inputs, in units
-///                                                  of 2^-53
+///   stack          layers and half-spaces
+///   wavelength_nm  in vacuum, [1, 1e7]
+///   angle_deg      [0, 90)
+///   polarization   s or p
+///   quantity       member of Power: R, T or A
+///   value          to be attained
+///   roundings      largest relative change of the inputs, in units of 2^-53
 bool is_answer_nearby(const Stack& stack, double wavelength_nm, double angle_deg,
                       Polarization polarization, double Power::*quantity, double value,
                       double roundings);

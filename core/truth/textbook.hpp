@@ -207,7 +207,11 @@ WaveOf<R> wave(const MediumOf<R>& m, Polarization polarization) {
 template <class R>
 class Transfer {
 public:
-    /// The stack's own inputs, perturbed; indices are taken from its materials.
+    /// From the stack's own inputs, perturbed; indices are taken from its materials.
+    ///   stack          layers and half-spaces
+    ///   wavelength_nm  in vacuum, [1, 1e7]
+    ///   angle_deg      [0, 90)
+    ///   shift          perturbation of the inputs
     Transfer(const Stack& stack, double wavelength_nm, double angle_deg,
              Shift shift = Shift::none())
         : shift_(shift) {
@@ -228,7 +232,10 @@ public:
         add_layer_media();
     }
 
-    /// The same with media as the kernel takes them, eps and q2 exact.
+    /// From media as the kernel takes them, eps and q2 exact.
+    ///   above, below  half-spaces
+    ///   media         one per material of the stack
+    ///   k0            2 pi / wavelength, 1/nm, > 0
     Transfer(const Medium& above, const Medium& below, std::span<const Medium> media, double k0)
         : k0_(k0), above_(converted(above)), below_(converted(below)) {
         for (const Medium& m : media) media_.push_back(converted(m));

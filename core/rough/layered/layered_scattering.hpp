@@ -83,7 +83,7 @@ public:
     std::vector<double> straight(std::size_t layer, std::span<const double> theta_deg,
                                  const std::vector<double>& wavelength_nm) const;
 
-    /// The same for all layers that transmit light, [wavelength][layer][angle].
+    /// f_t cos of all layers that transmit light, at angles inside, [wavelength][layer][angle].
     std::vector<double> straight_of_all(std::span<const double> theta_deg,
                                         const std::vector<double>& wavelength_nm,
                                         unsigned threads) const;
@@ -104,8 +104,8 @@ public:
     std::vector<double> sampling(std::span<const double> theta_i_deg,
                                  const std::vector<double>& wavelength_nm) const;
 
-    /// The same for one sample shared by all wavelengths, [angle outside][2 + layers], from f_t cos
-    /// averaged over the wavelengths.
+    /// Sampling probabilities for one sample shared by all wavelengths, from f_t cos averaged over
+    /// them: [angle outside][2 + layers].
     std::vector<double> multiplexed_sampling(std::span<const double> theta_i_deg,
                                              const std::vector<double>& wavelength_nm) const;
 
