@@ -54,8 +54,13 @@ struct SlopeAnswer {
     /// [slot][re, im][stride]. For amplitudes: dr/dx. For powers: with respect to a thickness in
     /// nm, dR/dx/2 in the real part; with respect to an index, H with dR = 2 Re(H dn).
     std::vector<double> reflected;
-    std::vector<double> transmitted;  ///< the same for ln t, or T
+    std::vector<double> transmitted;  ///< likewise for ln t, or T
 
+    /// One row of `reflected` or `transmitted`.
+    ///   all        which of them
+    ///   slot       derivative
+    ///   imaginary  the imaginary instead of the real part
+    ///   stride     that of the run
     const double* row(const std::vector<double>& all, std::size_t slot, bool imaginary,
                       std::size_t stride) const {
         return all.data() + (2 * slot + (imaginary ? 1 : 0)) * stride;

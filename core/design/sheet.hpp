@@ -63,6 +63,11 @@ public:
     /// Prepares for layers of these materials; call after set_media().
     void set_layers(const Stack& stack, const WrittenOut& written, const SlopeSlots& slots);
 
+    /// Computes answer() for the polarizations needed.
+    ///   written      layers and their current thicknesses
+    ///   slots        derivatives requested
+    ///   with_slopes  whether to compute derivatives
+    ///   simd         instruction set
     void compute(const WrittenOut& written, const SlopeSlots& slots, bool with_slopes,
                  SimdLevel simd);
 
