@@ -15,7 +15,7 @@ struct DesignRows {
     double objective = 0;          ///< quantity minimized; see DesignModel::merit()
     std::vector<double> value;     ///< of the quantities, [entry]; L, a, b for lab
     std::vector<double> residual;  ///< [row]: value - target, 0 where an inequality holds, angles
-                                   ///< wrapped to half a turn. A colour has three rows, whose
+                                   ///< wrapped to +-180. A colour has three rows, whose
                                    ///< squares sum to that of its difference
     std::vector<double> weight;    ///< [row], as used by the objective
     std::vector<double> jacobian;  ///< [free][row], of the residuals

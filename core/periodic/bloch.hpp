@@ -48,8 +48,9 @@ double bloch_transmittance(const BlochMirror& mirror, double omega_per_nm);
 
 /// T inside a band as a series in its fast phase 2 NKL,
 ///     T = average (1 + 2 Re sum_{m >= 1} bounce^m).
-/// |bounce| <= 1 does not depend on N; its phase advances with it. With 1/T = A + B cos(2 NKL -
-/// phi0), average = 1/sqrt(A^2 - B^2) and |bounce| = B/(A + sqrt(A^2 - B^2)).
+/// |bounce| <= 1 does not depend on N; its phase advances with it. In terms of
+///     1/T = A + B cos(2 NKL - phi0),
+/// average = 1/sqrt(A^2 - B^2) and |bounce| = B/(A + sqrt(A^2 - B^2)).
 struct BlochSeries {
     double average = 0;
     Complex bounce;

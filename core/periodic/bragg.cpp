@@ -70,15 +70,16 @@ double deviation(double x, double w, double phi, bool positive_side, double step
     return delta;
 }
 
-/// t = order pi/2 + delta, with delta the root in [-pi/2, pi/2] of sin(delta) = +-rho sin(phi - (1
-/// - 2w) delta) for phi of either sign: its magnitude is found with all signs positive.
+/// t = order pi/2 + delta, with delta the root in [-pi/2, pi/2] of
+///     sin(delta) = +-rho sin(phi - (1 - 2w) delta)
+/// for phi of either sign: its magnitude is found with all signs positive.
 double total_phase(double x, const Detuning& at, double order, bool negative,
                    double step = kRounding) {
     const double size = deviation(x, at.share, std::abs(at.phi), !negative, step);
     double t = order * (kPi / 2) + ((at.phi < 0) == negative ? size : -size);
     if (order != 1 || t >= 1) return t;
-    // only here can t be near 0, at high contrast: there cos(wt) cos(t - wt) and (x + 1) sin(wt)
-    // sin(t - wt) are equal
+    // only here can t be near 0, at high contrast: there cos(wt) cos(t - wt) equals
+    // (x + 1) sin(wt) sin(t - wt)
     for (int i = 0; i < 3; ++i) {
         const double alpha = at.share * t, beta = (1 - at.share) * t;
         const double f =

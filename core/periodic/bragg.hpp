@@ -7,8 +7,8 @@
 
 namespace irido {
 
-/// An infinite periodic stack of two transparent layers, at one angle and polarization. With a =
-/// omega path1_nm, b = omega path2_nm and omega = 2 pi / wavelength, its Bloch phase is
+/// An infinite periodic stack of two transparent layers, at one angle and polarization. With
+/// a = omega path1_nm, b = omega path2_nm and omega = 2 pi / wavelength, its Bloch phase is
 ///     cos(KL) = cos a cos b - (q + 1/q)/2 sin a sin b.
 /// Source: P. Yeh, Optical Waves in Layered Media (1988), section 6.2; FPB24 eqs. 5 to 9.
 struct BraggPeriod {
