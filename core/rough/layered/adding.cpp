@@ -26,7 +26,7 @@ struct AddingLevel {
 constexpr std::array kLevels{AddingLevel{2, 32}, AddingLevel{4, 64}, AddingLevel{8, 128},
                              AddingLevel{12, 256}};
 
-/// Requested angles that are solved together.
+/// Angles asked for that are solved together.
 constexpr std::size_t kAnglesTogether = 48;
 
 /// Fraction of the tolerance allotted to the modes left out.
@@ -55,7 +55,7 @@ struct Adding::Lobes {
     std::vector<double> step, lobe;  ///< [i >= j][azimuth]; theta_d in steps of R's table
     std::size_t azimuths = 0;
 
-    /// Lobe times R at one wavelength; azimuths are columns.
+    /// Times R at one wavelength: columns of azimuths.
     ModeMatrix samples(const AngleSeries& series) const {
         std::vector<double> R(kSteps + 2);
         for (std::size_t k = 0; k <= kSteps; ++k)
@@ -75,8 +75,8 @@ struct Adding::Lobes {
 
 namespace {
 
-/// Matrix that turns samples at azimuths over half a turn into modes: (1/2 pi) integral f cos(m
-/// phi) dphi over the whole turn.
+/// Rows that make modes of samples at azimuths over half a turn: (1/2 pi) integral f cos(m phi)
+/// dphi over the whole turn.
 ModeMatrix mode_rows(std::size_t azimuths, std::size_t first, std::size_t count) {
     const auto last = static_cast<Eigen::Index>(azimuths);
     ModeMatrix rows(static_cast<Eigen::Index>(count), last + 1);
@@ -154,14 +154,9 @@ Adding::Lobes Adding::lobes_of(const Grid& grid, std::size_t layer, std::size_t 
     return lobes;
 }
 
-/// Calls take(mode, rest) with the light reflected more than once, [angle][angle], before the
-/// coating's losses on the way in and out, until take() needs no more modes.
-///   grid           angles
-///   lobes          of the layers
-///   tau            [layer][angle]
-///   wavelength_nm  in vacuum
-///   most_modes     highest mode to compute
-///   take           receives each mode; returns whether to continue
+/// Calls take(mode, rest) with the light reflected more than once, [angle][angle] without what the
+/// coating takes on the way in and out, until take() says that no more is needed.
+///   tau  [layer][angle]
 template <class Take>
 void Adding::solve(const Grid& grid, std::span<const Lobes> lobes, std::span<const double> tau,
                    double wavelength_nm, std::size_t most_modes, const Take& take) const {
@@ -227,7 +222,7 @@ Adding::Values Adding::brdf_rest(std::span<const ScatterPair> pairs,
     for (std::size_t l = 0; l < layers; ++l)
         scattering_.layer(l).facets().prepare(wavelength_nm, execution_.threads);
     for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
-        std::map<double, std::size_t> places;  // indices of angles inside
+        std::map<double, std::size_t> places;  // of angles inside
         for (; end < pairs.size() && (places.size() + 2 <= kAnglesTogether || end == begin); ++end)
             for (const double theta : {pairs[end].theta_i_deg, pairs[end].theta_o_deg})
                 places.try_emplace(coating.inward(theta).theta_deg, 0);

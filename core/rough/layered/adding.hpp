@@ -30,7 +30,7 @@ public:
         double error = 0;  ///< largest estimate, relative to the value for all paths
     };
 
-    /// Contribution of multiple reflections to the BRDF, [pair][wavelength].
+    /// What all paths add to the BRDF by single reflections, [pair][wavelength].
     Values brdf_rest(std::span<const ScatterPair> pairs,
                      const std::vector<double>& wavelength_nm) const;
 

@@ -17,11 +17,7 @@ namespace {
 
 constexpr double kBaseLightTolerance = 1e-9;
 
-/// Integral over psi for facets of tilt tm.
-///   alpha     roughness
-///   cm, sm    cosine and sine of tm
-///   cd, sd    cosine and sine of td
-///   rise_deg  90 - tm - td, degrees
+/// The integral over psi for facets of tilt tm; `rise` = 90 - tm - td, in degrees.
 double over_ring(double alpha, double cm, double sm, double cd, double sd, double rise_deg) {
     // cos o = level - swing cos psi, cut off at 0
     const double level = cm * cd, swing = sm * sd;

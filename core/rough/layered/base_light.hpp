@@ -8,10 +8,10 @@ namespace irido {
 /// light returned is rbar = integral R(theta_d) w(theta_d) dtheta_d with
 ///     w = 8 cos td sin td int_0^(pi/2) dtm sin tm D(tm) int_0^(pi/2) dpsi G1(i) G1(o),
 ///     cos i, cos o = cos tm cos td +- sin tm sin td cos psi > 0,
-/// which depends on the roughness only and is tabulated to 1e-9.
+/// a function of the roughness alone, tabulated to 1e-9.
 class BaseLight {
 public:
-    /// alpha in [1e-4, 1], else DomainError.
+    /// alpha [1e-4, 1], else DomainError.
     explicit BaseLight(double alpha, unsigned threads = 1);
 
     /// w per radian; theta_d in [0, 90] degrees.

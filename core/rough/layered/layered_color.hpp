@@ -24,13 +24,10 @@ struct SurfaceColor {
 /// are integrated over the spectrum together with the transmission of those above.
 class LayeredColor {
 public:
-    /// Materials are clamped outside their range by held_stack(), which throws DomainError.
-    ///   tables     observer and illuminant; must outlive this object
-    ///   surface    layers, base and coating
-    ///   crossings  how straight rays cross a layer
-    ///   tolerance  largest error of X, Y, Z, [1e-12, 1]; for BRDFs relative to 1 or, if larger, to
-    ///              pi times the BRDF of perfectly reflecting facets
-    ///   execution  threads and instruction set
+    /// tolerance  largest error of X, Y, Z, [1e-12, 1]: of BRDFs relative to 1 or, where that is
+    ///            more, to the BRDF times pi of a mirror's facets
+    /// Materials hold their end values where they are not known, see held_stack(), which throws
+    /// DomainError; `tables` must outlive the result.
     LayeredColor(const ColorTables& tables, LayeredSurface surface, Crossings crossings,
                  double tolerance, const Execution& execution);
 

@@ -83,13 +83,13 @@ public:
     std::vector<double> straight(std::size_t layer, std::span<const double> theta_deg,
                                  const std::vector<double>& wavelength_nm) const;
 
-    /// f_t cos of all layers that transmit light, at angles inside, [wavelength][layer][angle].
+    /// The same of all layers that light passes, [wavelength][layer][angle].
     std::vector<double> straight_of_all(std::span<const double> theta_deg,
                                         const std::vector<double>& wavelength_nm,
                                         unsigned threads) const;
 
-    /// Albedo of the base, for all paths divided by 1 - albedo rbar, [wavelength]. Throws
-    /// DomainError for Paths::all unless is_closed().
+    /// Albedo of the base, for all paths over 1 - albedo rbar, [wavelength]. Throws DomainError for
+    /// Paths::all unless is_closed().
     std::vector<double> base_factors(const std::vector<double>& wavelength_nm, Paths paths) const;
 
     /// Albedo of the base, 0 if there is none.
