@@ -4,7 +4,7 @@
 
 namespace irido {
 
-/// Many scratches of one width and depth at random places: what is seen of them on average.
+/// Many scratches of one width and depth at random places, as seen on average.
 struct ScratchEnsemble {
     double share = 0;  ///< rho: part of the area, [0, 1]
     double width_um = 1, depth_um = 0.1;

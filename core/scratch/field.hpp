@@ -7,7 +7,7 @@
 
 namespace irido {
 
-/// What a number is drawn from, evenly; low = high for one value.
+/// Range of a uniformly distributed number; low = high for a fixed value.
 struct DrawnRange {
     double low = 0, high = 0;
 };
@@ -21,7 +21,7 @@ struct ScratchField {
     DrawnRange angle_deg{-180, 180};
 };
 
-/// Throws DomainError, which names the member, unless all members are in their ranges.
+/// Throws DomainError naming the member unless all members are in range.
 void require_valid(const ScratchField& field);
 
 /// All scratches of a field whose axis comes nearer than `radius_um` to a point, ordered by cell.

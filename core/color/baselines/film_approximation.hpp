@@ -6,8 +6,8 @@
 #include "core/color/color_request.hpp"
 #include "core/color/color_tables.hpp"
 
-/// The methods of approximate_color() for one film. `held` is a stack that satisfies require_film()
-/// and whose materials hold their end values.
+/// The methods of approximate_color() for one film. `held` is a stack that satisfies
+/// require_film(), with its materials clamped.
 namespace irido {
 
 std::unique_ptr<ColorAlgorithm> gaussian_color(const Sensitivity& sensitivity, const Stack& held,
@@ -20,7 +20,7 @@ std::unique_ptr<ColorAlgorithm> gltf_color(const Sensitivity& sensitivity, const
 std::unique_ptr<ColorAlgorithm> two_beam_color(const ColorTables& tables, Stack held,
                                                const ColorRequest& request);
 
-/// Wavelengths that stand for red, green and blue.
+/// Wavelengths used for red, green and blue.
 inline constexpr std::array kRgb_nm{650.0, 510.0, 475.0};
 
 /// Rows of weights that turn linear sRGB into XYZ under a light of this white: its r = g = b = 1.

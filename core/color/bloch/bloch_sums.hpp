@@ -12,7 +12,7 @@
 namespace irido {
 
 /// Points x = cos(pi j / n), j = 0 .. n, with the weights of two rules for integrals over [-1, 1];
-/// zeros up to whole vectors.
+/// padded with zeros to full vectors.
 struct CosineNodes {
     explicit CosineNodes(std::size_t n);
 
@@ -20,10 +20,10 @@ struct CosineNodes {
     std::vector<double> x;
     std::vector<double>
         trapezoid;               ///< pi/n sin(pi j / n): for sqrt(1 - x^2) times smooth functions
-    std::vector<double> curtis;  ///< Clenshaw and Curtis's: for smooth functions
+    std::vector<double> curtis;  ///< Clenshaw-Curtis: for smooth functions
 };
 
-/// A part of the spectrum that lies in one band or one gap.
+/// A spectral range inside a single band or gap.
 struct BlochRange {
     double low = 0, high = 0;  ///< omega, 1/nm
     bool is_gap = false;

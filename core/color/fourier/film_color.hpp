@@ -8,14 +8,14 @@
 
 namespace irido {
 
-/// Whether the stack is at most one coherent film of a real index over any base, as the Fourier
-/// method needs it.
+/// Whether the stack is at most one coherent film of real index on any base, as the Fourier method
+/// requires.
 bool is_one_film(const Stack& stack);
 
-/// What the stack has instead, in words; "" for such a film.
+/// Why the stack is not such a film, in words; "" if it is.
 std::string film_fault(const Stack& stack);
 
-/// That film; where there is none, a layer of the incident medium without thickness.
+/// That film; if there is none, a layer of the incident medium with zero thickness.
 Layer only_film(const Stack& stack);
 
 /// Whether any index of the stack depends on the wavelength.
