@@ -33,7 +33,7 @@ struct ColorMethod {
         equal,             ///< equally spaced wavelengths
         gaussian,          ///< BB17's series with their Gaussian fits of the observer
         gltf,              ///< as gaussian, with glTF's Schlick terms
-        smits,             ///< a single bounce
+        smits,             ///< two beams, a single reflection inside the film
         landmarks,         ///< FPB24's boxes between the landmarks of a mirror
     };
     Kind kind = Kind::automatic;

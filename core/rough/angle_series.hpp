@@ -34,11 +34,9 @@ public:
         std::uint64_t key() const { return (std::uint64_t{1} << level) + index; }
     };
 
-    /// Bisects panels until the last three coefficients of every function are below `tolerance`,
-    /// with a limit of 2^30 panels per quarter turn and about kMostPanels in total.
-    ///   functions            number of functions
-    ///   tolerance            absolute
-    ///   evaluate(theta_deg)  values [angle][function], for angles in any order
+    /// Halves panels until the last three coefficients of every function are below `tolerance`, up
+    /// to 2^30 panels a quarter turn and about kMostPanels in all.
+    ///   evaluate(theta_deg)  values [angle][function] in any order of angles
     AngleSeries(std::size_t functions, double tolerance,
                 const std::function<std::vector<double>(std::span<const double>)>& evaluate);
 

@@ -25,10 +25,14 @@ struct ScratchField {
 void require_valid(const ScratchField& field);
 
 /// All scratches of a field whose axis comes nearer than `radius_um` to a point, ordered by cell.
-/// A scratch is drawn from the seed, the field's number and the cell of 1 mm in which its middle
-/// lies, so every extent sees the same scratches, on every machine.
-///   field number in [0, 65535];  |x|, |y| <= 1e9 um;  radius_um [0, 1e7]; at most kMostDrawn
-///   draws, else DomainError
+/// A scratch is drawn from the seed, the field's number and the 1 mm cell that contains its middle,
+/// so every query sees the same scratches, on every machine. Throws DomainError for an argument out
+/// of range or more than kMostDrawn draws.
+///   field         distribution of the scratches
+///   seed          of the random numbers
+///   field_number  [0, 65535]
+///   at            the point, |x|, |y| <= 1e9 um
+///   radius_um     [0, 1e7]
 std::vector<Scratch> scratches_near(const ScratchField& field, std::uint64_t seed,
                                     std::uint32_t field_number, SurfacePoint at, double radius_um);
 inline constexpr double kMostDrawn = 5e7;

@@ -52,9 +52,13 @@ enum class FootprintFormula {
     blend_as_printed,  ///< eq. 16, whose term for small footprints lacks a factor pi
     blend,             ///< eq. 16 with it
 };
+/// Their mean of |eta|^2 at xi_1 = 0, um^2.
+///   formula              one of those above
+///   footprint, scratch   in the same plane
+///   coherence_radius_um  sigma
 double published_eta2_um2(FootprintFormula formula, const Footprint& footprint,
                           const Scratch& scratch, double coherence_radius_um);
-/// Eq. 18, twice the area.
+/// Their area density, eq. 18: twice the area.
 double published_density(const Footprint& footprint, const Scratch& scratch);
 
 }  // namespace irido

@@ -13,8 +13,12 @@ namespace irido {
 /// an engine loads them: VWH18's per-triangle lists, for any surface with texture coordinates.
 class ScratchGrid {
 public:
-    /// width, height, cell, reach in um, (0, 1e9]; at most 2^24 cells, 2^31 entries, else
-    /// DomainError. `origin` is the corner of cell 0.
+    /// Throws DomainError for more than 2^24 cells or 2^31 entries.
+    ///   scratches            to be listed by their index
+    ///   origin               corner of cell 0
+    ///   width_um, height_um  of the rectangle, (0, 1e9]
+    ///   cell_um              side of a cell, (0, 1e9]
+    ///   reach_um             distance within which scratches are listed, (0, 1e9]
     ScratchGrid(std::span<const Scratch> scratches, SurfacePoint origin, double width_um,
                 double height_um, double cell_um, double reach_um);
 

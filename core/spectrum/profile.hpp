@@ -41,8 +41,12 @@ public:
     /// Limit on the number of layers, repetitions included.
     static constexpr std::size_t kMostLayers = 100000;
 
-    ///   stack  coherent, of fixed thicknesses;   media  as of StackPower;   k0  1/nm
     /// Throws DomainError at 90 degrees, and for too many layers.
+    ///   stack         coherent, of fixed thicknesses
+    ///   media         one per material, followed by the incident medium
+    ///   k0            2 pi / wavelength, 1/nm
+    ///   at            direction of the light in the incident medium
+    ///   polarization  s or p, the one that `media` were computed for
     FieldProfile(const Stack& stack, std::span<const Medium> media, double k0, IncidentAngle at,
                  Polarization polarization);
 

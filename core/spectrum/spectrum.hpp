@@ -54,6 +54,12 @@ struct Work {
     bool absorbs = false;                ///< any layer
     double operations_per_point = 0;     ///< see vector/program.hpp
 };
+/// Cost of spectra() without computing them.
+///   stack      power of the stack
+///   table      its indices
+///   incidence  directions of the light
+///   needs      outputs requested
+///   execution  threads and instruction set
 Work work_of(const StackPower& stack, const IndexTable& table,
              std::span<const IncidentAngle> incidence, const Needs& needs,
              const Execution& execution = {1});

@@ -35,6 +35,14 @@ private:
 /// costs one sine and one cosine.
 class ThicknessSweep {
 public:
+    /// Combines the fixed layers.
+    ///   in            incident wave
+    ///   above         slab between the incident side and the layer
+    ///   layer         its medium
+    ///   below         slab between the layer and the substrate
+    ///   out           transmitted wave
+    ///   k0            2 pi / wavelength, 1/nm
+    ///   polarization  s or p, the one that media and waves were computed for
     ThicknessSweep(const Wave& in, const Slab& above, const Medium& layer, const Slab& below,
                    const Wave& out, double k0, Polarization polarization);
 

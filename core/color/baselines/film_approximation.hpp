@@ -10,10 +10,19 @@
 /// require_film(), with its materials clamped.
 namespace irido {
 
+/// `gaussian`.
+///   sensitivity  observer and illuminant
+///   held         the film
+///   orders       last order of the series, 0: 3
+///   request      options
 std::unique_ptr<ColorAlgorithm> gaussian_color(const Sensitivity& sensitivity, const Stack& held,
                                                std::size_t orders, const ColorRequest& request);
 
-///   base_color  linear sRGB, each in [0, 1]
+/// `gltf`.
+///   sensitivity  observer and illuminant
+///   held         the film
+///   base_color   linear sRGB, each in [0, 1]
+///   request      options
 std::unique_ptr<ColorAlgorithm> gltf_color(const Sensitivity& sensitivity, const Stack& held,
                                            const Triple& base_color, const ColorRequest& request);
 

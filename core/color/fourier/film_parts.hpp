@@ -78,6 +78,11 @@ struct Lighting {
     }
 };
 
+/// film_color() for indices that depend on the wavelength.
+///   tables   observer and illuminant; must outlive the result
+///   held     the film, its materials clamped
+///   method   fourier or fourier_constant
+///   request  options
 std::unique_ptr<ColorAlgorithm> dispersive_film_color(const ColorTables& tables, const Stack& held,
                                                       const ColorMethod& method,
                                                       const ColorRequest& request);

@@ -50,7 +50,7 @@ struct Adding::Grid {
     std::size_t nodes = 0;
 };
 
-/// The lobe of a layer, without R, between all angles at azimuths over half a turn.
+/// The lobe of a layer between all angles at azimuths over half a turn, R left out.
 struct Adding::Lobes {
     std::vector<double> step, lobe;  ///< [i >= j][azimuth]; theta_d in steps of R's table
     std::size_t azimuths = 0;
@@ -134,7 +134,7 @@ Adding::Lobes Adding::lobes_of(const Grid& grid, std::size_t layer, std::size_t 
     const std::size_t all = grid.theta_deg.size(), row = azimuths + 1;
     lobes.step.resize(all * (all + 1) / 2 * row);
     lobes.lobe.resize(lobes.step.size());
-    std::vector<std::pair<double, double>> halves;  // cos and sin of half of each azimuth
+    std::vector<std::pair<double, double>> halves;  // cos and sin of half the azimuths
     for (std::size_t k = 0; k <= azimuths; ++k) {
         const double half_deg = 90 * static_cast<double>(k) / static_cast<double>(azimuths);
         halves.emplace_back(sin_deg(90 - half_deg), sin_deg(half_deg));

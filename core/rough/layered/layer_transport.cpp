@@ -10,7 +10,7 @@ namespace irido {
 
 namespace {
 
-/// Number of angles whose moments are cached: 100 MB.
+/// Angles whose moments are kept: 100 MB.
 constexpr std::size_t kMostKept = 8192;
 
 }  // namespace
