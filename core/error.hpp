@@ -8,7 +8,7 @@
 namespace irido {
 
 /// Base class of every error that irido reports; what() is one line for the user. Catching it
-/// catches the errors of every library.
+/// misses none, whichever part of irido threw it.
 class Error : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
