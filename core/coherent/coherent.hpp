@@ -9,15 +9,15 @@ namespace irido {
 
 enum class Polarization { s, p };
 
-/// Reflected, transmitted and absorbed fraction of the incident power; R + T + A = 1.
+/// Fractions of the incident power reflected, transmitted and absorbed; R + T + A = 1.
 struct Power {
     double R = 0;
     double T = 0;
     double A = 0;
 };
 
-/// Direction of the incident light in the incident medium. The sine stands beside the cosine
-/// because each loses its digits where it is formed from the other.
+/// Direction of the light in the incident medium. Both cosine and sine are stored because computing
+/// either from the other loses precision.
 struct IncidentAngle {
     double cos = 1, sin = 0;
 
@@ -27,14 +27,14 @@ struct IncidentAngle {
     friend bool operator==(const IncidentAngle&, const IncidentAngle&) = default;
 };
 
-/// Of an angle in degrees, [0, 90], else DomainError: cos_of_incidence(), and the sine to its last
-/// digit, exactly 1/2 at 30 degrees.
+/// Direction for an angle in [0, 90] degrees, else DomainError: cos_of_incidence(), and the sine
+/// correct to the last digit (exactly 1/2 at 30 degrees).
 IncidentAngle incident_angle(double angle_deg);
 
 /// One medium at one wavelength and angle.
 struct Medium {
-    Complex eps;      ///< permittivity (n + ik)^2; along the faces where the medium is uniaxial
-    Complex q2;       ///< (kz / k0)^2 = eps - S^2, formed without its cancellation near grazing
+    Complex eps;      ///< permittivity (n + ik)^2; its in-plane value in a uniaxial medium
+    Complex q2;       ///< (kz / k0)^2 = eps - S^2, evaluated without cancellation near grazing
     Complex eps_z{};  ///< permittivity along the normal
 };
 
@@ -43,16 +43,20 @@ inline bool is_lossy(const Medium& medium) {
     return medium.eps.imag() != 0 || medium.q2.imag() != 0;
 }
 
-/// Permittivity and squared normal index of a medium of the given complex index,
+/// Permittivity and squared normal index of a medium with the given complex index:
 ///     q2 = eps - (n0 sin theta)^2                                   up to 45 degrees,
-///     q2 = (n - n0)(n + n0) - k^2 + 2 i n k + (n0 cos theta)^2      beyond:
-/// the first keeps the digits of small indices, the second those of grazing angles.
-/// n0 > 0 is the real index of the incident medium, to which the incidence belongs.
+///     q2 = (n - n0)(n + n0) - k^2 + 2 i n k + (n0 cos theta)^2      beyond.
+/// The first form is accurate for small indices, the second at grazing angles. n0 > 0 is the real
+/// index of the incident medium, in which `incidence` is measured.
 Medium medium(Complex index, double n0, IncidentAngle incidence);
 
-/// The medium that p waves see where the axis of a uniaxial one is along the normal,
+/// Effective medium of p waves in a uniaxial material whose optic axis is along the normal:
 ///     kz^2/k0^2 = eps_o (1 - S^2/eps_e) = eps_o/eps_e (eps_e - S^2),   Y = eps_o k0/kz,
-/// which is what p waves have of eps and q2 everywhere else; s waves see medium(ordinary).
+/// with which the isotropic formulas for p waves hold unchanged; s waves see medium(ordinary).
+///   ordinary       complex index n + ik for fields along the faces
+///   extraordinary  complex index n + ik for fields along the normal
+///   n0             real index of the incident medium, > 0
+///   incidence      direction of the light in that medium
 /// Source: P. Yeh, Optical Waves in Layered Media (1988), section 9.4.
 Medium extraordinary_medium(Complex ordinary, Complex extraordinary, double n0,
                             IncidentAngle incidence);
@@ -60,13 +64,14 @@ Medium extraordinary_medium(Complex ordinary, Complex extraordinary, double n0,
 /// Closed range of the angle of incidence, degrees.
 inline constexpr double kLargestAngle_deg = 90;
 
-/// cos(angle of incidence), formed as sin(90 - angle) with the subtraction in degrees, where it is
-/// exact, so that grazing angles keep all their digits. angle_deg in [0, 90], else DomainError.
+/// Cosine of the angle of incidence, computed as sin(90 - angle): the subtraction is exact in
+/// degrees, so grazing angles keep full precision. angle_deg in [0, 90], else DomainError.
 double cos_of_incidence(double angle_deg);
 
-/// Powers, and the function whose zeros are their poles: exp(log_scale) denominator = Y0 B + C,
-/// which has no poles in the wavenumber, up to a phase without zeros of waves that die in
-/// absorbers.
+/// Powers, together with a function whose zeros are their poles:
+///     exp(log_scale) denominator = Y0 B + C
+/// up to a zero-free factor, the phase of damped waves in absorbers. It has no poles in the
+/// wavenumber.
 struct Response {
     Power power;
     Complex r{}, t{};  ///< amplitudes of the tangential electric field, reflected and transmitted
@@ -74,21 +79,24 @@ struct Response {
     double log_scale = 0;
 };
 
-/// Power reflected by, transmitted through and absorbed in coherent layers between two half-spaces.
-/// From the substrate up, tangential fields (B, C) obey, with delta = k0 d sqrt(q2),
+/// Power reflected, transmitted and absorbed by coherent layers between two half-spaces. From the
+/// substrate up, the tangential fields (B, C) obey, with delta = k0 d sqrt(q2),
 ///     s:  B' = c B - i sd C            C' = c C - i q2 sd B
 ///     p:  B' = c B - i (q2/eps) sd C   C' = c C - i eps sd B
 ///     c = cos(delta), sd = k0 d sinc(delta)
-/// which are entire functions of q2: the critical angle, evanescent layers and zero thickness are
-/// ordinary points. Exponentials are factored out into a logarithm, groups are raised to their
-/// power in closed form. A comes from the absorbed flux of every layer where 1 - R - T would lose
-/// digits.
-///   above, below  the half-spaces; light comes from `above`
+/// c and sd are entire functions of q2, so the critical angle, evanescent layers and zero thickness
+/// need no special treatment. Exponentials are carried in a logarithm, groups are raised to their
+/// power in closed form, and A is summed over the flux absorbed in each layer wherever 1 - R - T
+/// would lose precision.
+///   above         half-space of the incident light
 ///   elements      layers and groups from `above` to `below`
-///   media         one per material of the stack;  k0 = 2 pi / wavelength, 1/nm
-/// Power is {1, 0, 0} when `above` carries no power towards the layers (exactly 90 degrees),
-/// {0, 1, 0} if then all media are the same. Throws DomainError at the laser threshold of a stack
-/// that amplifies, where no power is finite.
+///   below         half-space of the transmitted light
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that `media` were computed for
+/// Returns {1, 0, 0} if `above` carries no power towards the layers (exactly 90 degrees), except
+/// {0, 1, 0} if in addition all media are the same. Throws DomainError at the lasing threshold of
+/// an amplifying stack, where the powers are infinite.
 /// Source: P. Yeh, Optical Waves in Layered Media (1988), ch. 4 and 5; H. A. Macleod, Thin-Film
 /// Optical Filters (2010), ch. 2.
 Response coherent_response(const Medium& above, std::span<const Element> elements,

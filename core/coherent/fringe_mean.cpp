@@ -12,20 +12,20 @@ namespace irido {
 
 namespace {
 
-/// Periods that attenuate by more than this exponent have no Bloch wave but the decaying one.
+/// Beyond this exponent of attenuation only a period's decaying Bloch wave is left.
 constexpr double kOpaqueExponent = 40;
 
-/// Where waves grow by less than this a period, their flux tells which of them goes down.
+/// Below this growth per period, the sign of a wave's flux tells which wave travels down.
 constexpr double kTransparentGrowth = 1e-9;
 
-/// Radians of phase w from the edge of a gap at which R and T pass over to their means, and how
-/// softly: the passage has no waves as fast as w, exp(-kSoftness^2/4).
+/// Distance in radians of the phase from a gap edge at which R and T blend into their means, and
+/// the softness of the blend: it contains frequencies as high as w's only to exp(-kSoftness^2/4).
 constexpr double kPassage = 40, kSoftness = 8, kFarPassage = 5;
 
-/// On an edge nothing is left of a wave at each bounce.
+/// Cap on the round-trip coefficient, which reaches 1 at a band edge.
 constexpr double kMostBounce = 1 - 1e-12;
 
-/// Tangential fields, up to a factor.
+/// Tangential fields, up to a common factor.
 struct FieldPair {
     Complex b, c;
     double flux() const { return (std::conj(b) * c).real(); }
@@ -40,13 +40,13 @@ Complex cross(const FieldPair& u, const FieldPair& v) {
     return u.b * v.c - u.c * v.b;
 }
 
-/// The waves in an element, and what one of its periods does to them.
+/// The two Bloch waves of an element, and how one period advances them.
 struct Waves {
     FieldPair down, up;
-    double phase = 0, growth = 0;  ///< of a period, the real and the imaginary part of K
+    double phase = 0, growth = 0;  ///< real and imaginary part of K, per period
     double from_edge = std::numeric_limits<double>::infinity();  ///< |K| or |pi - K|
-    /// exp(log_scale) edges = sin(K)^2 (1 + cos(K)^2): zero at edges of gaps, and in the complex
-    /// plane close to narrow bands.
+    /// exp(log_scale) edges = sin(K)^2 (1 + cos(K)^2): zero at gap edges and, in the complex plane,
+    /// close to narrow bands.
     Complex edges{1};
     double log_scale = 0;
     double repeat = 1;
@@ -63,7 +63,7 @@ Waves waves_of(const Layer& layer, double repeat, std::span<const Medium> media,
             .repeat = repeat};
 }
 
-/// Eigenvector of the traceless matrix [[t, b], [c, -t]] with the eigenvalue s.
+/// Eigenvector of the traceless matrix [[t, b], [c, -t]] for the eigenvalue s.
 FieldPair eigenvector(Complex t, Complex b, Complex c, Complex s) {
     if (std::norm(s - t) > std::norm(s + t)) return {b, s - t};
     return {s + t, c};
@@ -79,7 +79,7 @@ Waves waves_of(const Group& group, std::span<const Medium> media, double k0,
     const double one = m.identity() * m.identity();
     Complex sine2 = one - cosine * cosine;
     const double log_trace = std::log(2 * std::abs(cosine)) + m.log_scale;
-    Complex grows = cosine;  // exp(-i K) - cos K of the wave that goes down
+    Complex grows = cosine;  // exp(-i K) - cos K of the downward wave
     if (log_trace > kOpaqueExponent) {
         waves.growth = log_trace;
     } else {
@@ -133,7 +133,7 @@ FringeMean fringe_mean(const Stack& stack, std::size_t fast, std::span<const Med
     mean.denominator = waves.edges * incident(others * FieldPair{out.b, out.c});
     mean.log_scale = waves.log_scale + others.log_scale;
 
-    // without the factors exp(log_scale) of above and below
+    // the factors exp(log_scale) of above and below are left out
     const FieldPair down = above * waves.down, up = above * waves.up;
     const FieldPair bottom = below * FieldPair{out.b, out.c};
     const Complex area = cross(waves.down, waves.up);

@@ -11,7 +11,7 @@ namespace irido {
 
 namespace {
 
-/// r and t for s and p at the angles.
+/// r and t of s and p at the test angles.
 struct GradedSample {
     std::array<Complex, 12> values{};
 
@@ -63,7 +63,7 @@ GradedLayer graded_layer(const Material& from, const Material& to, GradedProfile
     const double nm = std::max(known.first_nm, std::min(kGradedWavelength_nm, known.last_nm));
     const Complex n1 = index_at(from, nm), n2 = index_at(to, nm);
     const double k0_d = kTwoPi / nm * thickness_nm;
-    constexpr double kOrder = 16;  // of two halvings' errors
+    constexpr double kOrder = 16;  // ratio of the errors of successive halvings
     std::size_t steps = 2;
     GradedSample last = sample(profile, n1, n2, k0_d, n0, steps);
     for (;;) {
@@ -73,7 +73,7 @@ GradedLayer graded_layer(const Material& from, const Material& to, GradedProfile
         if (layer.error <= kGradedError || steps >= kMostGradedSteps) break;
         last = now;
     }
-    if (layer.error < kGradedError) {  // fewer may do
+    if (layer.error < kGradedError) {  // fewer steps may do
         const double share = std::sqrt(std::sqrt(layer.error / kGradedError));
         const auto fewer = static_cast<std::size_t>(std::ceil(share * static_cast<double>(steps)));
         steps = std::clamp<std::size_t>(fewer, std::max<std::size_t>(2, steps / 2), steps);

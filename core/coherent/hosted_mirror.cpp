@@ -7,19 +7,19 @@ namespace irido {
 
 namespace {
 
-/// Half of b past which an evanescent layer is left to logarithms.
+/// Half of |b| beyond which an evanescent layer is left to the general kernel and its logarithms.
 constexpr double kLargestHalfExponent = 150;
 
 /// Stands in for an exact zero of kz, so that sin(k0 d kz)/kz becomes k0 d.
 constexpr double kTinyIndex = 1e-140;
 
-/// The layer, if the element is one of that material.
+/// The element as a layer of that material, or null.
 const Layer* layer_of(const Element& element, std::size_t material) {
     const Layer* layer = std::get_if<Layer>(&element.value);
     return layer && layer->material == material ? layer : nullptr;
 }
 
-/// The periods alone.
+/// Recognizes the periods themselves.
 std::optional<HostedMirror> mirror_of(const Group& group, std::size_t host) {
     if (group.elements.size() != 2) return std::nullopt;
     for (const std::size_t place : {0U, 1U}) {
@@ -47,7 +47,7 @@ Admittances admittances(double eps1, double q2_1, double eps2, double q2_2, Pola
     const double kz1 = std::sqrt(q2_1);
     const double kz2 = std::max(std::sqrt(std::abs(q2_2)), kTinyIndex);
     const double signed_kz2 = std::copysign(kz2, q2_2);
-    // q - 1/q, from differences that do not cancel when the angle changes
+    // q - 1/q, from differences that do not cancel at any angle
     const double s = (eps2 - eps1) / (kz1 * kz2);
     if (p == Polarization::s) return {kz1 / kz2, signed_kz2 / kz1, s};
     const double ratio = eps2 * kz1 / eps1;
@@ -70,7 +70,7 @@ std::optional<HostedMirror> hosted_mirror(std::span<const Element> elements, std
     if (!mirror) return std::nullopt;
     mirror->is_whole = elements.size() == 1;
     if (inside.size() == 1) return mirror;
-    // one layer more, on the side where the group has the host's
+    // the one extra layer must be on the side where the group starts with the host
     const bool above = place != inside.begin();
     const Layer* more = layer_of(above ? inside.front() : inside.back(), mirror->other);
     const Element& end = above ? group.elements.front() : group.elements.back();
@@ -97,7 +97,7 @@ std::optional<Power> mirror_power(const HostedMirror& mirror, const Medium& host
     const double both_cos = cos_a * cos_b, both_sin = sin_a * sin_b;
     const double sin2 = (m.ratio * crossed + straight) * (m.inverse * crossed + straight);
     const double cos2 = (both_cos - m.ratio * both_sin) * (both_cos - m.inverse * both_sin);
-    const double small = std::min(sin2, cos2);  // of K or pi - K; negative in gaps
+    const double small = std::min(sin2, cos2);  // negative in gaps
     const bool band = small >= 0;
     const double root = std::sqrt(std::abs(small));
     const double sine = 2 * root * std::sqrt(1 - small);

@@ -11,7 +11,7 @@ namespace irido {
 
 namespace {
 
-/// Past this |Im delta| the factor exp(|Im delta|) goes into the logarithm.
+/// Beyond this |Im delta| the factor exp(|Im delta|) is carried in the logarithm.
 constexpr double kLargestPlainExponent = 1;
 
 /// delta = a + i b with b >= 0; less = cos - 1 and s = sin, both times exp(-log_scale).
@@ -40,20 +40,21 @@ Complex scaled_sd(const Phase& phase, double k0_d) {
     return k0_d * (1.0 - delta * delta / 6.0);  // next term below 1e-18
 }
 
-/// Integrals over the depth of a layer, divided by exp(2 log_scale), times k0:
+/// Integrals over a layer's depth, divided by exp(2 log_scale), times k0:
 ///     cc = int |cos|^2,  ss = int |sin(kz z)/(kz/k0)|^2,  cs = int cos conj(sin(kz z)/(kz/k0))
 struct DepthIntegrals {
     double cc, ss;
     Complex cs;
 };
 
-/// sin(2a)/(2a) and sin(a)^2/a^2 without trouble at zero.
+/// sin(2a)/(2a) and sin(a)^2/a^2, safe at zero.
 double sinc(double x) {
     return std::abs(x) > 1e-4 ? std::sin(x) / x : 1 - x * x / 6;
 }
 
 /// (sinh(2b)/(2b) - sin(2a)/(2a)) / (2 |delta|^2) for small delta, as the series
-/// 2 sum_{m>=1} h_{m-1}(u, v)/(2m+1)!, u = 4 b^2, v = -4 a^2, h the complete symmetric polynomials.
+///     2 sum_{m>=1} h_{m-1}(u, v)/(2m+1)!,   u = 4 b^2,   v = -4 a^2,
+/// with h the complete homogeneous symmetric polynomials.
 double sine_square_series(double a, double b) {
     const double u = 4 * b * b, v = -4 * a * a;
     double h = 1, v_power = 1, factorial = 6, sum = 1.0 / 6;
@@ -98,7 +99,7 @@ DepthIntegrals depth_integrals(const Phase& phase, double k0_d) {
 
 AbsorbedPower absorbed_power(const Medium& m, const Phase& phase, double k0_d,
                              Polarization polarization) {
-    // flux falls by Im(v') |B|^2 + Im(w) |C|^2 a depth of 1/k0, v' = eps for both polarizations
+    // flux falls by Im(v') |B|^2 + Im(w) |C|^2 per depth 1/k0, v' = eps in both polarizations
     const auto [w, v] = coupling(m, polarization);
     const DepthIntegrals f = depth_integrals(phase, k0_d);
     const double loss_b = m.eps.imag();
@@ -121,7 +122,7 @@ Matrix phase_matrix(const Medium& m, const Phase& phase, double k0_d, Polarizati
     return {phase.less, -kI * w * sd, -kI * v * sd, phase.less, phase.log_scale};
 }
 
-/// The factor of a layer's form, of one sign.
+/// The factor F of one layer's form, which has a single sign.
 FormRoot root_of(const AbsorbedPower& q) {
     const double bb = std::abs(q.bb), cc = std::abs(q.cc);
     if (bb == 0) return {0, std::sqrt(cc), 0};
@@ -154,7 +155,7 @@ Coupling coupling(const Medium& m, Polarization polarization) {
 
 LayerTurn layer_turn(Complex q2, double k0_d) {
     const Phase phase = layer_phase(q2, k0_d);
-    // formed from cos - 1, a cosine near 0 would lose its digits
+    // from cos itself: cos - 1 would lose the digits of a cosine near 0
     const Complex cosine = phase.log_scale > 0 ? scaled_turn({phase.a, phase.b}).cos
                                                : std::cos(Complex{phase.a, phase.b});
     return {cosine, scaled_sd(phase, k0_d), phase.log_scale};
@@ -233,10 +234,10 @@ Matrix product(const Matrix& u, const Matrix& l) {
             with_u * u.d + with_l * l.d + (u.c * l.b + u.d * l.d), u.log_scale + l.log_scale};
 }
 
-/// Rows (b, c) of a factor.
+/// One row (b, c) of a factor.
 using Row = std::array<Complex, 2>;
 
-/// The triangle of the same F^H F: QR by Gram and Schmidt.
+/// The triangular factor of the same F^H F: QR by Gram-Schmidt.
 FormRoot triangle(std::span<const Row> rows) {
     double bb = 0;
     for (const Row& row : rows) bb += std::norm(row[0]);
@@ -248,7 +249,8 @@ FormRoot triangle(std::span<const Row> rows) {
     return {b, std::sqrt(rest), c};
 }
 
-/// Of both, the first as seen from below the slab of matrix M: F M.
+/// Factor of the sum of both forms, the upper one expressed in the fields below the slab of matrix
+/// M: F M.
 FormRoot combined(const FormRoot& above, double f, const Matrix& m, const FormRoot& below,
                   double g) {
     if (above.is_zero() && below.is_zero()) return {};
@@ -260,7 +262,7 @@ FormRoot combined(const FormRoot& above, double f, const Matrix& m, const FormRo
     return triangle(rows);
 }
 
-/// Both logarithms are relative to the matrix of the two slabs.
+/// Absorption of two stacked slabs; both logarithms are relative to the combined matrix.
 SlabAbsorption combined(const SlabAbsorption& above, const Matrix& m, const SlabAbsorption& below) {
     const auto is_zero = [](const SlabAbsorption& q) {
         return q.loss.is_zero() && q.gain.is_zero();
@@ -278,7 +280,7 @@ void normalize(SlabAbsorption& q) {
     double size = 0;
     for (const FormRoot* f : {&q.loss, &q.gain})
         size = std::max({size, f->b, std::abs(f->c), f->rest});
-    if ((size > 1e-30 && size < 1e30) || size < 1e-140) return;  // 0 or as good as that
+    if ((size > 1e-30 && size < 1e30) || size < 1e-140) return;  // 0, or negligible
     const int exponent = std::ilogb(size);
     const double factor = std::ldexp(1.0, -exponent);
     for (FormRoot* f : {&q.loss, &q.gain}) *f = {f->b * factor, f->rest * factor, f->c * factor};

@@ -5,26 +5,27 @@
 
 namespace irido {
 
-/// I + exp(log_scale) [[a, b], [c, d]], acting on tangential fields (B, C), log_scale >= 0. What
-/// thin layers add to the identity keeps its digits, and thick ones do not overflow.
+/// I + exp(log_scale) [[a, b], [c, d]], acting on tangential fields (B, C), log_scale >= 0. Storing
+/// the departure from the identity keeps thin layers accurate; the logarithm keeps thick ones from
+/// overflowing.
 struct Matrix {
     Complex a{}, b{}, c{}, d{};
     double log_scale = 0;
 
-    /// The identity's part once exp(log_scale) is taken out.
+    /// Weight of the identity once exp(log_scale) is factored out: exp(-log_scale).
     double identity() const;
 };
 
-/// Power that one layer absorbs above the fields v = (B, C) at its lower face, in the units of the
-/// flux Re(conj(B) C) and up to the layer's exp(2 log_scale): v^H Q v, Q = [[bb, bc], [conj(bc),
-/// cc]].
+/// Power absorbed in one layer as a quadratic form in the fields v = (B, C) at its lower face, in
+/// units of the flux Re(conj(B) C), without the layer's factor exp(2 log_scale): v^H Q v with Q =
+/// [[bb, bc], [conj(bc), cc]].
 struct AbsorbedPower {
     double bb = 0, cc = 0;
     Complex bc{};
 };
 
-/// F = [[b, c], [0, rest]] of a form Q = F^H F that is nowhere negative. Where fields cancel, F v
-/// has twice the digits of v^H Q v.
+/// Factor F = [[b, c], [0, rest]] of a positive semidefinite form Q = F^H F. Where fields cancel,
+/// evaluating |F v|^2 keeps twice as many digits as v^H Q v.
 struct FormRoot {
     double b = 0, rest = 0;
     Complex c{};
@@ -32,16 +33,16 @@ struct FormRoot {
     bool is_zero() const { return b == 0 && rest == 0; }
 };
 
-/// The same of a slab: exp(2 (log_scale + the slab's own)) (|F v|^2 of what absorbs - |F v|^2 of
-/// what amplifies).
+/// Power absorbed in a slab: exp(2 (log_scale + matrix.log_scale)) (|F v|^2 of the loss - |F v|^2
+/// of the gain).
 struct SlabAbsorption {
     FormRoot loss, gain;
-    double log_scale = 0;  ///< relative to the matrix, so that thick slabs lose no digits
+    double log_scale = 0;  ///< relative to the matrix, so that thick slabs lose no precision
 };
 
-/// A layer, or layers taken together.
+/// One layer, or several combined.
 struct Slab {
-    Matrix matrix;            ///< fields at the lower face to fields at the upper face
+    Matrix matrix;            ///< maps fields at the lower face to fields at the upper face
     SlabAbsorption absorbed;  ///< all zero if nothing absorbs
     bool absorbs = false;
 };
@@ -55,8 +56,8 @@ struct ScaledTurn {
 };
 ScaledTurn scaled_turn(Complex z);
 
-/// Coupling of the fields in a medium: with c, sd of LayerTurn, B' = c B - i w sd C and
-/// C' = c C - i v sd B.
+/// Coupling coefficients of the fields in a medium: with c and sd of LayerTurn, B' = c B - i w sd C
+/// and C' = c C - i v sd B.
 struct Coupling {
     Complex w, v;
 };
@@ -69,33 +70,38 @@ struct LayerTurn {
 };
 LayerTurn layer_turn(Complex q2, double k0_d);
 
-/// Power that one layer absorbs, by the fields at its lower face: an exact integral over its depth.
+/// Power absorbed in one layer in terms of the fields at its lower face: an exact integral over
+/// depth.
 AbsorbedPower absorbed_power(const Medium& medium, double k0_d, Polarization polarization);
 
-/// v^H Q v of the fields v = (b, c), without exp(2 log_scale).
+/// v^H Q v for the fields v = (b, c), without the factor exp(2 log_scale).
 double absorbed_flux(const AbsorbedPower& q, Complex b, Complex c);
 double absorbed_flux(const SlabAbsorption& q, Complex b, Complex c);
 
-/// Characteristic matrix of one layer, thickness k0 d (radians in vacuum, >= 0).
+/// Characteristic matrix of one layer of thickness k0_d = k0 d (radians in vacuum, >= 0).
 Matrix layer_matrix(const Medium& medium, double k0_d, Polarization polarization);
 
-/// The same layer acting on amplitudes (f, g) instead of fields, B = b (f + g) and C = c (f - g):
-/// those of the waves down and up in a medium of admittance y0 = c/b. Where waves grow, as in media
-/// that amplify, the weak one of the two keeps its digits, which B and C add to the strong one's.
+/// The same layer as a matrix of wave amplitudes (f, g) instead of fields, B = b (f + g) and C = c
+/// (f - g): f travels down and g up in a medium of admittance y0 = c/b. Where waves grow, as in
+/// gain media, the weaker of the two stays accurate; in B and C it would drown in the stronger one.
 ///     f' = (e - i h s) f - i w s g     e = exp(-i delta), s = sin(delta), y of the layer
 ///     g' = i w s f + (1/e + i h s) g   h = (y - y0)^2/(2 y y0), w = (y^2 - y0^2)/(2 y y0)
+///   medium        the layer's
+///   k0_d          k0 d, radians in vacuum, >= 0
+///   polarization  s or p, the one that `medium` was computed for
+///   y0            admittance of the reference medium, not 0
 /// Not finite at the layer's critical angle.
 Matrix wave_matrix(const Medium& medium, double k0_d, Polarization polarization, Complex y0);
 
-/// The layer with the power it absorbs, as an exact integral over its depth; gain is negative.
+/// Matrix and absorbed power (an exact integral over depth) of one layer; gain counts as negative.
 Slab layer_slab(const Medium& medium, double k0_d, Polarization polarization);
 
 /// `upper` on top of `lower`.
 Matrix operator*(const Matrix& upper, const Matrix& lower);
 Slab operator*(const Slab& upper, const Slab& lower);
 
-/// Moves the size of a very large or very small matrix into its log_scale, as far as that stays
-/// above 0; returns what it moved.
+/// Moves the magnitude of a very large or very small matrix into its log_scale, as far as that
+/// stays >= 0; returns the amount moved.
 double normalize(Matrix& matrix);
 
 }  // namespace irido

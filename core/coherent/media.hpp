@@ -7,12 +7,21 @@
 
 namespace irido {
 
-/// One medium of a table as a polarization sees it.
+/// One medium of an index table, as seen by one polarization.
+///   table                 indices of the stack's materials
+///   material, wavelength  positions in the table
+///   incidence             direction of the light in the incident medium
+///   polarization          s or p; matters in uniaxial media only
 Medium medium_of(const IndexTable& table, std::size_t material, std::size_t wavelength,
                  IncidentAngle incidence, Polarization polarization);
 
-/// All media of a table at one of its wavelengths, one per material, and last the incident one
-/// without absorption; memory is used again. Those of s and p differ in uniaxial media only.
+/// Fills `media` with every medium of a table at one wavelength: one per material, then the
+/// incident medium without absorption.
+///   table         indices of the stack's materials
+///   wavelength    position in the table
+///   incidence     direction of the light in the incident medium
+///   polarization  s or p; matters in uniaxial media only
+///   media         output, whose memory is reused
 void set_media(const IndexTable& table, std::size_t wavelength, IncidentAngle incidence,
                Polarization polarization, std::vector<Medium>& media);
 

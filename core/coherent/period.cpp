@@ -8,10 +8,10 @@ namespace irido {
 
 namespace {
 
-/// Where exp(2 |Im K|) passes the digits of a double, only one Bloch wave is left.
+/// Once exp(2 |Im K|) exceeds the precision of a double, only one Bloch wave is left.
 constexpr double kLargestLogTrace = 40;
 
-/// Past N Im K of this the smaller one of the diagonal entries of M^N is summed apart.
+/// Beyond this N Im K, the smaller diagonal entry of M^N is computed separately.
 constexpr double kAttenuated = 1;
 
 /// (sign cos(z) - 1) exp(-log_scale); cos_z is cos(z) exp(-Im z), log_scale >= Im z.
@@ -23,15 +23,15 @@ Complex without_identity(double sign, Complex z, Complex cos_z, double log_scale
     return sign * cos_z * std::exp(z.imag() - log_scale) - std::exp(-log_scale);
 }
 
-/// A period without cos(K) I: [[t, b], [c, -t]].
+/// The traceless part [[t, b], [c, -t]] of a period: without cos(K) I.
 struct Traceless {
     Complex t, b, c;
 };
 
-/// That of a matrix, such that t^2 + b c is -sin(K)^2 to the last digit: then the power has
-/// determinant 1, and energy balances. The entry that gives way is the one that moves least: t
-/// where t^2 is the larger term, else the smaller one of b and c.
-///   sine2  sin(K)^2 without the matrix's exp(2 log_scale)
+/// The traceless part of a matrix, adjusted so that t^2 + b c equals -sin(K)^2 to the last digit:
+/// the power then has determinant 1 and energy balances. The entry adjusted is the one that changes
+/// least: t where t^2 is the larger term, else the smaller of b and c.
+///   sine2  sin(K)^2 without the matrix's factor exp(2 log_scale)
 Traceless traceless_of(const Matrix& m, Complex sine2) {
     Traceless of{(m.a - m.d) / 2.0, m.b, m.c};
     const Complex square = of.t * of.t, product = of.b * of.c;
@@ -46,7 +46,7 @@ Traceless traceless_of(const Matrix& m, Complex sine2) {
     return of;
 }
 
-/// Past this exponent a trace overflows; power() takes another way long before.
+/// Beyond this exponent a trace overflows; power() switches to another formula long before.
 constexpr double kLargestExponent = 700;
 
 /// [[cos, -i beta], [-i gamma, cos]] exp(log_scale)
@@ -55,10 +55,10 @@ struct HalfLayer {
     double log_scale;
 };
 
-/// Bloch phase of a two-layer period in Yeh's factored form. With P the product of the two layers'
-/// halves, sin(K/2)^2 = -P12 P21 and cos(K/2)^2 = P11 P22: the four entries of P are, up to factors
-/// that cancel, F(q), F(1/q), G(q) and G(1/q), whose zeros are the band edges. No digits cancel
-/// beside an edge, and nothing divides where a layer is at its critical angle.
+/// Bloch phase of a two-layer period in Yeh's factored form. With P the product of the two
+/// half-layer matrices, sin(K/2)^2 = -P12 P21 and cos(K/2)^2 = P11 P22: up to factors that cancel,
+/// the four entries of P are F(q), F(1/q), G(q) and G(1/q), whose zeros are the band edges. Nothing
+/// cancels near an edge, and nothing is divided by zero at a layer's critical angle.
 /// Source: FPB24 (CGF 43(2), 2024), eqs. 5 to 9.
 BlochPhase bloch_phase_of_pair(const Layer& upper, const Layer& lower,
                                std::span<const Medium> media, double k0,
@@ -79,7 +79,7 @@ BlochPhase bloch_phase_of_pair(const Layer& upper, const Layer& lower,
 }
 
 /// Bloch phase of any period. Where its matrix is nearly I or -I, sin(K)^2 = -(traceless^2 + b c)
-/// has the digits of K that the trace loses.
+/// retains the digits of K that the trace loses.
 BlochPhase bloch_phase_of_matrix(const Matrix& m) {
     const double scale = std::exp(std::min(m.log_scale, kLargestExponent));
     const Complex sin2 = -scale * (m.a + m.d) / 4.0, cos2 = 1.0 - sin2;
@@ -90,12 +90,12 @@ BlochPhase bloch_phase_of_matrix(const Matrix& m) {
     return {product / cos2, cos2};
 }
 
-/// One layer repeated is a thicker layer.
+/// The layer of a group that repeats a single layer: equivalent to one thicker layer.
 const Layer* only_layer(const Group& group) {
     return group.elements.size() == 1 ? std::get_if<Layer>(&group.elements[0].value) : nullptr;
 }
 
-/// Matrices of the fields (B, C), or of the waves in a medium of admittance y0.
+/// Matrices of the fields (B, C), or of the wave amplitudes in a medium of admittance y0.
 struct Matrices {
     std::span<const Medium> media;
     double k0;
@@ -129,7 +129,7 @@ struct Matrices {
     }
 };
 
-/// The slab with its matrix replaced by an equal one of better digits.
+/// The slab with its matrix replaced by a more accurate equal.
 Slab with_matrix(const Slab& slab, const Matrix& matrix) {
     Slab result{matrix, slab.absorbed, slab.absorbs};
     result.absorbed.log_scale += slab.matrix.log_scale - matrix.log_scale;
@@ -140,9 +140,9 @@ double log_size(const Matrix& m) {
     return std::log(std::abs(m.a) + std::abs(m.b) + std::abs(m.c) + std::abs(m.d)) + m.log_scale;
 }
 
-/// A group that absorbs: its absorption is raised by doubling, every step adds terms of one sign.
-/// The matrices on the way are closed powers while light comes through; where it does not, only
-/// doubled matrices balance with the doubled absorption to the last digit.
+/// An absorbing group: its absorption is summed by repeated doubling, in which all terms have one
+/// sign. While light still gets through, the intermediate matrices are closed-form powers; beyond
+/// that only the doubled matrices balance the doubled absorption to the last digit.
 Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
                 Polarization polarization) {
     const Slab period = slab_of(group.elements, media, k0, polarization);
@@ -159,7 +159,7 @@ Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
         if (group.repeat & step) total = of_periods(doubled * total, below += step);
         if (2 * step <= group.repeat) doubled = of_periods(doubled * doubled, 2 * step);
     }
-    if (!closed)  // each doubling doubles the error of the logarithm; the closed power does not
+    if (!closed)  // doubling doubles the error of the logarithm; the closed form does not
         total.matrix.log_scale +=
             log_size(power(period.matrix, bloch, group.repeat)) - log_size(total.matrix);
     return total;
@@ -191,9 +191,9 @@ BlochPhase bloch_phase(const Group& group, const Matrix& matrix, std::span<const
 Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     const double n = static_cast<double>(repeat);
     const Complex half_trace = (m.a + m.d) / 2.0 + m.identity();
-    const double log_trace = std::log(std::abs(half_trace)) + m.log_scale;  // -inf for no trace
+    const double log_trace = std::log(std::abs(half_trace)) + m.log_scale;  // -inf for a zero trace
     if (log_trace > kLargestLogTrace) {
-        // M^N = (2x)^(N-1) M, the other Bloch wave is below the last digit
+        // M^N = (2x)^(N-1) M; the other Bloch wave is below rounding
         const Complex turn = std::polar(1.0, (n - 1) * std::arg(half_trace));
         return {turn * (m.a + m.identity()), turn * m.b, turn * m.c, turn * (m.d + m.identity()),
                 m.log_scale + (n - 1) * (log_trace + std::log(2.0))};
@@ -207,7 +207,7 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     const Traceless of = traceless_of(m, scaled_sine * scaled_sine);
     const ScaledTurn all = scaled_turn(n * k);
     const Complex ratio = std::norm(n * k) < 1e-18 ? n : all.sin / sine;
-    // cos(N K) I has exp(N Im K), ratio (M - x I) has exp((N - 1) Im K + m.log_scale)
+    // cos(N K) I grows as exp(N Im K), ratio (M - x I) as exp((N - 1) Im K + m.log_scale)
     const double sign = flip && repeat % 2 == 1 ? -1 : 1;
     const Complex f = (flip ? -sign : sign) * ratio * std::exp(std::min(0.0, ahead));
     Matrix result{f * of.t, f * of.b, f * of.c, -f * of.t, n * k.imag() + std::max(0.0, ahead)};
@@ -215,7 +215,7 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     result.a += diagonal;
     result.d += diagonal;
     if (n * k.imag() > kAttenuated) {
-        // exp(i N K) + ratio (sigma - |t|), sigma = -i sin K: neither of them cancels
+        // exp(i N K) + ratio (sigma - |t|), sigma = -i sin K: neither term cancels
         const Complex sigma = Complex(0, -1) * scaled_sine;
         const bool below = std::real(of.t * std::conj(sigma)) > 0;  // the smaller entry
         const Complex rest = of.b * of.c / (sigma + (below ? of.t : -of.t));

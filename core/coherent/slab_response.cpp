@@ -12,9 +12,9 @@ namespace irido {
 
 namespace {
 
-/// An absorbing slab is opaque below this transmittance. Its R depends on its top only, its A on
-/// all that was multiplied: A has fewer digits then, and 1 - R - T more than the fluxes above
-/// kSubtractableIfOpaque.
+/// Below this transmittance an absorbing slab is opaque. Its R then depends on the top layers only,
+/// but A on everything multiplied: the fluxes give fewer digits of A, and 1 - R - T more of them
+/// where A exceeds kSubtractableIfOpaque.
 constexpr double kOpaque = 1e-30, kSubtractableIfOpaque = 1e-4;
 
 Wave wave(const Medium& m, Complex kz, Polarization polarization) {
@@ -22,8 +22,8 @@ Wave wave(const Medium& m, Complex kz, Polarization polarization) {
     return {kz, m.eps, (std::conj(kz) * m.eps).real()};
 }
 
-/// Phase of the waves that absorbing layers let die away, sum of Re(delta) b^2/(1 + b^2), b = |Im
-/// delta|: what it turns in the denominator has no zeros and reaches nobody.
+/// Phase of the damped waves in absorbing layers: sum of Re(delta) b^2/(1 + b^2), b = |Im delta|.
+/// It multiplies the denominator by a zero-free factor, so removing it does not move a zero.
 double dying_phase(std::span<const Element> elements, std::span<const Medium> media, double k0) {
     double sum = 0;
     for (const Element& element : elements) {
@@ -71,7 +71,7 @@ double mixed_power(const Wave& in, Complex r) {
 }
 
 Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
-    // fields at the top; r = (Y0 b - c)/(Y0 b + c) with Y0 = in.c/in.b multiplied through
+    // fields at the top; r = (Y0 b - c)/(Y0 b + c) with Y0 = in.c/in.b, multiplied through by in.b
     const Matrix& m = slab.matrix;
     const Complex b = m.identity() * out.b + (m.a * out.b + m.b * out.c);
     const Complex c = m.identity() * out.c + (m.c * out.b + m.d * out.c);
@@ -96,7 +96,7 @@ Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
     if (opaque && power.A > kSubtractableIfOpaque) {
         power.A = 1 - power.R - power.T;
     } else if (balances) {
-        // what roundings do to the denominator that the three have in common shows in their sum
+        // rounding errors of the common denominator show up in the sum of the three: divide by it
         power = {power.R / sum_of_powers, power.T / sum_of_powers, power.A / sum_of_powers};
     } else if (std::abs(power.A) > kSubtractable) {
         power.A = 1 - power.R - power.T;
@@ -108,7 +108,7 @@ Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
 
 namespace {
 
-/// By the amplitudes of the waves in the medium of `in`; nothing where a layer has none.
+/// From wave amplitudes in the medium of `in`; nothing if some layer has none.
 std::optional<Response> amplified_response(const Wave& in, std::span<const Element> elements,
                                            const Wave& out, std::span<const Medium> media,
                                            double k0, Polarization polarization) {
@@ -164,7 +164,7 @@ Fields operator*(const Matrix& m, const Fields& v) {
     return above;
 }
 
-/// Calls visit(layer) from the last layer to the first, repetitions included.
+/// Calls visit(layer) from the last layer to the first, with repetitions expanded.
 template <class Visit>
 void for_each_layer_upwards(std::span<const Element> elements, const Visit& visit) {
     for (std::size_t i = elements.size(); i-- > 0;) {

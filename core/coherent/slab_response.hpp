@@ -6,47 +6,59 @@
 
 namespace irido {
 
-/// An absorption above this loses nothing as 1 - R - T.
+/// Absorptances above this are computed as 1 - R - T without loss of precision.
 inline constexpr double kSubtractable = 0.01;
 
-/// Where light grows by more than this, sums of fields lose the wave that is weak in them, and the
-/// plain kernel takes waves instead.
+/// Beyond this growth, sums of fields lose the weaker wave, so the plain kernel switches to wave
+/// amplitudes.
 inline constexpr double kAmplified = 100;
 
 /// x exp(exponent), where exp(exponent) alone may underflow.
 double times_exp(double x, double exponent);
 
-/// One wave of a medium: its tangential fields B : C, up to a common factor, and the flux
-/// Re(conj(B) C) of that.
+/// One wave in a medium: its tangential fields B : C, up to a common factor, and their flux
+/// Re(conj(B) C).
 struct Wave {
     Complex b, c;
     double flux;
 };
 
-/// The wave that travels or decays away in a half-space: Im(kz) > 0, or Re(kz) > 0 where it is
-/// real.
+/// The outgoing wave of a half-space: Im(kz) > 0, or Re(kz) > 0 where kz is real.
 Wave outgoing_wave(const Medium& half_space, Polarization polarization);
 
-/// kz / k0 of the wave that goes on in a layer: Re > 0 where it travels (Re q2 >= 0), so that it
-/// grows in a medium that amplifies, Im > 0 where it does not.
+/// kz / k0 of the forward wave in a layer: Re > 0 where it travels (Re q2 >= 0), so it grows in a
+/// gain medium; Im > 0 where it is evanescent.
 Complex onward_kz(const Medium& layer);
 Wave onward_wave(const Medium& layer, Polarization polarization);
 
-/// What a slab does to the wave `in` that meets it, when `out` leaves it. A wave without flux is
-/// wholly reflected. Throws DomainError at the laser threshold of a slab that amplifies, where no
-/// power is finite.
+/// Response of a slab to the incident wave `in`, with `out` the wave transmitted. An incident wave
+/// without flux is totally reflected. Throws DomainError at the lasing threshold of an amplifying
+/// slab, where the powers are infinite.
 Response slab_response(const Wave& in, const Slab& slab, const Wave& out);
 
-/// Power that the interference of the incident and the reflected wave takes out of an absorbing
-/// medium above the slab, as part of the incident power: it is in A, and in no layer of the slab.
+/// Interference (cross) flux of the incident and reflected waves in an absorbing medium above the
+/// slab, as a fraction of the incident power: part of A, but not of any layer's absorption.
 double mixed_power(const Wave& in, Complex r);
 
 /// coherent_response() between given waves instead of half-spaces.
+///   in            incident wave
+///   elements      layers and groups, from the incident side down
+///   out           transmitted wave
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that the waves and `media` were computed for
 Response coherent_response(const Wave& in, std::span<const Element> elements, const Wave& out,
                            std::span<const Medium> media, double k0, Polarization polarization);
 
-/// Power absorbed in every layer of such a stack, as part of the incident one, by the fields at its
-/// lower face. `absorbed` has one entry a layer with groups written out, the first one's first.
+/// Power absorbed in each layer, as a fraction of the incident power, from the fields at its lower
+/// face.
+///   in            incident wave
+///   elements      layers and groups, from the incident side down
+///   out           transmitted wave
+///   media         one per material of the stack
+///   k0            2 pi / wavelength, 1/nm, > 0
+///   polarization  s or p, the one that the waves and `media` were computed for
+///   absorbed      output, one per layer with groups expanded, top layer first
 void coherent_layer_absorption(const Wave& in, std::span<const Element> elements, const Wave& out,
                                std::span<const Medium> media, double k0, Polarization polarization,
                                std::span<double> absorbed);

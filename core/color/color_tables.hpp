@@ -17,22 +17,22 @@
 
 namespace irido {
 
-/// What the colours of all stacks under one sensitivity have in common. Parts are computed when
-/// they are first asked for, once. Safe from many threads.
+/// Data shared by the colours of all stacks under the same weighted colour-matching functions. Each
+/// part is computed once, on first use. Thread-safe.
 class ColorTables {
 public:
     explicit ColorTables(Sensitivity sensitivity) : sensitivity_(std::move(sensitivity)) {}
 
     const Sensitivity& sensitivity() const { return sensitivity_; }
 
-    /// The transform for paths up to 0.5 mm, with an error of at most `accuracy` or, if that is
-    /// smaller, 1e-13: tables of 1e-8 and of 1e-13 serve all.
+    /// The transform for optical path differences up to 0.5 mm, with an error of at most
+    /// `accuracy`, or 1e-13 if that is larger. Two tables, of 1e-8 and 1e-13, serve all requests.
     const SensitivityTransform& transform(double accuracy) const;
 
     /// channel_points() of the sensitivity.
     const std::array<ChannelPoints, 3>& channel_points() const;
 
-    /// The quadrature rule of a panel; rules of up to kMostNumbers numbers in all are kept.
+    /// Quadrature rule of a panel; rules with up to kMostNumbers numbers in total are cached.
     std::shared_ptr<const QuadratureRule> rule(WavelengthRange panel, std::size_t degree) const;
 
     /// equal_rule() of the sensitivity.
@@ -41,14 +41,15 @@ public:
     /// X, Y and Z up to any wavelength.
     const CumulativeSensitivity& cumulative() const;
 
-    /// The sensitivity up to waves of kFirstSmooth_nm 2^level; level < kSmoothLevels.
+    /// Weighted colour-matching functions, low-pass filtered at kFirstSmooth_nm 2^level, where
+    /// level < kSmoothLevels.
     const SmoothSensitivity& smooth(std::size_t level) const;
     static constexpr std::size_t kSmoothLevels = 9;
     static constexpr double kFirstSmooth_nm = 32000;
 
     const SensitivityDecay& decay() const;
 
-    /// Nodes for at least `least` points, 2^k or 3 2^k of them.
+    /// Nodes for at least `least` points; their number is 2^k or 3 2^k.
     const CosineNodes& nodes(std::size_t least) const;
 
     static constexpr std::size_t kMostNumbers = 1U << 22;

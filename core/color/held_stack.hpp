@@ -8,24 +8,24 @@
 
 namespace irido {
 
-/// A material that is not known over the whole visible range and holds its end values there.
+/// A material whose data do not cover the visible range and are clamped there.
 struct HeldRange {
     std::size_t material = 0;  ///< index into Stack::materials
-    WavelengthRange range;     ///< where it is known
-    bool usable = true;        ///< false if it is not known over 400 to 700 nm, which colour needs
-    Triple weight{};           ///< fraction of the X, Y, Z weight outside its range
+    WavelengthRange range;     ///< where it has data
+    bool usable = true;        ///< false if 400 to 700 nm, which colour needs, are not covered
+    Triple weight{};           ///< fraction of the weight of X, Y, Z outside its range
 };
 
-/// Materials of the stack that are not known over the sensitivity's support and do not say clamp.
+/// Materials of the stack that lack data within the support and are not set to clamp.
 std::vector<HeldRange> held_ranges(const Stack& stack, const Sensitivity& sensitivity);
 
-/// The stack with materials that hold their end values outside their range. Throws DomainError if a
-/// held range is not usable.
+/// The stack with all materials clamped outside their range. Throws DomainError if a held range is
+/// not usable.
 Stack held_stack(const Stack& stack, const Sensitivity& sensitivity);
 
-/// The ends of `support` and the wavelengths between them where a material has a kink or ends,
-/// ascending: the stack's spectra are smooth in between, but for rows of tables if these are left
-/// out.
+/// The ends of `support` and the wavelengths in between at which a material has a kink or its data
+/// end, ascending: the stack's spectra are smooth from one to the next, except at table rows if
+/// these are left out.
 std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support,
                                   bool with_rows = true);
 

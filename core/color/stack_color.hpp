@@ -9,32 +9,54 @@
 
 namespace irido {
 
-/// Makes a method ready for stacks of the materials and structure of `stack`, whose materials hold
-/// their end values outside their range. `tables` must outlive the result.
+/// Prepares a method for stacks with the materials and structure of `stack`, clamped outside their
+/// range.
 ///
-/// automatic: the series where the stack is one film of constant indices, if there are enough
-/// colours for its table to pay (or the film's thickness is spread, which takes quadrature very
-/// long); Bloch waves where it is one_mirror() of many fringes; quadrature for all others, and
-/// where these cannot promise the tolerance.
+/// automatic: the series for a single film of constant indices, if enough colours are to come to
+/// pay for its table (or if the film has a thickness distribution, which is very slow by
+/// quadrature); Bloch waves for a one_mirror() with many fringes; quadrature for everything else,
+/// and where the others cannot guarantee the tolerance.
 ///
-/// Throws DomainError if the method does not take the stack or the request, if a held range is not
+///   tables   observer and illuminant; must outlive the result
+///   stack    materials and structure
+///   method   see ColorMethod
+///   request  options
+/// Throws DomainError if the method does not support the stack or the request, if a held range is
+/// not usable, and as StackPower and IndexTable do.
 /// usable, and as StackPower and IndexTable do.
 std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const Stack& stack,
                                                 const ColorMethod& method,
                                                 const ColorRequest& request);
 
-/// Colours [angle][side] of one stack by an algorithm made ready for it.
+/// Colours [angle][side] of one stack by a prepared algorithm.
+///   algorithm   made by color_algorithm()
+///   stack       of the same materials and structure
+///   sides       number of sides in the request
+///   angles_deg  [0, 90] degrees
+///   threads     0: one per core
 std::vector<StackColor> stack_color(const ColorAlgorithm& algorithm, const Stack& stack,
                                     std::size_t sides, std::span<const double> angles_deg,
                                     unsigned threads = 1);
 
-/// Colours [angle][side] of one stack; angles in [0, 90] degrees. Throws as color_algorithm() does.
+/// Colours [angle][side] of one stack. Throws as color_algorithm() does.
+///   tables      observer and illuminant
+///   stack       materials, structure and thicknesses
+///   method      see ColorMethod
+///   request     options
+///   angles_deg  [0, 90] degrees
+///   threads     0: one per core
 std::vector<StackColor> stack_color(const ColorTables& tables, const Stack& stack,
                                     const ColorMethod& method, const ColorRequest& request,
                                     std::span<const double> angles_deg, unsigned threads = 1);
 
-/// Gives colours of stack_color() with an infinite error their distance from the colour by auto,
-/// and the error of that; returns whether there were any.
+/// Replaces infinite errors of baseline colours by their distance from the automatic method's
+/// colour plus its error; returns whether there were any.
+///   tables      observer and illuminant
+///   stack       the colours' stack
+///   request     options with which they were computed
+///   angles_deg  [0, 90] degrees
+///   threads     0: one per core
+///   colors      [angle][side], updated
 bool measure_errors(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
                     std::span<const double> angles_deg, unsigned threads,
                     std::span<StackColor> colors);

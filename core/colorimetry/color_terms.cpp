@@ -17,7 +17,7 @@ struct UniformChromaticity {
     double u, v;
 };
 
-/// u', v' of a colour that is not black.
+/// u', v' of a colour other than black.
 UniformChromaticity uniform_chromaticity(const Triple& xyz) {
     const double sum = xyz[0] + 15 * xyz[1] + 3 * xyz[2];
     return {4 * xyz[0] / sum, 9 * xyz[1] / sum};
@@ -37,13 +37,13 @@ public:
     WhiteLine(const Chromaticity& white, const Chromaticity& color)
         : white_(white), dx_(color.x - white.x), dy_(color.y - white.y) {}
 
-    /// Distance of a stimulus from the line, and along it, both times X + Y + Z and the distance of
-    /// the colour: linear in X, Y, Z.
+    /// Offset of a stimulus from the line and its position along it, both times X + Y + Z and the
+    /// distance of the colour from the white: linear in X, Y, Z.
     double beside(const Triple& v) const { return x(v) * dy_ - y(v) * dx_; }
     double along(const Triple& v) const { return x(v) * dx_ + y(v) * dy_; }
 
     double length() const { return std::hypot(dx_, dy_); }
-    /// How far the colour is from the white towards a stimulus on the line.
+    /// Distance of the colour from the white, relative to that of a stimulus on the line.
     double share(const Triple& v) const {
         return length() * length() / std::abs(along(v) / sum(v));
     }
@@ -56,9 +56,9 @@ private:
     double dx_, dy_;
 };
 
-/// A stimulus between two others, where the line meets their join.
+/// A mixture of two stimuli, where the line crosses the segment between them.
 struct Meeting {
-    double at;  ///< share of the second, [0, 1]
+    double at;  ///< weight of the second stimulus, [0, 1]
     Triple stimulus;
 };
 

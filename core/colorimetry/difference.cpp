@@ -10,7 +10,7 @@
 namespace irido {
 namespace {
 
-/// Cube root, continued below (6/29)^3 by its tangent.
+/// Cube root, continued by its tangent below (6/29)^3.
 double lab_curve(double t) {
     constexpr double delta = 6.0 / 29;
     if (t > delta * delta * delta) return std::cbrt(t);
@@ -23,7 +23,7 @@ double chroma_step(double chroma) {
     return std::sqrt(power / (power + 1));
 }
 
-/// One colour after the stretching of its a axis: eqs. 5 to 7.
+/// One colour after stretching the a axis: eqs. 5 to 7.
 struct Stretched {
     Stretched(const Triple& lab, double g) : chroma(std::hypot((1 + g) * lab[1], lab[2])) {
         if (chroma == 0) return;
@@ -31,7 +31,7 @@ struct Stretched {
         if (hue_deg < 0) hue_deg += 360;
     }
     double chroma;
-    double hue_deg = 0;  ///< [0, 360], 0 for a grey
+    double hue_deg = 0;  ///< [0, 360], 0 for greys
 };
 
 struct Hues {
@@ -39,8 +39,8 @@ struct Hues {
     double mean_deg;        ///< halfway on the shorter arc, eq. 14
 };
 
-/// The formula jumps at opposite hues, which belong to the arc that does not cross 0 degrees. The
-/// margin, a thousand roundings of a hue, keeps them there.
+/// The formula is discontinuous at opposite hues, which are assigned to the arc that avoids 0
+/// degrees. The margin, a thousand rounding errors of a hue, keeps them there.
 Hues compare_hues(const Stretched& p, const Stretched& q) {
     constexpr double opposite_deg = 180 + 1e-10;
     const double difference = q.hue_deg - p.hue_deg;

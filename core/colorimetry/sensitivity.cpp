@@ -23,7 +23,7 @@ double linear(std::span<const double> value, double position) {
     return value[i] + (position - row) * (value[i + 1] - value[i]);
 }
 
-/// Integral of the sensitivity over the cells, by a rule that is exact for its cubic parts.
+/// Integral over the cells, by a rule that is exact for piecewise cubics.
 Triple integrate_cells(const Sensitivity& sensitivity, const std::vector<double>& cells) {
     Triple sum{};
     for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
@@ -80,8 +80,7 @@ Triple Sensitivity::integral(WavelengthRange part) const {
 
 namespace {
 
-/// The panel as seen by Chebyshev polynomials: x = 1 at its short end, -1 at its long end, linear
-/// in 1/lambda.
+/// Maps the panel to x in [-1, 1], linear in 1/lambda: x = 1 at its short end, -1 at its long end.
 struct PanelMap {
     WavelengthRange panel;
     double middle, half;
@@ -98,7 +97,7 @@ struct PanelMap {
     }
 };
 
-/// Sample points of the moment integrals: x, and the sensitivity times the sample's weight.
+/// Sample points of the moment integrals: x, and the integrand's weight there.
 struct Samples {
     std::vector<double> x;
     std::array<std::vector<double>, 3> weight;
@@ -116,8 +115,8 @@ void add_samples(const Sensitivity& sensitivity, const PanelMap& map, double fir
     }
 }
 
-/// Gauss points in every cell, as many as the fastest polynomial needs: T_n(cos phi) turns by
-/// n dphi radians over a piece. Errors of the three rules at their limits: 1e-12, 2e-15, 1e-19.
+/// Gauss points in each cell, as many as the fastest polynomial needs: T_n(cos phi) advances by n
+/// dphi radians over a piece. Errors of the three rules at their limits: 1e-12, 2e-15, 1e-19.
 Samples moment_samples(const Sensitivity& sensitivity, const PanelMap& map, std::size_t degree) {
     const std::vector<double> cells = sensitivity.cells(map.panel);
     Samples samples;
@@ -146,7 +145,7 @@ Samples moment_samples(const Sensitivity& sensitivity, const PanelMap& map, std:
     return samples;
 }
 
-/// sum over samples of weight T_k(x), k = 0 .. degree.
+/// Sum over samples of weight T_k(x), k = 0 .. degree.
 void integrate_moments(const Samples& samples, std::size_t degree, PanelRule& rule) {
     const auto count = static_cast<Eigen::Index>(samples.x.size());
     const auto vector = [count](const std::vector<double>& v) {

@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kLongestPath = 1e7;
 
-/// Turn in radians of the fastest wave over a piece that 8, or 16, Gauss points integrate to 2e-15
-/// of its size.
+/// Phase in radians of the fastest wave over a piece that 8, or 16, Gauss points integrate to a
+/// relative 2e-15.
 constexpr double kTurnOf8 = 3, kTurnOf16 = 12;
 
-/// Error of a value from rounding and from the sums over the points, as part of the white.
+/// Error of a value due to rounding and to the sums over the points, relative to the white.
 constexpr double kRounding = 5e-14;
 
 template <int count>
@@ -42,7 +42,7 @@ double damping(double wavenumber, double variance_nm2) {
     return std::exp(-kTwoPi * std::numbers::pi * variance_nm2 * wavenumber * wavenumber);
 }
 
-/// The interval of the table whose middle is the nearest to a path.
+/// Index of the table interval whose centre is nearest to an optical path difference.
 std::size_t interval_of(double opd_nm) {
     return static_cast<std::size_t>(std::floor(opd_nm / SensitivityTransform::kInterval_nm + 0.5));
 }
@@ -55,8 +55,8 @@ double chebyshev_point(std::size_t k, std::size_t count) {
     return std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(count));
 }
 
-/// Coefficients of powers (rows) from values on Chebyshev points (columns). In long double, which
-/// makes up for what the inverse loses.
+/// Coefficients of powers (rows) from values at Chebyshev points (columns). Computed in long double
+/// to compensate for the ill-conditioned inverse.
 Eigen::MatrixXd polynomial_through_chebyshev_points(std::size_t count) {
     const auto size = static_cast<Eigen::Index>(count);
     Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic> powers(size, size);
@@ -157,11 +157,11 @@ SensitivityTransform::SensitivityTransform(const Sensitivity& sensitivity, doubl
     set_largest();
 }
 
-/// J and V. On a cell s is a quadratic of lambda and, with primes for derivatives by lambda,
+/// J and V. On a cell s is a quadratic in lambda and, with primes for derivatives by lambda,
 ///     g = s lambda^2,  |dg/dnu| = |2 lambda^3 s + lambda^4 s'|,
 ///     d(dg/dnu) = -(6 lambda^2 s + 6 lambda^3 s' + lambda^4 s'') dlambda;
-/// between cells dg/dnu jumps by lambda^4 times the jump of s'. Damping W multiplies g; each term
-/// of the product's second derivative is bounded by its largest value on the cell.
+/// between cells dg/dnu jumps by lambda^4 times the jump of s'. Damping multiplies g by W; each
+/// term of the product's second derivative is bounded by its maximum on the cell.
 void SensitivityTransform::set_tail(const Sensitivity& sensitivity, double variance_nm2) {
     const std::vector<double> cells = sensitivity.cells(sensitivity.support());
     const double rate = kTwoPi * kTwoPi * variance_nm2;  // W' = -rate nu W
@@ -204,8 +204,8 @@ void SensitivityTransform::set_tail(const Sensitivity& sensitivity, double varia
     variation_ = std::ranges::max(variation);
 }
 
-/// As few rows as the accuracy needs. The polynomial of degree n through the n + 1 Chebyshev points
-/// of exp(i a x) on [-1, 1] is off by at most a^(n+1) / (2^n (n+1)!).
+/// Chooses as few rows as the accuracy allows. The degree-n interpolant of exp(i a x) at n + 1
+/// Chebyshev points on [-1, 1] has an error of at most a^(n+1) / (2^n (n+1)!).
 void SensitivityTransform::choose_rows(const SensitivityPoints& points, double accuracy) {
     std::vector<double> turn(points.wavenumber.size());  // a
     for (std::size_t i = 0; i < turn.size(); ++i)
@@ -228,8 +228,8 @@ void SensitivityTransform::choose_rows(const SensitivityPoints& points, double a
     error_ = interpolation + kRounding * at_zero_;
 }
 
-/// exp(i a x) is the polynomial sum_r q_r(a) x^r, q_r real for even and imaginary for odd r. So
-/// row r of all intervals is one Fourier sum of the points with weights q_r(a) of their own.
+/// exp(i a x) is the polynomial sum_r q_r(a) x^r, with q_r real for even r and imaginary for odd r.
+/// So row r of all intervals is one Fourier sum over the points, with weights times q_r(a).
 void SensitivityTransform::fill_table(const SensitivityPoints& points) {
     const std::size_t count = interval_of(opd_max_) + 1;
     const std::size_t size = points.wavenumber.size();
@@ -269,7 +269,7 @@ void SensitivityTransform::fill_table(const SensitivityPoints& points) {
     }
 }
 
-/// No value on an interval is larger than the sum of its coefficients, nor than that at D = 0.
+/// Values on an interval are bounded by the sum of its coefficients, and by the value at D = 0.
 void SensitivityTransform::set_largest() {
     const std::size_t count = table_.size() / rows_;
     largest_.resize(count);

@@ -12,16 +12,16 @@ namespace irido {
 
 namespace {
 
-/// Rows per wave of the shortest period that is left.
+/// Rows per period of the fastest wave kept.
 constexpr double kOversampling = 6;
 
-/// Width of what is taken as one period of nu, in that of the support.
+/// Width treated as one period of nu, relative to the support.
 constexpr double kPeriod = 1.2;
 
-/// Relative, of what was made from the reach.
+/// Relative tolerance for rounding of nu computed from reach().
 constexpr double kSmoothRounding = 1e-14;
 
-/// Rows beyond either end of the period, which a cubic may need.
+/// Extra rows at either end of the period, for cubic interpolation.
 constexpr std::size_t kMoreRows = 4;
 
 struct Wavenumbers {
@@ -34,7 +34,7 @@ Wavenumbers wavenumbers(const Sensitivity& sensitivity) {
     return {low, high, (low + high) / 2, kPeriod * (high - low)};
 }
 
-/// H_j(k / period), k = 0 .. count - 1, with the phase 0 in the middle of the support.
+/// H_j(k / period), k = 0 .. count - 1, with the phase referred to the middle of the support.
 std::vector<std::vector<Complex>> harmonics(const Sensitivity& sensitivity, const Wavenumbers& nu,
                                             std::size_t count) {
     const double longest = static_cast<double>(count) / nu.period;
@@ -45,7 +45,7 @@ std::vector<std::vector<Complex>> harmonics(const Sensitivity& sensitivity, cons
     return transform_of_points(turns, points.weight, count);
 }
 
-/// 1 up to kFlat of the path, 0 from its end on.
+/// Low-pass response: 1 up to kFlat of the cut-off, 0 beyond the cut-off.
 double pass(double share) {
     if (share <= SmoothSensitivity::kFlat) return 1;
     if (share >= 1) return 0;
@@ -62,7 +62,7 @@ SmoothSensitivity::SmoothSensitivity(const Sensitivity& sensitivity, double opd_
     reach_ = {nu.low - tail, nu.high + tail};
     const auto count = static_cast<std::size_t>(std::ceil(opd_nm * nu.period)) + 1;
     const std::vector<std::vector<Complex>> H = harmonics(sensitivity, nu, count);
-    // one period of rows: the sum over k at all of them is the same transform of points k / rows
+    // one period of rows: the sum over k at every row is the same transform of points k / rows
     const auto rows = static_cast<std::size_t>(std::ceil(kOversampling * opd_nm * nu.period));
     std::vector<double> turns(count);
     std::vector<std::vector<double>> parts(6, std::vector<double>(count));

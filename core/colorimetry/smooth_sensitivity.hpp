@@ -8,27 +8,27 @@
 
 namespace irido {
 
-/// The sensitivity over the wavenumber nu = 1/lambda without what turns faster than waves of an
-/// optical path: its Fourier integral H_j(D) (see SensitivityTransform), cut off smoothly between
-/// kFlat opd_nm and opd_nm. What a spectrum without faster fringes integrates to is the same, but
-/// the kinks between the rows are gone, so that a sum over equally spaced points is exact as soon
-/// as it resolves both. Tabulated over nu, for cubic interpolation.
+/// Weighted colour-matching functions over the wavenumber nu = 1/lambda, low-pass filtered: their
+/// Fourier integral H_j(D) (see SensitivityTransform) is cut off smoothly between kFlat opd_nm and
+/// opd_nm. A spectrum without faster fringes integrates to the same value, but the kinks between
+/// rows are gone, so a sum over equally spaced points is exact as soon as it resolves both.
+/// Tabulated over nu for cubic interpolation.
 class SmoothSensitivity {
 public:
-    /// opd_nm  [1e3, 1e7], else DomainError
+    /// opd_nm in [1e3, 1e7], else DomainError.
     SmoothSensitivity(const Sensitivity& sensitivity, double opd_nm);
 
     double opd_nm() const { return opd_; }
 
-    /// Per unit of nu, nm: integrals over nu are those of Sensitivity over the wavelength. Its
-    /// tails reach beyond the support; nu inside reach(), else DomainError.
+    /// Per unit of nu, in nm: integrals over nu equal those of Sensitivity over the wavelength. The
+    /// tails extend beyond the support; nu must be inside reach(), else DomainError.
     Triple at(double nu) const;
 
     /// X, Y, Z and a zero.
     struct alignas(32) Row {
         std::array<double, 4> value{};
     };
-    /// What a loop over many points reads: rows at nu = first + i / per_nu.
+    /// Direct access for loops over many points: rows at nu = first + i / per_nu.
     const std::vector<Row>& rows() const { return rows_; }
     double first() const { return first_; }
     double per_nu() const { return per_nu_; }
@@ -36,7 +36,7 @@ public:
     struct Reach {
         double low, high;
     };
-    /// Of nu: the support and kTail of its width on either side.
+    /// Range of nu: the support plus kTail of its width on either side.
     Reach reach() const { return reach_; }
 
     static constexpr double kFlat = 0.6;
@@ -48,13 +48,13 @@ private:
     std::vector<Row> rows_;
 };
 
-/// Bounds of the sensitivity's Fourier integral.
+/// Decaying upper bound on the Fourier integral of the weighted colour-matching functions.
 class SensitivityDecay {
 public:
     explicit SensitivityDecay(const Sensitivity& sensitivity);
 
-    /// No |H_j| is larger at this path, nm, or a longer one: the largest seen up to kLongest_nm,
-    /// beyond it falling as 1/D at least.
+    /// Upper bound on all |H_j| at this optical path difference (nm) and beyond: the largest
+    /// sampled up to kLongest_nm, beyond that decaying at least as 1/D.
     double operator()(double opd_nm) const;
 
     static constexpr double kLongest_nm = 4e6;

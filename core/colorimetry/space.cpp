@@ -52,7 +52,7 @@ ColorMatrix rows(const Eigen::Matrix3d& m) {
     return result;
 }
 
-/// Columns x, y, 1 - x - y of the primaries.
+/// Primaries as columns x, y, 1 - x - y.
 Eigen::Matrix3d primaries(const RgbSpace& space) {
     Eigen::Matrix3d p;
     for (int j = 0; j < 3; ++j) {
@@ -62,7 +62,7 @@ Eigen::Matrix3d primaries(const RgbSpace& space) {
     return p;
 }
 
-/// White to cone responses, with the checks that bradford() states.
+/// Cone responses of a white, checked as bradford() states.
 Eigen::Vector3d cone_response(const Eigen::Matrix3d& cones_from_xyz, const Triple& white) {
     Eigen::Vector3d cones = cones_from_xyz * vector(white);
     for (const double component : white) require_in_range("white XYZ", component, 1e-6, 1e6);
@@ -83,8 +83,8 @@ double inverse_srgb_curve(double v) {
     return v <= 12.92 * 0.0031308 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-/// ITU-R BT.2020-2, table 4: value and slope of the line and of the power law agree at beta, which
-/// gives alpha = 1 + 5.5 beta and alpha beta^0.45 = 10 beta. Printed there: 1.0993 and 0.0181.
+/// ITU-R BT.2020-2, table 4: line and power law agree in value and slope at beta, which gives alpha
+/// = 1 + 5.5 beta and alpha beta^0.45 = 10 beta. The printed values are 1.0993 and 0.0181.
 constexpr double kBt2020Beta = 0.01805396851080781;
 constexpr double kBt2020Alpha = 1 + 5.5 * kBt2020Beta;
 
@@ -97,7 +97,7 @@ double inverse_bt2020_curve(double v) {
                                  : std::pow((v + (kBt2020Alpha - 1)) / kBt2020Alpha, 1 / 0.45);
 }
 
-/// The digit, 16 if it is none.
+/// Value of the digit, or 16.
 unsigned hex_digit(char c) {
     if (c >= '0' && c <= '9') return static_cast<unsigned>(c - '0');
     if (c >= 'a' && c <= 'f') return static_cast<unsigned>(c - 'a') + 10;
@@ -144,8 +144,8 @@ RgbTransform::RgbTransform(const RgbSpace& space, const Triple& white, Adaptatio
         rows(matrix(matrix_) * matrix(bradford(white, space.white)) * vector(white).asDiagonal());
 }
 
-/// Adapted rows sum to 1, so r = m0 x + m1 y + m2 z = y + m0 (x - y) + m2 (z - y), which rounding
-/// cannot move off 1 at x = y = z = 1.
+/// Adapted rows sum to 1, so r = m0 x + m1 y + m2 z = y + m0 (x - y) + m2 (z - y), which is exactly
+/// 1 at x = y = z = 1 whatever the rounding.
 Triple RgbTransform::operator()(const Triple& xyz) const {
     const auto& [red, green, blue] = matrix_;
     if (adaptation_ == Adaptation::none) return {dot(red, xyz), dot(green, xyz), dot(blue, xyz)};

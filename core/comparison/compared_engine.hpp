@@ -8,25 +8,25 @@
 
 namespace irido {
 
-/// A candidate for comparison: a renderer's formula, or a method of core/color/baselines.
+/// A candidate for comparison: a renderer's formula or a method of core/color/baselines.
 struct ComparedEngine {
     std::string name;                ///< as typed
-    const Engine* engine = nullptr;  ///< or
+    const Engine* engine = nullptr;  ///< a formula, or null: `method` applies
     ColorMethod method = {};
 
-    /// Whether its result claims to be CIE RGB.
+    /// Whether its result is declared as CIE RGB.
     bool is_cie_rgb() const;
 };
 
-/// How an engine's r, g, b become Lab. Each choice ends in CIEDE2000.
+/// How an engine's r, g, b are converted to Lab for CIEDE2000.
 struct DifferenceRequest {
-    /// own     the engine's result against white D65 of sRGB, the exact colour against that of its
-    ///         illuminant;
-    /// common  the engine's result adapted to the illuminant by bradford(), both against its white
+    /// White point that Lab refers to.
+    ///   own     the engine's result to sRGB's D65, the exact colour to the white of its illuminant
+    ///   common  both to that white, to which bradford() adapts the engine's result
     enum class White { own, common };
     White white = White::own;
-    /// MaterialX's results are CIE RGB with white E, as its source says, instead of linear sRGB,
-    /// which is what viewers take them for.
+    /// Reads MaterialX results as CIE RGB with white E, as its source says, instead of linear sRGB,
+    /// as viewers interpret them.
     bool as_cie_rgb = false;
 };
 
@@ -36,8 +36,10 @@ public:
     /// `white` is that of the illuminant. Throws DomainError as bradford() does.
     EngineDifference(const DifferenceRequest& request, const Triple& white);
 
-    /// rgb   as the engine returns it; may lie outside [0, 1]
-    /// xyz   exact, under the illuminant
+    /// CIEDE2000 of one engine's result.
+    ///   engine  that produced it
+    ///   rgb     as the engine returns it; may lie outside [0, 1]
+    ///   xyz     exact colour under the illuminant
     double operator()(const ComparedEngine& engine, const Triple& rgb, const Triple& xyz) const;
 
     /// Lab of an engine's result and of an exact colour.

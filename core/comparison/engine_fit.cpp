@@ -17,7 +17,7 @@ namespace irido {
 
 namespace {
 
-/// The state that parameters set.
+/// The inputs that parameters act on.
 struct EngineSetting {
     EngineFilm film;
     double factor = 1;
@@ -30,10 +30,10 @@ struct FormParameter {
     double (*get)(const EngineSetting& setting);
 };
 
-/// A material of an engine.
+/// One material type of an engine.
 struct EngineForm {
     std::string_view name;
-    bool conducts;  ///< for engines that tell metals by their k
+    bool conducts;  ///< for engines that recognize metals by their k
     std::vector<FormParameter> parameters;
 };
 
@@ -80,7 +80,7 @@ FormParameter base_k(std::string_view name) {
             [](const EngineSetting& s) { return s.film.base_k[channel]; }};
 }
 
-/// The index of a dielectric base.
+/// Index of a dielectric base.
 FormParameter base_ior(std::string_view name) {
     return {name,
             1,
@@ -121,7 +121,7 @@ FormParameter thickness_um(std::string_view name) {
             [](const EngineSetting& s) { return s.film.thickness_nm / 1000; }};
 }
 
-/// Unity's slider, as the optical thickness of a film of index 1.5.
+/// Unity's slider, expressed as the optical thickness of a film of index 1.5.
 FormParameter slider(std::string_view name) {
     return {name,
             0,
@@ -207,7 +207,7 @@ std::vector<EngineForm> forms_of(std::string_view engine) {
              {base_ior("ior"), film_index("thin_film_ior"), thickness_nm("thin_film_thickness")}}};
 }
 
-/// One form of one engine with its parameters scaled to the unit cube.
+/// One form of one engine, with its parameters scaled to the unit cube.
 class FitProblem {
 public:
     FitProblem(const ComparedEngine& engine, const EngineForm& form,
@@ -220,7 +220,7 @@ public:
             exact_lab_.push_back(difference.lab_of_exact(target.xyz[a]));
             weights_.push_back(target.weights[a] / sum);
         }
-        // metals of F0 and tint have no n and k, but conduct
+        // metals given by F0 and tint have no n and k, but must count as conductors
         const double k = form.conducts ? 1 : 0;
         plain_.film.base_k = {k, k, k};
     }
@@ -250,7 +250,7 @@ public:
                                               : engine_.engine->reflectance(setting.film);
     }
 
-    /// Lab of the engine less the exact one, weighted so that the sum of squares is their mean.
+    /// Engine Lab minus exact Lab, weighted so that the sum of squares is the weighted mean square.
     void residuals(std::span<const double> x, Eigen::VectorXd& out) const {
         EngineSetting at = setting(x);
         out.resize(static_cast<Eigen::Index>(3 * cosines_.size()));
@@ -274,7 +274,7 @@ public:
         return ciede2000(difference_.lab_of_engine(engine_, rgb(at, angle)), exact_lab_[angle]);
     }
 
-    /// The rounded parameters with their differences.
+    /// The rounded parameters and their differences.
     EngineFit result(std::span<const double> x) const {
         EngineFit fit;
         fit.form = form_.name;
@@ -305,8 +305,8 @@ private:
     EngineSetting plain_;
 };
 
-/// Levenberg and Marquardt's descent of the residuals' sum of squares in the unit cube; parameters
-/// at an end of their range, and drawn beyond it, rest.
+/// Levenberg-Marquardt descent of the sum of squared residuals in the unit cube; a parameter at an
+/// end of its range with the gradient pointing outwards stays fixed.
 void descend(const FitProblem& problem, std::vector<double>& x, int iterations) {
     constexpr double kStep = 1e-6;
     const auto n = static_cast<Eigen::Index>(x.size());
@@ -364,7 +364,7 @@ constexpr std::size_t kDrawn = 6000, kDescents = 60, kPolished = 8;
 constexpr int kIterations = 40;
 constexpr std::size_t kPolishing = 2000;
 
-/// Those of the rated points that are best, no two of them near each other.
+/// The best of the rated points, no two of them close together.
 std::vector<RatedPoint> spread_out(std::vector<RatedPoint> rated, std::size_t count, double apart) {
     std::ranges::stable_sort(rated, {}, &RatedPoint::value);
     std::vector<RatedPoint> chosen;

@@ -26,7 +26,7 @@ Material constant_material(double n, double k) {
     return material;
 }
 
-/// A film in air over a base.
+/// A film in air on a base.
 Stack film_stack(const EngineFilm& film, Material base) {
     Layer layer;
     layer.material = 1;
@@ -39,7 +39,7 @@ bool is_gray(const EngineFilm& film) {
     return is_one(film.base_n) && is_one(film.base_k);
 }
 
-/// Draws films; the numbers of a coloured base are found once.
+/// Draws films; the indices of coloured bases are computed once.
 class RandomFilms {
 public:
     RandomFilms(const ColorTables& tables, std::uint64_t seed) : tables_(tables), random_(seed) {}
@@ -66,7 +66,7 @@ public:
     }
 
 private:
-    /// Evenly drawn and rounded to 1/steps.
+    /// Uniform, rounded to 1/steps.
     double drawn(double from, double to, double steps) {
         return std::round(random_.uniform(from, to) * steps) / steps;
     }
@@ -91,7 +91,7 @@ private:
     std::array<std::optional<EngineFilm>, kColoredBases.size()> bases_;
 };
 
-/// The naive method, channel by channel.
+/// The naive method on one index per channel.
 Triple naive_of_channels(const ColorTables& tables, const ComparedEngine& engine,
                          const ComparedFilm& film, const ColorRequest& request) {
     const RgbTransform transform(rgb_space("srgb"), tables.sensitivity().white(),
@@ -126,7 +126,7 @@ void compare_film(const ColorTables& tables, std::span<const ComparedEngine> eng
     }
 }
 
-/// Between the order statistics of sorted values.
+/// Quantile, interpolated between sorted values.
 double quantile(const std::vector<double>& sorted, double part) {
     const double at = part * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(at);

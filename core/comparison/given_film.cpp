@@ -30,7 +30,7 @@ const Layer& layer_at(const std::vector<Element>& elements, const LayerPlace& pl
     return std::get<Layer>((*inside)[place.back()].value);
 }
 
-/// Whether k is not 0 somewhere in the visible range.
+/// Whether k is nonzero anywhere in the visible range.
 bool absorbs(const Material& material) {
     if (is_real(material)) return false;
     constexpr double kFirst_nm = 400, kLast_nm = 700, kStep_nm = 10;
@@ -39,7 +39,7 @@ bool absorbs(const Material& material) {
     return false;
 }
 
-/// Whether an incident medium counts as air, which engines assume; real air has 1.0003.
+/// Whether an incident medium counts as air, which engines assume; real air has n = 1.0003.
 bool is_air(double n) {
     return std::abs(n - 1) < 5e-4;
 }

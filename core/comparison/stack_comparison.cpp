@@ -9,7 +9,7 @@ namespace irido {
 
 namespace {
 
-/// Whether a method is given the film that engines are given, instead of the stack.
+/// Whether a method takes the reduced film instead of the stack.
 bool takes_film(const ComparedEngine& engine) {
     using enum ColorMethod::Kind;
     return engine.method.kind == gaussian || engine.method.kind == smits;

@@ -11,23 +11,33 @@
 
 namespace irido {
 
-/// An engine's result and the exact colour beside it.
+/// An engine's result next to the exact colour.
 struct EngineColor {
-    std::optional<Triple> rgb;        ///< none where the engine cannot take the film
-    std::optional<Triple> exact_xyz;  ///< none where the base is known at three wavelengths only
-    double exact_error = 0;           ///< of exact_xyz
-    std::optional<double> delta_e;    ///< CIEDE2000, where there are both
+    std::optional<Triple> rgb;        ///< absent if the engine cannot represent the film
+    std::optional<Triple> exact_xyz;  ///< absent if the base is known at three wavelengths only
+    double exact_error = 0;           ///< error of exact_xyz
+    std::optional<double> delta_e;    ///< CIEDE2000, if both are present
 };
 
-/// Engines and exact colours of stacks that differ in thicknesses only. Safe from many threads.
+/// Engine results and exact colours of stacks that differ in thickness only. Thread-safe.
 class StackComparison {
 public:
-    /// `tables` must outlive it. Throws DomainError as held_stack(), given_film() and
-    /// color_algorithm() do.
+    /// Throws DomainError as held_stack(), given_film() and color_algorithm() do.
+    ///   tables      observer and illuminant; must outlive this object, as must the next two
+    ///   engines     to compare
+    ///   difference  how to compare them
+    ///   stack       structure and materials
+    ///   request     options of the exact colours
     StackComparison(const ColorTables& tables, std::span<const ComparedEngine> engines,
                     const EngineDifference& difference, const Stack& stack,
                     const ColorRequest& request);
-    /// The same with known engine inputs.
+    /// Throws DomainError as held_stack() and color_algorithm() do.
+    ///   tables      observer and illuminant; must outlive this object, as must the next two
+    ///   engines     to compare
+    ///   difference  how to compare them
+    ///   stack       structure and materials
+    ///   request     options of the exact colours
+    ///   given       inputs of the engines, if known
     StackComparison(const ColorTables& tables, std::span<const ComparedEngine> engines,
                     const EngineDifference& difference, const Stack& stack,
                     const ColorRequest& request, GivenFilm given);
@@ -47,7 +57,7 @@ private:
     std::vector<std::unique_ptr<ColorAlgorithm>> methods_;  ///< null for formulas
 };
 
-/// Largest error of X, Y, Z of exact colours that a comparison asks for.
+/// Tolerance of X, Y, Z that a comparison sets for exact colours.
 inline constexpr double kComparisonTolerance = 1e-9;
 
 }  // namespace irido

@@ -14,7 +14,7 @@ namespace {
 
 struct Level {
     bool with_rows;
-    std::size_t parts, degree;  ///< of each smooth piece
+    std::size_t parts, degree;  ///< per smooth piece
 };
 constexpr std::array<Level, kColorLevels> kLevels{{{false, 1, 32},
                                                    {false, 1, 64},
@@ -47,7 +47,7 @@ ColorNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_
     const auto [with_rows, base_parts, base_degree] = kLevels.at(level);
     const std::vector<double> ends =
         smooth_pieces(stack, tables.sensitivity().support(), with_rows);
-    // without kinks, the levels of rows are those of one piece with as many points
+    // without kinks, the levels with table rows use a single piece with as many points
     std::size_t parts = base_parts, degree = base_degree;
     if (with_rows && ends.size() < 9) {
         degree = 128;

@@ -53,7 +53,7 @@ public:
         prepare();
     }
 
-    /// Fills values and residuals, and the Jacobian if wanted; false if the stack has no answer.
+    /// Fills values, residuals and, if wanted, the Jacobian; false if the stack cannot be computed.
     bool compute(std::span<const double> x, bool with_slopes) {
         ++evaluations_;
         try {
@@ -74,30 +74,30 @@ public:
     }
 
 private:
-    /// What a derivative by a free value is made of.
+    /// How the derivative by a free value is obtained.
     struct SlopeLink {
         std::size_t slot;
-        std::size_t number = kNoSlot;  ///< of a material; by a thickness, kNoSlot
+        std::size_t number = kNoSlot;  ///< of a material; kNoSlot for a thickness
     };
 
-    /// A light under which there are colour targets.
+    /// An observer and illuminant with colour targets.
     struct Lit {
         TargetLight light;
         std::shared_ptr<const ColorTables> tables;
     };
 
-    /// The same at the wavelengths of one level.
+    /// Its quadrature at the wavelengths of one level.
     struct LitGrid {
         std::array<std::vector<double>, 3> weight;
         std::unique_ptr<IndexGrid> grid;
     };
 
-    /// Sheets of all targets, with colours of one level.
+    /// Sheets of all targets, with colours at one level.
     struct Level {
         std::vector<std::unique_ptr<IndexGrid>> grids;
-        std::vector<LitGrid> lights;  ///< as lights_
+        std::vector<LitGrid> lights;  ///< parallel to lights_
         std::vector<Sheet> sheets;
-        std::vector<std::vector<std::size_t>> places;  ///< of sheets, [target][angle]
+        std::vector<std::vector<std::size_t>> places;  ///< indices of sheets, [target][angle]
     };
 
     void find_links() {
@@ -141,7 +141,7 @@ private:
         return level.sheets.size() - 1;
     }
 
-    /// Levels are prepared when they are first needed.
+    /// Levels are prepared on first use.
     void prepare() {
         if (!analytic_ || levels_[level_]) return;
         levels_[level_] = std::make_unique<Level>();
@@ -241,8 +241,8 @@ private:
         }
     }
 
-    /// Derivatives by a free value at the wavelengths of a sheet: of r or of ln t (amplitudes), or
-    /// half of those of R or T in `re`.
+    /// Derivatives with respect to a free value at a sheet's wavelengths: of r or ln t
+    /// (amplitudes), or half of those of R or T in `re`.
     struct SlopeRows {
         const double *re, *im;
     };
@@ -398,7 +398,7 @@ private:
         }
     }
 
-    /// Adds share times the derivative of the phase of r or t in degrees, or, with values of psi,
+    /// Adds share times the derivative of the phase of r or t, in degrees, or, if psi is given,
     /// sin(2 psi)/2 Re(dr/r) in degrees.
     void add_log_slope(const Sheet& sheet, const SlopeAnswer& answer, bool transmitted,
                        std::size_t free, double share, const double* psi_deg, double* out) {
@@ -473,7 +473,7 @@ private:
         }
     }
 
-    /// Values by the commands' own ways, derivatives by differences.
+    /// Values as other commands compute them, with derivatives by finite differences.
     bool compute_differences(std::span<const double> x, bool with_slopes) {
         constexpr double kTolerance = 1e-7;
         const auto rows_at = [&](std::span<const double> at) {

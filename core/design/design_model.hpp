@@ -10,23 +10,23 @@
 
 namespace irido {
 
-/// What a problem's targets make of one point.
+/// A problem's targets evaluated at one point.
 struct DesignRows {
-    double objective = 0;          ///< what is minimized; see DesignModel::merit()
-    std::vector<double> value;     ///< of the quantities, [entry]; of lab L, a, b
+    double objective = 0;          ///< quantity minimized; see DesignModel::merit()
+    std::vector<double> value;     ///< of the quantities, [entry]; L, a, b for lab
     std::vector<double> residual;  ///< [row]: value - target, 0 where an inequality holds, angles
-                                   ///< within half a turn. A colour has three rows, whose squares
-                                   ///< add up to that of its difference
-    std::vector<double> weight;    ///< [row], as the objective has it
+                                   ///< wrapped to +-180. A colour has three rows, whose
+                                   ///< squares sum to that of its difference
+    std::vector<double> weight;    ///< [row], as used by the objective
     std::vector<double> jacobian;  ///< [free][row], of the residuals
 };
 
-/// A problem made ready for evaluations one after the other, on one thread. Values that are not
-/// integers are differentiated in closed form (layer_slopes.hpp), but for delays, for stacks with
-/// incoherent layers or spread thicknesses and for values that are Rebuilt, which are differenced.
+/// A problem prepared for repeated evaluation on one thread. Non-integer values are differentiated
+/// in closed form (layer_slopes.hpp), except for delays, for stacks with incoherent layers or
+/// thickness distributions, and for Rebuilt values, which use finite differences.
 class DesignModel {
 public:
-    /// Throws DomainError where a target or a material does not fit, naming it.
+    /// Throws DomainError naming a target or material that does not fit.
     explicit DesignModel(const DesignProblem& problem, SimdLevel simd = best_simd_level());
     ~DesignModel();
     DesignModel(DesignModel&&) noexcept;
@@ -36,25 +36,25 @@ public:
     std::size_t size() const { return problem().free.size(); }
     std::vector<double> start() const;
 
-    /// The objective; infinite where the stack cannot be computed.
+    /// The objective; infinite if the stack cannot be computed.
     double objective(std::span<const double> x);
-    /// With its gradient, of size(): 0 for integers.
+    /// With its gradient, [size()]; 0 for integers.
     double objective(std::span<const double> x, std::span<double> gradient);
-    /// With gradient and the Gauss-Newton matrix [size()][size()] of second derivatives; for
-    /// mean_abs that of the squares with the same gradient.
+    /// With the gradient and the Gauss-Newton approximation [size()][size()] of the Hessian; for
+    /// mean_abs, that of the sum of squares with the same gradient.
     double objective(std::span<const double> x, std::span<double> gradient,
                      std::span<double> hessian);
-    /// All of the last point that was evaluated with derivatives.
+    /// Details of the last point evaluated with derivatives.
     const DesignRows& rows() const;
 
-    /// The problem's merit of an objective: its root for rms.
+    /// The problem's merit for an objective: its root for rms.
     double merit(double objective) const;
 
-    /// Points at which the objective was computed so far; differences count each of theirs.
+    /// Number of evaluations so far, including those for finite differences.
     std::size_t evaluations() const;
 
-    /// Takes as many wavelengths for colours as leave them at x within about `tolerance` of CIELAB;
-    /// whether that changed their number. They stay the same until the next call.
+    /// Chooses enough wavelengths for colours to be within about `tolerance` in CIELAB at x;
+    /// returns whether that changed their number, which stays fixed until the next call.
     bool adapt_colors(std::span<const double> x, double tolerance);
     bool has_colors() const;
     /// Whether derivatives are in closed form.
@@ -65,8 +65,8 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// The problem's merit at x, colours by stack_color() to 1e-9: what every other command prints.
-/// rows  gets values and residuals if given
+/// The problem's merit at x, with colours by stack_color() to 1e-9: the value that every other
+/// command prints. Fills `rows`, if given, with values and residuals.
 double exact_merit(const DesignProblem& problem, std::span<const double> x,
                    DesignRows* rows = nullptr);
 

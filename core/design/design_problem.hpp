@@ -13,7 +13,7 @@
 
 namespace irido {
 
-/// One number of a material's model.
+/// One parameter of a material's model.
 struct MaterialNumber {
     enum class Part {
         n,            ///< of a constant index
@@ -33,8 +33,8 @@ struct MaterialNumber {
     bool operator==(const MaterialNumber&) const = default;
 };
 
-/// Where a free value stands in the stack. `Rebuilt` is a value that only DesignProblem::rebuild
-/// can set: its derivatives are differences.
+/// What a free value controls in the stack. `Rebuilt` marks a value that only
+/// DesignProblem::rebuild can set, differentiated by finite differences.
 struct ThicknessOf {
     LayerPlace layer;
 };
@@ -44,11 +44,11 @@ struct RepeatOf {
 struct Rebuilt {};
 using FreePlace = std::variant<ThicknessOf, RepeatOf, MaterialNumber, Rebuilt>;
 
-/// A value that may move, at all its places at once.
+/// A free value, applied at all its places at once.
 struct FreeValue {
     std::string name;
     double start = 0;
-    double low = 0, high = 0;  ///< closed bounds, which may be infinite
+    double low = 0, high = 0;  ///< closed bounds; may be infinite
     bool is_integer = false;
     std::vector<FreePlace> places;
 };
@@ -69,13 +69,14 @@ enum class DesignQuantity {
     tod_r_fs3,
     tod_t_fs3,
     lab,
-    total_thickness_nm,  ///< of all layers, groups written out
+    total_thickness_nm,  ///< of all layers, with groups expanded
 };
 
-/// Values that count only where they are below, or above, the target.
+/// Inequality targets: a residual counts only while the value is below (at_least) or above
+/// (at_most) the target.
 enum class TargetSide { equal, at_least, at_most };
 
-/// What a colour target is seen by.
+/// Illuminant, observer and side of a colour target.
 struct TargetLight {
     Table illuminant{};
     int observer_deg = 2;
@@ -83,19 +84,19 @@ struct TargetLight {
     bool operator==(const TargetLight&) const = default;
 };
 
-/// Wanted values of one quantity. Entries run over the angles, then the polarizations, then the
-/// wavelengths; a quantity of both polarizations (psi, delta) has none of its own.
+/// Target values of one quantity. Entries run over angles, then polarizations, then wavelengths;
+/// psi and delta involve both polarizations and have one entry for the pair.
 struct DesignTarget {
     DesignQuantity quantity = DesignQuantity::R;
-    std::vector<double> wavelength_nm{};  ///< none for lab and total_thickness_nm
+    std::vector<double> wavelength_nm{};  ///< empty for lab and total_thickness_nm
     std::vector<double> angle_deg{};      ///< [0, 90)
     std::vector<Light> polarizations{Light::unpolarized};
-    std::vector<double> target{};  ///< one an entry
-    std::vector<Triple> lab{};     ///< of lab: one an entry
-    std::vector<double> weight{};  ///< one an entry, >= 0
-    std::vector<double> sigma{};   ///< one an entry, > 0
+    std::vector<double> target{};  ///< one per entry
+    std::vector<Triple> lab{};     ///< for lab: one per entry
+    std::vector<double> weight{};  ///< one per entry, >= 0
+    std::vector<double> sigma{};   ///< one per entry, > 0
     TargetSide side = TargetSide::equal;
-    TargetLight light{};  ///< of lab
+    TargetLight light{};  ///< for lab
 };
 
 enum class MeritKind {
@@ -106,17 +107,18 @@ enum class MeritKind {
     delta_e_2000,  ///< the same with CIEDE2000
 };
 
-/// A stack, what may move in it and what it is to reach, as plain values.
+/// A stack, its free values and its targets, as plain values.
 struct DesignProblem {
     Stack stack;
     std::vector<FreeValue> free;
     std::vector<DesignTarget> targets;
     MeritKind merit = MeritKind::rms;
-    /// The stack at values of `free`; needed where one of them is Rebuilt. Safe from many threads.
+    /// Builds the stack for given values of `free`; required if any of them is Rebuilt.
+    /// Thread-safe.
     std::function<Stack(const std::vector<double>&)> rebuild{};
 };
 
-/// Entries of a target.
+/// Number of entries of a target.
 inline std::size_t entry_count(const DesignTarget& target) {
     if (target.quantity == DesignQuantity::total_thickness_nm) return 1;
     if (target.quantity == DesignQuantity::lab)

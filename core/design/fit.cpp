@@ -13,7 +13,7 @@ namespace irido {
 
 namespace {
 
-/// One minimum, from one start.
+/// A minimum reached from one start.
 struct Minimum {
     std::vector<double> x;
     double chi2 = kInfinity;
@@ -21,15 +21,14 @@ struct Minimum {
     std::size_t evaluations = 0;
 };
 
-/// How far a value may move: through its bounds, if it has any.
+/// Length scale of a value: its range, if bounded.
 double scale_of(const FreeValue& value, double x) {
     const double range = value.high - value.low;
     return std::isfinite(range) ? range : std::abs(x) + 1;
 }
 
-/// Fills in errors and correlations from half of the second derivatives. In units of their own
-/// errors the matrix has ones on its diagonal; where its eigenvalues are rounding, the values along
-/// the eigenvector are not known.
+/// Computes errors and correlations from half the Hessian, scaled to a unit diagonal. Along
+/// eigenvectors whose eigenvalue is zero up to rounding, the values are undetermined.
 void find_errors(const DesignProblem& problem, const std::vector<double>& hessian,
                  FitResult& result) {
     constexpr double kRounding = 1e-13, kPart = 1e-3, kInfluence = 1e-9;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAgreement = 1e-2, kWithin = 0.01, kFineColor = 1e-7, kCoarseColor = 0.5;
 
-/// A normal deviate by adding up twelve uniform ones.
+/// Approximately normal deviate: the sum of twelve uniform ones.
 double normal(Random& random) {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += random.uniform(0, 1);
@@ -32,7 +32,7 @@ std::vector<double> drawn(const DesignProblem& problem, const std::vector<double
     return x;
 }
 
-/// Tells of the best of all runs, one at a time.
+/// Reports the best of all runs, one report at a time.
 class Teller {
 public:
     Teller(const SearchSettings& settings) : settings_(settings) {}
@@ -57,7 +57,7 @@ private:
     std::vector<double> x_;
 };
 
-/// One run of hops, which can be continued.
+/// One run of hops, resumable.
 class Hopper {
 public:
     Hopper(const DesignProblem& problem, const SearchSettings& settings, std::uint64_t number,
@@ -71,7 +71,7 @@ public:
             if (!problem.free[i].is_integer) movable_.push_back(i);
     }
 
-    /// Goes on until so many evaluations are made in all.
+    /// Continues until the total number of evaluations is reached.
     void run(std::size_t evaluations) {
         while (model_.evaluations() < evaluations && !is_stopped()) hop();
     }
@@ -143,7 +143,7 @@ private:
                 const std::size_t i = movable_[random_.below(count)];
                 x[i] = random_.uniform(free[i].low, free[i].high);
             }
-        } else {  // a pair of neighbours goes elsewhere
+        } else {  // move a pair of neighbours elsewhere
             const std::size_t from = random_.below(count - 1);
             std::vector<double> values;
             for (const std::size_t i : movable_) values.push_back(x[i]);
@@ -178,7 +178,7 @@ void require_bounds(const DesignProblem& problem) {
             throw DomainError(value.name + ": method global requires bounds");
 }
 
-/// Sorts runs, best first, and fills in what follows from them.
+/// Sorts runs, best first, and fills in the derived fields.
 void rank(SearchResult& result) {
     std::ranges::stable_sort(result.runs, {}, &SearchRun::merit);
     result.x = result.runs.front().x;
@@ -188,7 +188,7 @@ void rank(SearchResult& result) {
         if (run.merit <= result.merit * (1 + kWithin) + 1e-12) ++result.runs_within;
 }
 
-/// Polishes runs that are not far from the best.
+/// Refines the runs that are close to the best.
 void polish(const DesignProblem& problem, const SearchSettings& settings, SearchResult& result) {
     constexpr double kHopeful = 1.3;
     std::vector<std::size_t> used(result.runs.size(), 0);
@@ -220,7 +220,7 @@ SearchResult hop_search(const DesignProblem& problem, const SearchSettings& sett
     for (std::size_t r = 0; r < kSearchRuns; ++r)
         hoppers[r] = std::make_unique<Hopper>(problem, settings, settings.first_run + r,
                                               settings.first_run + r == 0, teller);
-    // runs take turns, so that few threads serve all of them
+    // runs take turns, so that a few threads serve all of them
     constexpr std::size_t kRounds = 24, kLongest = 4000;
     const std::size_t share = std::max<std::size_t>(settings.evaluations / kSearchRuns, 1);
     const std::size_t turn = std::clamp<std::size_t>(share / kRounds, 1, kLongest);
@@ -247,7 +247,7 @@ SearchResult hop_search(const DesignProblem& problem, const SearchSettings& sett
     return result;
 }
 
-/// Values of the integers, every combination.
+/// All combinations of the integers.
 std::vector<std::vector<double>> combinations(const DesignProblem& problem) {
     constexpr std::size_t kMost = 1000;
     std::vector<double> start;
@@ -270,7 +270,7 @@ std::vector<std::vector<double>> combinations(const DesignProblem& problem) {
     return all;
 }
 
-/// One combination of integers: samples, of which the best are refined.
+/// One combination of integers: samples it and refines the best samples.
 class Cell {
 public:
     Cell(std::vector<double> fixed, std::uint64_t number)
@@ -323,7 +323,7 @@ SearchResult integer_search(const DesignProblem& problem, const SearchSettings& 
         static_cast<std::size_t>(std::ranges::count(problem.free, false, &FreeValue::is_integer));
     const std::size_t samples = movable == 0 ? 1 : 30 * movable, starts = movable == 0 ? 1 : 4;
     SearchResult result;
-    // colours are coarse at first, which leaves their order, and finer where it counts
+    // coarse colours first, which preserve the ranking; finer ones where it matters
     const auto visit = [&](const std::vector<std::size_t>& chosen, std::size_t factor) {
         const double color_tolerance = factor == 1 ? kCoarseColor : settings.color_tolerance;
         parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
@@ -336,7 +336,7 @@ SearchResult integer_search(const DesignProblem& problem, const SearchSettings& 
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     visit(order, 1);
     teller.progress(0.3);
-    // the best ones and their neighbours again, until nothing changes or the evaluations are spent
+    // revisit the best and their neighbours until nothing changes or the evaluations are used up
     double before = kInfinity;
     for (int round = 0; round < 8 && !result.is_stopped && movable > 0; ++round) {
         std::size_t spent = 0;

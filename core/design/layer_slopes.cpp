@@ -1,4 +1,4 @@
-// Compiled once for every instruction set: this file includes itself through foreach_target.h.
+// Compiled once per instruction set: this file includes itself through foreach_target.h.
 #include "core/design/layer_slopes.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -23,11 +23,11 @@ HWY_INLINE void store(V value, double* row, std::size_t at) {
     hn::StoreU(value, Lanes(), row + at);
 }
 
-/// Numbers that a layer keeps: the blocks of cos, sin/y, sin y, sin of [[cos, -i sin/y],
-/// [-i y sin, cos]], divided by exp(decay), and of exp(-decay); and a pair of fields.
+/// Numbers stored per layer: cos, sin/y, sin y and sin of [[cos, -i sin/y], [-i y sin, cos]],
+/// divided by exp(decay), and exp(-decay); and a pair of fields.
 constexpr std::size_t kTurnNumbers = 9, kFieldNumbers = 4;
 
-/// The blocks of numbers that a thread keeps from the way up for the way down.
+/// Numbers stored per layer on the way up, for use on the way down.
 class Blocks {
 public:
     explicit Blocks(double* numbers) : numbers_(numbers) {}
@@ -45,7 +45,7 @@ private:
     double* numbers_;
 };
 
-/// sinh(b) exp(-b); its digits are kept where b is small.
+/// sinh(b) exp(-b), accurate for small b.
 HWY_INLINE V scaled_sinh(V b, V scale) {
     const V square = hn::Mul(b, b), one = constant(1);
     V series = one;
@@ -85,21 +85,21 @@ struct Pair {
     CV b, c;
 };
 
-/// f a where f is real, whose imaginary part was not stored, or complex.
+/// f a, where f is complex or real (with no imaginary part stored).
 template <bool kReal>
 HWY_INLINE CV times(const Blocks& blocks, std::size_t place, CV a) {
     if constexpr (kReal) return blocks.real(place) * a;
     return blocks.complex(place) * a;
 }
 
-/// Fields below a layer to those above it.
+/// Fields above a layer from those below it.
 template <bool kReal>
 HWY_INLINE Pair upward(const Blocks& turns, std::size_t place, Pair f) {
     return {times<kReal>(turns, place, f.b) + turned(times<kReal>(turns, place + 2, f.c)),
             times<kReal>(turns, place, f.c) + turned(times<kReal>(turns, place + 4, f.b))};
 }
 
-/// A row above a layer to the one below it.
+/// The row vector below a layer from the one above it.
 template <bool kReal>
 HWY_INLINE Pair downward(const Blocks& turns, std::size_t place, Pair z) {
     return {times<kReal>(turns, place, z.b) + turned(times<kReal>(turns, place + 4, z.c)),
@@ -110,7 +110,7 @@ HWY_INLINE void add_to(double* row, std::size_t at, V value) {
     store(hn::Add(load(row, at), value), row, at);
 }
 
-/// What a run sums up in one of its two rows of answers.
+/// Accumulates one of the two result rows of a run.
 struct Sums {
     double* rows;
     std::size_t stride;
@@ -124,12 +124,12 @@ struct Sums {
     }
 };
 
-/// Numbers of a layer's sums, over all its repetitions, of products of the row z above it with
-/// fields: z_B C and z_C B with those above it, which its thickness meets; z_B B + z_C C, z_B C and
-/// z_C B with those below it, which its index meets.
+/// Numbers per layer to accumulate, over all its repetitions, products of the row z above it with
+/// fields: for its thickness z_B C and z_C B with the fields above; for its index z_B B + z_C C,
+/// z_B C and z_C B with those below.
 constexpr std::size_t kProductNumbers = 10;
 
-/// -i k0 q (z_B C / y + z_C B y), the slope by the layer's thickness.
+/// Adds -i k0 q (z_B C / y + z_C B y), the derivative with respect to the layer's thickness.
 template <bool kReal>
 HWY_INLINE void add_thickness(const RunLayer& layer, V k0, std::size_t at, CV bc, CV cb,
                               bool complex, const Sums& sums) {
@@ -148,7 +148,7 @@ HWY_INLINE void add_thickness(const RunLayer& layer, V k0, std::size_t at, CV bc
     }
 }
 
-/// The slope by the layer's index of products with fields below.
+/// Derivative with respect to the layer's index, from products with the fields below.
 HWY_INLINE CV index_slope(const RunLayer& layer, V k0, std::size_t at, const Blocks& turns,
                           std::size_t place, bool is_p, CV below, CV bc, CV cb) {
     const MediumRows& m = layer.medium;
@@ -166,7 +166,7 @@ HWY_INLINE CV index_slope(const RunLayer& layer, V k0, std::size_t at, const Blo
     const CV q = load(m.q_re, m.q_im, at), n = load(m.n_re, m.n_im, at);
     const CV q2 = q * q, eps = n * n;
     const CV sd = sin * inverse(q);
-    // d(cos) and d(sd) by q2, the latter as a series where its terms cancel
+    // d(cos) and d(sd) by q2, the latter as a series where it would cancel
     const CV dcos = hn::Mul(constant(-0.5), kd) * sd;
     const CV delta2 = hn::Mul(kd, kd) * q2;
     const V small = constant(1e-2);
@@ -202,7 +202,7 @@ HWY_INLINE CV substrate_slope(const MediumRows& m, std::size_t at, bool is_p) {
     return plain * ((constant(2) * q2 - eps) * inverse(q2));
 }
 
-/// One block of lanes of a run.
+/// One vector of lanes of a run.
 class Block {
 public:
     Block(const SlopeRun& run, SlopeAnswer& answer, SlopeMemory& memory, std::size_t at)
@@ -240,7 +240,7 @@ public:
         const V scale = reproducible_decay(decay);
         const CV t = hn::Mul(constant(2), hn::Mul(y0_, scale)) * inverse_d_;
         R_ = norm(r_);
-        // |t|^2 / y0, which meets the flux y of the substrate
+        // |t|^2 / y0, to be multiplied by the flux y of the substrate
         t2_ = hn::Div(norm(t), y0_);
         T_ = hn::Mul(t2_, load(run_.substrate.y_re, at_));
         store(r_.re, answer_.r_re.data(), at_);
@@ -284,12 +284,12 @@ private:
         return {fields_.complex(kFieldNumbers * i), fields_.complex(kFieldNumbers * i + 2)};
     }
 
-    /// Adds to a pair of numbers of a layer's products.
+    /// Adds to one complex number of a layer's products.
     HWY_INLINE void add_product_of(std::size_t index, CV value) {
         products_.put(index, products_.complex(index) + value);
     }
 
-    /// Products of a layer at one place of the sequence.
+    /// Accumulates a layer's products at one position of the sequence.
     HWY_INLINE void add_products(std::size_t l, Pair z, std::size_t i) {
         const RunLayer& layer = run_.layers[l];
         const std::size_t first = l * kProductNumbers;
@@ -318,7 +318,7 @@ private:
                              bc, cb));
     }
 
-    /// A row down to the substrate, and what it meets on its way.
+    /// Propagates a row vector down to the substrate and accumulates the derivatives on the way.
     HWY_INLINE Pair carry(Pair z, const Sums& sums) {
         const bool repeats = run_.sequence.size() > run_.layers.size();
         const std::size_t count = run_.layers.size();

@@ -11,7 +11,7 @@ namespace irido {
 
 namespace {
 
-/// How often in a row the objective must fall by too little.
+/// Number of consecutive insufficient decreases before stopping.
 constexpr int kPatience = 2;
 
 class Bounds {
@@ -24,12 +24,12 @@ public:
     bool moves(std::size_t i) const {
         return !free_[i].is_integer && free_[i].low < free_[i].high && !is_repeat(i);
     }
-    /// Whether x_i may move against its derivative.
+    /// Whether x_i can move against its derivative.
     bool is_free(std::size_t i, double x, double slope) const {
         if (!moves(i)) return false;
         return !(x <= free_[i].low && slope > 0) && !(x >= free_[i].high && slope < 0);
     }
-    /// What counts as a large step.
+    /// Length scale of a large step.
     double scale(std::size_t i, double x) const {
         const double range = free_[i].high - free_[i].low;
         return std::isfinite(range) ? range : std::max(std::abs(x), 1e-3);
@@ -44,7 +44,7 @@ private:
     const std::vector<FreeValue>& free_;
 };
 
-/// A damped Gauss-Newton step inside the bounds.
+/// A damped Gauss-Newton step with bounds.
 class DampedStep {
 public:
     DampedStep(const Bounds& bounds, std::size_t size) : bounds_(bounds), size_(size) {}
@@ -75,7 +75,7 @@ public:
     }
 
 private:
-    /// Steps of the open ones where those of the others are given.
+    /// Solves for the steps of the `open` values, with those of the others fixed.
     void solve(const std::vector<std::size_t>& open, const std::vector<double>& gradient,
                const std::vector<double>& hessian, const std::vector<double>& damping,
                std::vector<double>& step) const {
@@ -111,7 +111,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
     return sum;
 }
 
-/// Limits of one search, counted from its beginning.
+/// Limits of one search, counted from its start.
 class Effort {
 public:
     Effort(const DesignModel& model, const LocalLimits& limits)
@@ -126,7 +126,7 @@ private:
     std::size_t first_;
 };
 
-/// Steps and changes of the gradient, from which the inverse of the second derivatives is known.
+/// Recent steps and gradient changes, which approximate the inverse Hessian.
 class Memory {
 public:
     void add(std::vector<double> step, std::vector<double> change) {
@@ -139,7 +139,7 @@ public:
     void clear() { pairs_.clear(); }
     bool is_empty() const { return pairs_.empty(); }
 
-    /// The quasi-Newton direction of a gradient.
+    /// Quasi-Newton direction for a gradient.
     std::vector<double> direction(std::vector<double> q) const {
         std::vector<double> alpha(pairs_.size());
         for (std::size_t k = pairs_.size(); k-- > 0;) {
@@ -168,7 +168,7 @@ private:
     std::deque<Pair> pairs_;
 };
 
-/// Whether a step is below what a value can be told from.
+/// Whether a step is below the resolution of every value.
 bool is_tiny(const Bounds& bounds, const std::vector<double>& x, const std::vector<double>& step) {
     for (std::size_t i = 0; i < x.size(); ++i)
         if (std::abs(step[i]) > 1e-13 * (std::abs(x[i]) + bounds.scale(i, x[i]))) return false;

@@ -12,7 +12,7 @@ namespace {
 
 using Part = MaterialNumber::Part;
 
-/// The model's dispersion of n or of k as a T. Throws DomainError.
+/// The material's model of n or of k as a T. Throws DomainError.
 template <class T>
 T& model_of(Material& material, Dispersion RefractiveIndex::*which) {
     if (auto* index = std::get_if<RefractiveIndex>(&material.model))
@@ -25,7 +25,7 @@ LorentzDrude& oscillators_of(Material& material) {
     throw DomainError("the material " + material.name + " has no such number");
 }
 
-/// Share of one row in the value of a table.
+/// Weight of one row in the interpolated value of a table.
 double share_of_row(const Table& table, std::size_t row, double nm) {
     const std::vector<double>& x = table.wavelength_nm;
     if (nm <= x.front()) return row == 0 ? 1 : 0;
@@ -36,7 +36,7 @@ double share_of_row(const Table& table, std::size_t row, double nm) {
     return row + 1 == upper ? 1 - part : 0;
 }
 
-/// dn / dc of Sellmeier's and Cauchy's formulas.
+/// dn / dc for Sellmeier's and Cauchy's formulas.
 double formula_slope(const Formula& formula, std::size_t index, double um, double n) {
     const std::vector<double>& c = formula.coefficients;
     if (formula.number == 5) {

@@ -4,11 +4,11 @@
 
 namespace irido {
 
-/// The number in its material. Throws DomainError if the material's model has no such number.
+/// The parameter in its material. Throws DomainError if the material's model has no such parameter.
 double& value_of(Material& material, const MaterialNumber& number);
 
-/// Derivative of the material's complex index by one of its numbers, at one vacuum wavelength; zero
-/// where a formula of n is not one of 2 (Sellmeier) and 5 (Cauchy).
+/// Derivative of a material's complex index with respect to one of its parameters, at one vacuum
+/// wavelength. Zero for coefficients of formulas other than 2 (Sellmeier) and 5 (Cauchy).
 Complex index_slope(const Material& material, const MaterialNumber& number, double wavelength_nm);
 
 }  // namespace irido

@@ -18,7 +18,7 @@ using Layers = std::vector<NeedleLayer>;
 constexpr double kCoarseRelative = 1e-4, kNeedle_nm = 1, kVanished_nm = 1e-3;
 constexpr std::size_t kNeedleRuns = 8, kTriedNeedles = 4;
 
-/// Layers of a problem; throws DomainError if it has others than plain ones.
+/// Layers of a problem; throws DomainError if any element is not a plain layer.
 Layers layers_of(const DesignProblem& problem) {
     Layers layers;
     for (std::size_t i = 0; i < problem.stack.elements.size(); ++i) {
@@ -38,7 +38,7 @@ Layers layers_of(const DesignProblem& problem) {
     return layers;
 }
 
-/// Drops layers of no thickness and merges equal neighbours.
+/// Removes layers thinner than `least_nm` and merges equal neighbours.
 void clean(Layers& layers, double least_nm) {
     std::erase_if(layers, [&](const NeedleLayer& layer) {
         return !layer.is_fixed && layer.thickness_nm < least_nm;
@@ -68,7 +68,7 @@ double shortest_wavelength(const DesignProblem& problem) {
     return shortest;
 }
 
-/// One run.
+/// One synthesis run.
 class Synthesis {
 public:
     Synthesis(const DesignProblem& problem, const NeedleSettings& settings, std::uint64_t number,
@@ -189,7 +189,7 @@ private:
         return layers;
     }
 
-    /// A layer about a quarter wave thick at one of the ends, whatever it does to the objective.
+    /// Adds a layer about a quarter wave thick at one end, whatever its effect on the objective.
     bool add_at_end() {
         if (free_count(current_) >= settings_.max_layers) return false;
         Layers found;
@@ -220,7 +220,7 @@ private:
         return true;
     }
 
-    /// Thin layers of the best vanish, one after the other, and what is left is refined once more.
+    /// Removes the thin layers of the best design one by one and refines the rest once more.
     void finish() {
         Layers layers = best;
         double f = best_f_;
@@ -250,7 +250,7 @@ private:
     MeritKind to_merit_ = MeritKind::rms;
 };
 
-/// Fixed layers stay; one or two of random materials and thicknesses stand where free ones were.
+/// Keeps fixed layers; where free ones were, puts one or two of random material and thickness.
 Layers random_start(const Layers& given, const NeedleSettings& settings, Random& random) {
     Layers layers;
     bool is_done = false;

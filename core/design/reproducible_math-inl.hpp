@@ -1,4 +1,4 @@
-// Included once for every instruction set, so no #pragma once: see core/math/vector_math-inl.hpp.
+// Included once per instruction set, so no #pragma once: see core/math/vector_math-inl.hpp.
 #if defined(IRIDO_REPRODUCIBLE_MATH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef IRIDO_REPRODUCIBLE_MATH_INL
 #undef IRIDO_REPRODUCIBLE_MATH_INL
@@ -8,9 +8,9 @@
 
 #include "core/math/vector_math-inl.hpp"
 
-/// Arithmetic that gives the same bits at every SIMD level: nothing is fused, and every step is one
-/// that IEEE 754 rounds correctly. A search multiplies the smallest difference, so that two
-/// machines would find different stacks otherwise.
+/// Arithmetic with identical bits at every SIMD level: no fused operations, and only steps that
+/// IEEE 754 rounds correctly. A search amplifies the smallest difference, so otherwise two machines
+/// would find different stacks.
 HWY_BEFORE_NAMESPACE();
 namespace irido::HWY_NAMESPACE {
 namespace {
@@ -23,7 +23,7 @@ HWY_INLINE V less_product(V sum, V a, V b) {
 }
 
 /// Sine and cosine, each within 2 ulp of 1 for |x| <= 1e6: the nearest multiple of pi/2 is
-/// subtracted in three parts of 33 bits, whose products with it are exact.
+/// subtracted in three 33-bit parts, so that the products are exact.
 /// Source: coefficients and parts of FreeBSD's libm (K. C. Ng), as in vector_math-inl.hpp.
 HWY_INLINE SinCos reproducible_sin_cos(V x) {
     constexpr double kSin[] = {1.58969099521155010221e-10, -2.50507602534068634195e-08,
@@ -59,7 +59,7 @@ HWY_INLINE SinCos reproducible_sin_cos(V x) {
             hn::Xor(hn::IfThenElse(odd, s, c), hn::BitCast(d, cosine_sign))};
 }
 
-/// exp(-x) to a few ulp, x in [0, 700]; x is cut there.
+/// exp(-x) to a few ulp for x in [0, 700], clamped to that range.
 HWY_INLINE V reproducible_decay(V x) {
     const Lanes d;
     const hn::RebindToUnsigned<Lanes> bits;
@@ -76,7 +76,7 @@ HWY_INLINE V reproducible_decay(V x) {
     return hn::Mul(sum, hn::BitCast(d, exponent));
 }
 
-/// A complex number in every lane.
+/// One complex number per lane.
 struct CV {
     V re, im;
 };

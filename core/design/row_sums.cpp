@@ -8,7 +8,7 @@ namespace irido {
 
 namespace {
 
-/// Half of weight/|e| instead of the weight, entry by entry.
+/// Divides the weights by 2 |e|, entry by entry.
 void divide_by_lengths(const DesignProblem& problem, const DesignRows& rows,
                        std::vector<double>& factor) {
     constexpr double kLeast = 1e-12;

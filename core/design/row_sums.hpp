@@ -7,15 +7,18 @@
 
 namespace irido {
 
-/// The sum of a[i] b[i], always in the same order.
+/// Sum of a[i] b[i] in a fixed order.
 double sum_of_products(const double* a, const double* b, std::size_t count);
 
-/// Derivatives of an objective from the rows of a problem; memory is used again.
+/// Derivatives of an objective from the rows of a problem; memory is reused.
 class RowSums {
 public:
-    /// gradient  [free]
-    /// hessian   [free][free] of Gauss and Newton, or nullptr; for mean_abs, |e| being e^2/|e|, of
-    ///           the squares
+    /// Gradient and Gauss-Newton matrix at one point.
+    ///   problem   defines the merit
+    ///   rows      with the Jacobian
+    ///   gradient  [free]
+    ///   hessian   [free][free], or nullptr; for mean_abs, written as sum of e^2/|e|, that of the
+    ///             squares
     void find(const DesignProblem& problem, const DesignRows& rows, std::span<double> gradient,
               double* hessian);
 

@@ -11,13 +11,13 @@ namespace irido {
 
 namespace {
 
-/// The last value in what is past the count.
+/// Pads a row with its last value.
 void fill_up(std::vector<double>& row, std::size_t count, std::size_t stride) {
     row.resize(stride);
     std::fill(row.begin() + static_cast<std::ptrdiff_t>(count), row.end(), row[count - 1]);
 }
 
-/// kz/k0 of the wave that goes on; a layer at its critical angle is one beside it.
+/// kz/k0 of the forward wave; q2 = 0, a layer at its critical angle, is shifted slightly.
 Complex onward_q(Complex q2) {
     constexpr double kLeast = 1e-24;
     if (std::abs(q2) < kLeast) q2 = kLeast;
@@ -203,7 +203,7 @@ bool Sheet::has_clear_gaps(const WrittenOut& written) const {
     });
 }
 
-/// From the substrate up: each block of coherent layers on what is below it.
+/// Works up from the substrate, adding each coherent block to what lies below it.
 void Sheet::compute_chain(const WrittenOut& written, const SlopeSlots& slots, bool with_slopes,
                           bool p, SimdLevel simd) {
     const std::span<const std::uint32_t> sequence = written.sequence;
@@ -237,8 +237,8 @@ void Sheet::compute_chain(const WrittenOut& written, const SlopeSlots& slots, bo
     }
 }
 
-/// `all` of what is below, R and T of which light meets across a gap, becomes that of block and
-/// below; the block transmits alike both ways:
+/// Turns the result `all` for everything below an incoherent layer into that for block plus below;
+/// the block transmits equally in both directions:
 ///     R1 + T1^2 R/(1 - R1' R),   T1 T/(1 - R1' R)
 void Sheet::add_block(const SlopeAnswer& block, const SlopeAnswer& from_below,
                       SlopeAnswer& all) const {

@@ -12,35 +12,35 @@
 
 namespace irido {
 
-/// The materials of a stack at some wavelengths, and how they move with numbers of theirs. Rows are
-/// whole_vectors() long, the last value standing in what is too much.
+/// Indices of a stack's materials over wavelength, and their derivatives with respect to material
+/// parameters. Rows are whole_vectors() long, padded with the last value.
 struct IndexGrid {
     std::vector<double> wavelength_nm;
     std::size_t stride = 0;
     std::vector<double> k0;
     std::vector<std::vector<double>> n_re, n_im;          ///< [material]
-    std::vector<std::vector<double>> slope_re, slope_im;  ///< [number] of those given
+    std::vector<std::vector<double>> slope_re, slope_im;  ///< [number], of the parameters given
 
     /// Throws DomainError as IndexTable does.
     IndexGrid(const Stack& stack, std::vector<double> wavelengths_nm,
               std::span<const MaterialNumber> numbers);
 
-    /// Takes a material of the stack anew, and slopes by its numbers.
+    /// Recomputes one material of the stack and the derivatives with respect to its parameters.
     void update(const Stack& stack, std::size_t material, std::span<const MaterialNumber> numbers);
 };
 
-/// Which derivatives are computed.
+/// The derivatives requested.
 struct SlopeSlots {
-    std::vector<std::size_t> of_layer;     ///< by thickness, [layer written out], or kNoSlot
+    std::vector<std::size_t> of_layer;     ///< by thickness, [expanded layer], or kNoSlot
     std::vector<std::size_t> of_material;  ///< by index, [material], or kNoSlot
     std::size_t count = 0;
 };
 
-/// Whether a quantity is that of amplitudes: psi, delta or a phase.
+/// Whether a quantity derives from amplitudes: psi, delta or a phase.
 bool needs_amplitudes(DesignQuantity quantity);
 
-/// A stack at one angle and the wavelengths of a grid, both polarizations. Powers, not amplitudes,
-/// add across incoherent layers; see StackPower.
+/// A stack at one angle and the wavelengths of a grid, in both polarizations. Across incoherent
+/// layers powers add, not amplitudes; see StackPower.
 class Sheet {
 public:
     struct Needs {
@@ -54,27 +54,32 @@ public:
     std::size_t count() const { return grid_->wavelength_nm.size(); }
 
     Needs needs;
-    /// Whether T and its derivatives are those of 1 - R.
+    /// Whether T and its derivatives follow from T = 1 - R.
     bool is_lossless = false;
 
-    /// Takes the media of the stack's materials; all of them, or one.
+    /// Sets the media of all of the stack's materials, or of one.
     void set_media(const Stack& stack);
     void set_medium(const Stack& stack, std::size_t material);
-    /// Makes ready for layers of these materials; to be called after set_media().
+    /// Prepares for layers of these materials; call after set_media().
     void set_layers(const Stack& stack, const WrittenOut& written, const SlopeSlots& slots);
 
+    /// Computes answer() for the polarizations needed.
+    ///   written      layers and their current thicknesses
+    ///   slots        derivatives requested
+    ///   with_slopes  whether to compute derivatives
+    ///   simd         instruction set
     void compute(const WrittenOut& written, const SlopeSlots& slots, bool with_slopes,
                  SimdLevel simd);
 
-    /// Whether light travels without loss in every incoherent layer: what compute() needs of them.
+    /// Whether light travels without loss in every incoherent layer, as compute() requires.
     bool has_clear_gaps(const WrittenOut& written) const;
 
-    /// Of s or p; at normal incidence both are those of s.
+    /// Result for s or p; at normal incidence both are that of s.
     const SlopeAnswer& answer(Polarization polarization) const {
         return answers_[is_p(polarization) ? 1 : 0];
     }
 
-    /// Adds what the entries of a target need.
+    /// Adds the outputs that a target's entries require.
     static void add_needs(const DesignTarget& target, Needs& needs);
 
 private:
@@ -99,7 +104,7 @@ private:
     std::array<std::vector<RunLayer>, 2> layers_;
     std::size_t incident_ = 0, substrate_ = 0;
     std::array<SlopeAnswer, 2> answers_;
-    std::array<SlopeAnswer, 2> block_;  ///< of one block for light from above, and from below
+    std::array<SlopeAnswer, 2> block_;  ///< one block, for light from above and from below
     SlopeMemory memory_;
 };
 

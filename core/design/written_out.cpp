@@ -10,7 +10,7 @@ class Writer {
 public:
     explicit Writer(WrittenOut& out) : out_(out) {}
 
-    /// The places of the elements' layers in their order.
+    /// Indices of the layers of `elements`, in order.
     std::vector<std::uint32_t> write(const std::vector<Element>& elements) {
         std::vector<std::uint32_t> order;
         for (std::size_t i = 0; i < elements.size(); ++i) {

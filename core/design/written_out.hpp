@@ -8,22 +8,23 @@
 
 namespace irido {
 
-/// A stack written out: each layer of the stack once, and the order in which light meets them.
+/// A stack with its groups expanded: each distinct layer once, and the sequence in which light
+/// meets them.
 struct WrittenOut {
     static constexpr std::size_t kMostLayers = 100000;
 
     std::vector<Layer> layers;
-    std::vector<std::uint32_t> sequence;  ///< places in `layers`, from the incident side
+    std::vector<std::uint32_t> sequence;  ///< indices into `layers`, from the incident side
     std::map<LayerPlace, std::size_t> place_of;
 
-    /// Throws DomainError if the sequence has more than kMostLayers.
+    /// Throws DomainError if the sequence is longer than kMostLayers.
     explicit WrittenOut(const Stack& stack);
 };
 
-/// Thickness of elements, groups written out.
+/// Thickness of elements with groups expanded.
 double total_thickness(const std::vector<Element>& elements);
 
-/// The element at a place, nullptr if there is none.
+/// The element at a place, or nullptr.
 Element* element_at(Stack& stack, const LayerPlace& place);
 
 }  // namespace irido

@@ -8,7 +8,7 @@ namespace irido {
 
 namespace {
 
-/// A dielectric base n; nothing under total reflection.
+/// Lower interface to a dielectric base of index n; total reflection has unit R23 and no phase.
 std::array<CyclesFace, 2> cycles_dielectric(const CyclesFilm& film, double n) {
     const double eta = n / film.film_n, c = film.cos_film;
     const double inside = square(eta) - (1 - c * c);

@@ -10,7 +10,7 @@ namespace irido {
 
 namespace {
 
-/// n + ik that has the reflectance f0 and, about, g at a cosine of 1/7.
+/// n + ik with reflectance f0 and, approximately, g at cosine 1/7.
 Complex index_of_f82(double f0, double g) {
     const double r = std::min(f0, 0.999);
     const double n = mixed(index_of_f0(r), (1 - r) / (1 + r), g);
@@ -21,7 +21,7 @@ double clipped(double x) {
     return std::clamp(x, 0.0, 1.0);
 }
 
-/// F82-Schlick of the face below the film, for g, the base's reflectance in air at 1/7.
+/// F82-Schlick of the interface below the film; g is the base's reflectance in air at cosine 1/7.
 double f82_below(const Complex& index, double film_n, double g, double cos_film) {
     const double n = index.real() / film_n, k = index.imag() / film_n;
     const double f0 = base_f0(n, k);

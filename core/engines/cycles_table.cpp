@@ -13,8 +13,8 @@ namespace irido {
 
 namespace {
 
-/// Natural ends would bend it elsewhere: a cubic spline through equally spaced values 1 apart, its
-/// third derivative continuous at the second and the last but one ("not a knot").
+/// Cubic spline through values at unit spacing with not-a-knot ends: the third derivative is
+/// continuous at the second and the last but one value. (Natural ends would distort the curve.)
 class NotAKnotSpline {
 public:
     NotAKnotSpline(double first, std::vector<double> values)
@@ -23,8 +23,8 @@ public:
         const auto difference = [&](std::size_t i) {
             return 6 * (value_[i - 1] - 2 * value_[i] + value_[i + 1]);
         };
-        // bend_0 = 2 bend_1 - bend_2 turns the first equation of the tridiagonal system into
-        // 6 bend_1 = difference, and the last one likewise
+        // bend_0 = 2 bend_1 - bend_2 reduces the first equation of the tridiagonal system to 6
+        // bend_1 = difference; likewise the last one
         bend_[1] = difference(1) / 6;
         bend_[n - 2] = difference(n - 2) / 6;
         std::vector<double> factor(n);
@@ -60,7 +60,7 @@ constexpr double kCyclesRange_nm = 60000;  ///< of 2 pi OPD
 
 using CyclesTable = std::array<std::array<Complex, 3>, kCyclesEntries>;
 
-/// A colour-matching function with a zero put on either side of its table.
+/// A colour-matching function, padded with a zero at either end of its table.
 NotAKnotSpline padded_spline(std::span<const double> rows) {
     std::vector<double> values{0};
     values.insert(values.end(), rows.begin(), rows.end());

@@ -5,11 +5,11 @@
 
 namespace irido {
 
-/// Fourier transform of the CIE 1931 observer as Blender's Cycles tabulates it: 512 entries over
-/// 60 um / (2 pi) of optical path, for linear Rec.709, each channel scaled so that white is 1.
-/// Made from the observer's tables; equals the 8-digit table of the source code to 5e-8. Linear
-/// between the entries, and the last entry beyond them.
-/// opd_nm  optical path difference, >= 0
+/// Fourier transform of the CIE 1931 observer as tabulated in Blender's Cycles: 512 entries over 60
+/// um / (2 pi) of optical path difference, converted to linear Rec.709 and normalized per channel
+/// to white = 1. Computed from the observer; matches the 8-digit table in the source code to 5e-8.
+/// Linear between entries, clamped to the last one.
+///   opd_nm  optical path difference, >= 0
 std::array<Complex, 3> cycles_sensitivity(double opd_nm);
 
 }  // namespace irido

@@ -7,7 +7,7 @@ namespace irido {
 
 namespace {
 
-/// A Gaussian over the wavenumber 1/lambda (1/m).
+/// A Gaussian in the wavenumber 1/lambda (1/m).
 struct WavenumberFit {
     std::size_t channel;
     double height, center, variance;

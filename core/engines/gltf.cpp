@@ -8,7 +8,7 @@ namespace irido {
 
 namespace {
 
-/// Added to F0 before an index is made of it.
+/// Added to F0 before it is converted to an index.
 constexpr double kGltfF0Guard = 1e-4;
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace irido {
 
 namespace {
 
-/// Phases of the face between the film and a base n3 + i k3.
+/// Phases of reflection at the interface between the film and a base n3 + i k3.
 FresnelPair materialx_phase23(double c, double n1, double n3, double k3) {
     const double K = k3 / n3, s2 = 1 - c * c;
     const double A = n3 * n3 * (1 - K * K) - n1 * n1 * s2;

@@ -81,7 +81,7 @@ Triple materialx_schlick(const EngineFilm& film, const Triple& f82_tint) {
     std::array<MaterialXBase, 3> base{};
     for (std::size_t c = 0; c < 3; ++c) {
         rgb[c] = f82_schlick(film.base_f0[c], f82_tint[c], at.cos_theta);
-        // the reflectance of the base in air serves under the film, and half of it
+        // half the reflectance of the base in air is used under the film
         const double R23 = 0.5 * f82_schlick(film.base_f0[c], f82_tint[c], at.cos_film);
         const double base_n = index_of_f0(std::clamp(film.base_f0[c], 0.01, 0.99));
         const double phase = is_below(base_n, at.film_n) ? std::numbers::pi : 0;

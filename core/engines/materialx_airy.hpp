@@ -11,23 +11,26 @@ struct FresnelPair {
     double s, p;
 };
 
-/// A dielectric face of relative index n.
+/// A dielectric interface of relative index n.
 FresnelPair materialx_dielectric_fresnel(double cos_theta, double n);
-/// A conducting face of relative n, k.
+/// A conducting interface of relative n, k.
 FresnelPair materialx_conductor_fresnel(double cos_theta, double n, double k);
 
-/// The lower face of a film for one channel: reflectances and phases of s and p.
+/// The lower interface of a film for one channel: reflectances and phases of s and p.
 struct MaterialXBase {
     FresnelPair R23, phase23;
 };
 
-/// mx_fresnel_airy: XYZ by the series to order 2, turned into CIE RGB and clipped to [0, 1].
-/// `cos_film` is the cosine inside the film of index `film_n` >= 1.
+/// mx_fresnel_airy: XYZ from the series to order 2, converted to CIE RGB and clipped to [0, 1].
+///   cos_theta     cosine of incidence, [0, 1]
+///   film_n        index of the film, >= 1
+///   cos_film      cosine inside the film
+///   thickness_nm  [0, 1e9]
+///   base          lower interface, one per channel
 Triple materialx_airy(double cos_theta, double film_n, double cos_film, double thickness_nm,
                       const std::array<MaterialXBase, 3>& base);
 
-/// The cosine that MaterialX uses, at least 1e-8, the film's index, at least 1, and the cosine
-/// inside it.
+/// MaterialX's cosine of incidence (at least 1e-8), film index (at least 1) and cosine in the film.
 struct MaterialXAngles {
     explicit MaterialXAngles(const EngineFilm& film);
     double cos_theta, film_n, cos_film;

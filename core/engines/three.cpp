@@ -8,7 +8,7 @@ namespace irido {
 
 namespace {
 
-/// Schlick's formula with the fifth power as a power of 2.
+/// Schlick's formula with the fifth power approximated by exp2.
 double schlick_exp2(double f0, double cos_theta) {
     const double weight = std::exp2((-5.55473 * cos_theta - 6.98316) * cos_theta);
     return f0 * (1 - weight) + weight;

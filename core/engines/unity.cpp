@@ -10,7 +10,7 @@ namespace irido {
 
 namespace {
 
-/// Optical path at the slider's end, nm.
+/// Optical path difference at the slider's upper end, nm.
 constexpr double kUnityPath_nm = 3000;
 
 }  // namespace

@@ -24,7 +24,7 @@ std::optional<FilmSeries> film_series(const Film& film, IncidentAngle incidence,
     const bool s = polarization == Polarization::s;
     const auto upper = s ? fresnel_s(a, b, from_a) : fresnel_p(a, b, from_a, s2);
     const auto lower = s ? fresnel_s(b, c, from_b) : fresnel_p(b, c, from_b, s2);
-    series.bounce = Complex(0) - upper.r * lower.r;  // without negative zeros
+    series.bounce = Complex(0) - upper.r * lower.r;  // adding 0 turns -0 into 0
     series.opd_nm = 2 * film.thickness_nm * b.kz;
     if (upper.T == 0 || lower.T == 0) return series;
     if (!(series.ratio() < 1)) return std::nullopt;

@@ -27,7 +27,7 @@ Chain chain_of(const std::vector<Element>& elements, std::size_t substrate) {
 
 namespace {
 
-/// Layers for which counts(layer) is true.
+/// Number of layers that satisfy counts(layer).
 template <class Counts>
 std::size_t count_if(std::span<const Element> elements, const Counts& counts) {
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
@@ -169,7 +169,7 @@ void ChainLight::layer_absorption(std::span<double> absorbed) const {
     std::vector<Response> downs(last + 1), ups(last);
     for (std::size_t i = 0; i <= last; ++i) downs[i] = down(i);
     for (std::size_t i = 0; i < last; ++i) ups[i] = up(i);
-    std::vector<Power> from(last + 1);  // powers of the chain from this block on
+    std::vector<Power> from(last + 1);  // of the rest of the chain, starting at this block
     from[last] = downs[last].power;
     for (std::size_t i = last; i-- > 0;)
         from[i] = over_gap({downs[i].power, ups[i].power}, gap(i), from[i + 1]);

@@ -11,42 +11,47 @@
 
 namespace irido {
 
-/// Coherent layers, in both directions of travel (`up` is empty without incoherent layers).
+/// Coherent layers, in either direction of travel (`up` is empty if no layer is incoherent).
 struct Block {
     std::vector<Element> down, up;
 };
 
-/// Blocks with an incoherent layer, a gap, between each and the next.
+/// Coherent blocks separated by incoherent layers (gaps).
 struct Chain {
     std::vector<Block> blocks;
     std::vector<Layer> gaps;
     std::size_t substrate = 0;  ///< index of its material
 };
 
-/// `elements` have their incoherent layers outside groups.
+/// Splits `elements`, whose incoherent layers are all outside groups.
 Chain chain_of(const std::vector<Element>& elements, std::size_t substrate);
 
-/// Layers with groups written out; the largest number there is, if they are more.
+/// Number of layers with groups expanded, capped at the largest std::size_t.
 std::size_t count_layers(std::span<const Element> elements);
 
-/// The same, each layer that is written in parts being one.
+/// Number of layers with groups expanded and each sliced layer counted once.
 std::size_t count_listed_layers(std::span<const Element> elements);
 
-/// These layers in their order.
+/// All layers in order, with groups expanded.
 std::vector<Layer> written_out(std::span<const Element> elements);
 
-/// Of each of these layers, its place among those that count_listed_layers() counts.
+/// For each of these layers, its position among the layers that count_listed_layers() counts.
 std::vector<std::size_t> listed_layers(std::span<const Element> elements);
 
-/// The chain whose gaps part coherent blocks at this wavelength and angle: those in which light
-/// does not travel (see travels()), and those of no thickness, are layers of a block. Nothing if
-/// the chain has none of them.
+/// The chain that remains at this wavelength and angle: incoherent layers of zero thickness, and
+/// those in which light does not travel (see travels()), become coherent layers of a block. Nothing
+/// if there are none.
 std::optional<Chain> joined(const Chain& chain, std::span<const Medium> media);
 
-/// A chain, joined(), in the light of one wavelength, angle and polarization; arguments as those of
-/// StackPower. It refers to them, and sees thicknesses that change in a chain that is joined.
+/// A chain, joined(), at one wavelength, angle and polarization.
 class ChainLight {
 public:
+    /// Refers to the chain and the media. Later changes of a thickness take effect only if joined()
+    /// had nothing to join.
+    ///   chain         blocks and incoherent layers
+    ///   media         one per material, followed by the incident medium
+    ///   k0            2 pi / wavelength, 1/nm, > 0
+    ///   polarization  s or p, the one that `media` were computed for
     ChainLight(const Chain& chain, std::span<const Medium> media, double k0,
                Polarization polarization)
         : own_(joined(chain, media)),
@@ -62,12 +67,12 @@ public:
     Polarization polarization() const { return polarization_; }
     std::size_t last_block() const { return chain_.gaps.size(); }
 
-    /// The wave that goes down above a block, and below it.
+    /// Forward wave above a block, and below it.
     Wave above(std::size_t block) const;
     Wave below(std::size_t block) const;
     Attenuation gap(std::size_t gap) const;
 
-    /// Of one block for light from above, and for light from the gap below it.
+    /// Response of one block to light from above, and to light from the gap below it.
     Response down(std::size_t block) const;
     Response up(std::size_t block) const;
 

@@ -20,7 +20,7 @@ Wave wave_in_gap(const Medium& m, double k0_d, Polarization polarization) {
 }
 
 bool has_own_wave(const Medium& m, double k0_d) {
-    // Y is kz in s; in p its phase is the smaller one
+    // Y is kz for s; its phase is smaller for p
     const Complex kz = onward_kz(m);
     return std::abs(kz.imag()) <= kz.real() * std::abs(std::sinh(k0_d * kz.imag()));
 }
@@ -32,7 +32,7 @@ Attenuation attenuation(const Medium& m, double k0_d) {
 
 LightInGap light_in_gap(const BlockPower& block, const Attenuation& gap, const Power& below) {
     if (block.down.T == 0) return {0, 0, 0};
-    // 1 - R kept^2 R', formed from what is left of 1
+    // 1 - R kept^2 R', written as a sum of losses to avoid cancellation
     const Power& up = block.up;
     const double lost =
         up.T + up.A + up.R * (gap.lost_twice + gap.kept * gap.kept * (below.T + below.A));

@@ -8,7 +8,7 @@
 
 namespace irido {
 
-/// The coefficients c1, c2, ... as the definitions number them; those not given are 0.
+/// Coefficients numbered c1, c2, ... as in the definitions; missing ones are 0.
 class Coefficients {
 public:
     explicit Coefficients(const Formula& formula) : values_(formula.coefficients) {}
@@ -22,17 +22,17 @@ private:
     const std::vector<double>& values_;
 };
 
-/// The nine dispersion formulas of Formula, for a wavelength in um that is a number or a series.
+/// The nine dispersion formulas of Formula at a wavelength in um, a number or a series.
 template <class Number>
 class FormulaAt {
 public:
     FormulaAt(const Formula& formula, const Number& um)
         : number_(formula.number), c_(formula), um_(um), l2_(um * um) {}
 
-    /// Whether value() is n^2 and not n.
+    /// Whether value() is n^2 rather than n.
     bool is_square() const { return number_ <= 4 || number_ >= 8; }
 
-    /// n, or n^2; 0 for a number that is none of 1..9.
+    /// n, or n^2; 0 for an unknown formula number.
     Number value() const {
         switch (number_) {
             case 1:
@@ -63,7 +63,7 @@ private:
         return pow(um_, exponent);
     }
 
-    /// sum of term(j) over j = first, first + step, ... whose leading coefficient c_j is not 0.
+    /// Sum of term(j) over j = first, first + step, ... with a nonzero coefficient c_j.
     template <class Term>
     Number sum_of_terms(std::size_t first, std::size_t step, Term term) const {
         Number sum = 0.0;

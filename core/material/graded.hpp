@@ -9,8 +9,8 @@
 
 namespace irido {
 
-/// How the index of a graded layer goes from its top to its bottom, with the depth t in [0, 1]:
-/// n or n^2 in a straight line, n1 (n2/n1)^t, or 1/n in a straight line.
+/// Index profile of a graded layer over the relative depth t in [0, 1]: linear in n, in n^2 or in
+/// 1/n, or n1 (n2/n1)^t.
 enum class GradedProfile { n, eps, exp, inverse_n };
 
 inline Complex power_of(const Complex& base, double exponent) {
@@ -20,7 +20,10 @@ inline Series<Complex> power_of(const Series<Complex>& base, double exponent) {
     return power_series(base, exponent, std::pow(base[0], exponent));
 }
 
-/// Permittivity at a depth t, of numbers or of series; n1, n2 the indices at top and bottom.
+/// Permittivity of a graded layer at one depth, as a number or a series.
+///   profile  shape of the index
+///   n1, n2   indices at top and bottom
+///   t        relative depth, [0, 1]
 template <class Number>
 Number graded_permittivity(GradedProfile profile, const Number& n1, const Number& n2, double t) {
     switch (profile) {
@@ -39,16 +42,18 @@ Number graded_permittivity(GradedProfile profile, const Number& n1, const Number
     return n * n;
 }
 
-/// A half of one of the equal steps of a graded layer: the exponentials of the fourth-order
-/// commutator-free Magnus integrator are homogeneous uniaxial layers, each half a step thick, whose
-/// eps along the faces and 1/eps across them are means of those at the step's two Gauss points,
+/// Half of one of the equal steps of a graded layer. The exponentials of the fourth-order
+/// commutator-free Magnus integrator are homogeneous uniaxial layers half a step thick, whose
+/// in-plane eps and normal 1/eps are weighted means of the values at the step's two Gauss points,
+/// with weights
 ///     a = 1/2 + 1/sqrt(3) for the nearer one, 1 - a = -0.077 for the other.
-/// Every one keeps energy and reciprocity, and the error falls with the fourth power of the steps.
+/// Each half step conserves energy and obeys reciprocity; the error falls as the fourth power of
+/// the step.
 /// Source: S. Blanes and P. C. Moan, Appl. Numer. Math. 56, 1519 (2006), section 3.
 struct GradedHalfStep {
-    double nearer, other;  ///< depths of the two points, [0, 1]
+    double nearer, other;  ///< relative depths of the two Gauss points, [0, 1]
 
-    /// Half `half` of 2 steps, counted from the top.
+    /// Number `half` of the 2 steps half steps, counted from the top.
     GradedHalfStep(std::size_t half, std::size_t steps) {
         const double middle = static_cast<double>(half / 2) + 0.5, reach = std::sqrt(3.0) / 6;
         const double sign = half % 2 == 0 ? -1 : 1;
@@ -56,7 +61,7 @@ struct GradedHalfStep {
         other = (middle - sign * reach) / static_cast<double>(steps);
     }
 
-    /// {eps along the faces, eps across them}
+    /// {in-plane eps, eps along the normal}
     template <class Number>
     std::array<Number, 2> permittivity(GradedProfile profile, const Number& n1,
                                        const Number& n2) const {

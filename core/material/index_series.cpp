@@ -10,14 +10,14 @@ namespace irido {
 
 namespace {
 
-/// A wavelength that holds at the ends of a range, as a series.
+/// A wavelength clamped to a range, as a series.
 Series<double> held_wavelength(double wavelength_nm, WavelengthRange range) {
     if (wavelength_nm < range.first_nm) return range.first_nm;
     if (wavelength_nm > range.last_nm) return range.last_nm;
     return wavelength_nm / relative_frequency();
 }
 
-/// The same of a series.
+/// The same for a wavelength that is a series.
 Series<double> held_wavelength(const Series<double>& nm, WavelengthRange range) {
     if (nm[0] < range.first_nm) return range.first_nm;
     if (nm[0] > range.last_nm) return range.last_nm;
@@ -78,7 +78,7 @@ Series<Complex> series_of(const LorentzDrude& model, double wavelength_nm) {
 
 Series<Complex> series_of(const Material& material, double wavelength_nm);
 
-/// Indices along the faces and across them.
+/// In-plane and normal index.
 std::array<Series<Complex>, 2> series_of_both(const GradedPart& part, double wavelength_nm) {
     const std::vector<Material>& ends = *part.ends;
     const auto eps = GradedHalfStep(part.half, part.steps)

@@ -5,19 +5,19 @@
 
 namespace irido {
 
-/// 1 + x, the optical frequency over that at the wavelength where series are developed.
+/// 1 + x, the optical frequency relative to that at the expansion wavelength.
 Series<double> relative_frequency();
 
-/// n + i k near a vacuum wavelength as a series in x = (w - w0)/w0, w the optical frequency and w0
-/// that of the wavelength: exact derivatives of formulas; of tables those of the straight line
-/// between two rows (at a row, the one towards longer wavelengths). Where an end value holds,
-/// outside a range, nothing varies. Throws DomainError as index_at() does.
+/// n + i k around a vacuum wavelength as a series in x = (w - w0)/w0, with w the optical frequency
+/// and w0 its value at that wavelength. Derivatives of formulas are exact; those of tables are the
+/// slope between two rows (at a row, towards longer wavelengths). They vanish where an end value is
+/// clamped. Throws DomainError as index_at() does.
 Series<Complex> index_series(const Material& material, double wavelength_nm);
 
-/// The same of extraordinary_index_at().
+/// The series of extraordinary_index_at().
 Series<Complex> extraordinary_series(const Material& material, double wavelength_nm);
 
-/// Whether the derivatives are those of straight lines between rows.
+/// Whether the derivatives are slopes between table rows.
 bool has_rows(const Material& material);
 
 }  // namespace irido

@@ -7,13 +7,13 @@ namespace irido {
 
 namespace {
 
-/// A row of a table of n or of k.
+/// A row of a table of n or of k alone.
 struct Point {
     double nm;
     double value;
 };
 
-/// A row of a table of both.
+/// A row of a table of n and k.
 struct Row {
     double nm;
     double n;
@@ -22,9 +22,8 @@ struct Row {
 
 constexpr std::size_t kMostCoefficients = 13;
 
-/// A material as static data. n and k come from the oscillators if there are any. Else n comes
-/// from `nk`, else from `n`, else from the formula, else it is 1; k comes from `nk`, else from `k`,
-/// else it is 0.
+/// A material as static data. Oscillators, if any, give both n and k. Otherwise n comes from `nk`,
+/// else `n`, else the formula, else it is 1; k comes from `nk`, else `k`, else it is 0.
 struct Entry {
     std::string_view name;
     std::array<std::string_view, 2> aliases = {};
@@ -32,14 +31,15 @@ struct Entry {
     bool film = false;  ///< measured on a film
     std::string_view source;
     int formula = 0;  ///< number of a dispersion formula, 0 for none
-    std::array<double, kMostCoefficients> coefficients = {};  ///< trailing zeros do not count
+    std::array<double, kMostCoefficients> coefficients = {};  ///< trailing zeros are ignored
     WavelengthRange range = {};                               ///< of the formula or model
-    bool in_air = false;  ///< formula of a catalogue: index and wavelengths of air of 20 C
+    bool in_air = false;  ///< formula published for air: index and wavelengths in air of 20 C
     std::span<const Row> nk = {};
     std::span<const Point> n = {};
     std::span<const Point> k = {};
     double plasma_ev = 0;                                        ///< of the Lorentz-Drude model
-    std::span<const LorentzDrude::Oscillator> oscillators = {};  ///< not empty: that model
+    std::span<const LorentzDrude::Oscillator> oscillators = {};  ///< if not empty, the
+                                                                 ///< Lorentz-Drude model applies
     Outside outside = Outside::refuse;
 };
 

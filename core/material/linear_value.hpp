@@ -6,7 +6,7 @@
 
 namespace irido {
 
-/// A table between its rows, linearly, and at its ends beyond them.
+/// Linear interpolation between rows, clamped beyond the ends.
 inline double linear_value(const Table& table, double wavelength_nm) {
     const auto& x = table.wavelength_nm;
     const auto& y = table.value;

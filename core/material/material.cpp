@@ -22,11 +22,11 @@ std::string name_of(const Material& material) {
     return material.name.empty() ? "material" : material.name;
 }
 
-/// One evaluation: who is asked for which wavelength, so that an error can say so.
+/// One evaluation: material and wavelength, for error messages.
 struct Query {
     const Material& material;
     double wavelength_nm;
-    bool holds;  ///< end values hold outside the ranges
+    bool holds;  ///< clamp outside the ranges
 
     double require(std::string_view what, double value, double lowest, double highest) const {
         if (value >= lowest && value <= highest) return value;
@@ -44,7 +44,7 @@ double value_at(const Constant& constant, const Query&) {
     return constant.value;
 }
 
-/// What the formula gives for a wavelength in um, both as it means them.
+/// The formula's value at a wavelength in um, both in its own reference medium.
 double formula_value(const Formula& formula, double um, const Query& query) {
     constexpr int kFormulas = 9;
     if (formula.number < 1 || formula.number > kFormulas)
@@ -116,7 +116,7 @@ Complex value_at(const Mixture& mixture, const Query& query) {
     return std::sqrt(mixed_permittivity(mixture.rule, part(0), part(1), mixture.fraction));
 }
 
-/// Indices along the faces and across them.
+/// In-plane and normal index.
 std::array<Complex, 2> indices_of(const GradedPart& part, const Query& query) {
     const std::vector<Material>& ends = *part.ends;
     const auto eps =
@@ -171,8 +171,8 @@ std::string in_words(WavelengthRange range) {
     return to_text(range.first_nm) + " to " + to_text(range.last_nm) + " nm";
 }
 
-/// Throws unless the material is known at the wavelength, or holds its end values; the parts of a
-/// mixture say it for themselves.
+/// Throws unless the material is known or clamped at the wavelength; the parts of a mixture are
+/// checked on their own.
 void require_known(const Material& material, double wavelength_nm, bool holds) {
     require_in_range("wavelength_nm", wavelength_nm, kAllWavelengths.first_nm,
                      kAllWavelengths.last_nm);
@@ -265,7 +265,7 @@ bool is_constant(const Material& material) {
 
 namespace {
 
-/// Rows of all tables of a material.
+/// Appends the rows of all tables of a material.
 void add_rows(const Material& material, std::vector<double>& rows) {
     for (const Material& part : parts_of(material)) add_rows(part, rows);
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
@@ -275,7 +275,8 @@ void add_rows(const Material& material, std::vector<double>& rows) {
             rows.insert(rows.end(), table->wavelength_nm.begin(), table->wavelength_nm.end());
 }
 
-/// Wavelengths inside `between` and `known` where n or k has a kink; ends of ranges if they hold.
+/// Appends the wavelengths inside `between` and `known` where n or k has a kink, including the ends
+/// of clamped ranges.
 void add_kinks(const Material& material, WavelengthRange between, WavelengthRange known, bool holds,
                std::vector<double>& found) {
     for (const Material& part : parts_of(material))

@@ -20,28 +20,30 @@ struct WavelengthRange {
     bool operator==(const WavelengthRange&) const = default;
 };
 
-/// What a material does outside the range in which it is known.
+/// Behaviour outside the range of a material's data.
 enum class Outside { refuse, clamp };
 
-/// A number that does not depend on the wavelength.
+/// A wavelength-independent number.
 struct Constant {
     double value = 0;
     bool operator==(const Constant&) const = default;
 };
 
-/// What an index and its wavelengths are measured in: vacuum, or air at 101325 Pa (air.hpp).
+/// The medium to which an index and its wavelengths refer: vacuum, or air at 101325 Pa (air.hpp).
 struct Reference {
-    bool index_to_air = false;       ///< n is the index divided by that of air
+    bool index_to_air = false;       ///< n is relative to the index of air
     bool wavelength_in_air = false;  ///< wavelengths are those in air
     double temperature_c = 20;       ///< of that air
     bool operator==(const Reference&) const = default;
 };
 
-/// One of the nine dispersion formulas of the refractiveindex.info database (n only).
-/// number        1..9;   coefficients  c1, c2, ... for wavelengths in um, missing ones are 0
-/// range         vacuum wavelengths;   reference  what the formula takes and gives
+/// One of the nine dispersion formulas of the refractiveindex.info database (n only). Formula 2 is
+/// Sellmeier with squared poles, formula 5 is Cauchy's series.
+///   number        1..9
+///   coefficients  c1, c2, ... for wavelengths in um; missing ones are 0
+///   range         vacuum wavelengths
+///   reference     medium to which the formula's wavelengths and index refer
 /// Source: M. N. Polyanskiy, Sci. Data 11, 94 (2024), and the database's definition sheet.
-/// Formula 2 is Sellmeier with squared poles, formula 5 is Cauchy's series.
 struct Formula {
     int number = 5;
     std::vector<double> coefficients;
@@ -50,18 +52,18 @@ struct Formula {
     bool operator==(const Formula&) const = default;
 };
 
-/// Piecewise linear in the vacuum wavelength. `wavelength_nm` strictly increasing, at least one
-/// row; a single row is known at that wavelength only.
+/// Piecewise linear in the vacuum wavelength. `wavelength_nm` is strictly increasing with at least
+/// one row; a single row is valid at that wavelength only.
 struct Table {
     std::vector<double> wavelength_nm;
     std::vector<double> value;
     bool operator==(const Table&) const = default;
 };
 
-/// n or k as a function of the wavelength.
+/// n or k as a function of wavelength.
 using Dispersion = std::variant<Constant, Formula, Table>;
 
-/// n + i k given as two real functions, each known in its own range.
+/// n + i k as two real functions, each with its own range.
 struct RefractiveIndex {
     Dispersion n = Constant{1};
     Dispersion k = Constant{0};
@@ -86,7 +88,7 @@ struct LorentzDrude {
 
 struct Material;
 
-/// Two media, mixed finely. parts  inclusion, host;  fraction  volume of the inclusion, [0, 1]
+/// A fine mixture of two media. parts: inclusion, host;  fraction: volume of the inclusion, [0, 1]
 struct Mixture {
     MixingRule rule = MixingRule::bruggeman;
     double fraction = 0.5;
@@ -94,16 +96,16 @@ struct Mixture {
     bool operator==(const Mixture& other) const;
 };
 
-/// A crystal, or layers finer than light, with its axis along the normal of the stack. s waves see
-/// the ordinary index alone. parts  ordinary, extraordinary
+/// A crystal, or layers finer than the wavelength, with the optic axis along the stack's normal. s
+/// waves see the ordinary index only. parts: ordinary, extraordinary
 struct Uniaxial {
     std::vector<Material> parts;
     bool operator==(const Uniaxial& other) const;
 };
 
-/// A part of a graded layer, as uniaxial media see it.
-///   half, steps  of GradedHalfStep
-///   ends         the materials at the layer's top and bottom, which its parts share
+/// One slice of a graded layer, a uniaxial medium.
+///   half, steps  as for GradedHalfStep
+///   ends         materials at the layer's top and bottom, shared by all slices
 struct GradedPart {
     GradedProfile profile = GradedProfile::n;
     std::size_t half = 0, steps = 1;
@@ -111,7 +113,7 @@ struct GradedPart {
     bool operator==(const GradedPart& other) const;
 };
 
-/// Complex index of a medium, n + i k with k > 0 absorbing (fields go as exp(-i w t)).
+/// Complex index of a medium, n + i k; k > 0 absorbs (fields vary as exp(-i w t)).
 struct Material {
     std::string name;
     std::variant<RefractiveIndex, LorentzDrude, Mixture, Uniaxial, GradedPart> model;
@@ -122,38 +124,38 @@ struct Material {
 /// All vacuum wavelengths that irido accepts, nm.
 inline constexpr WavelengthRange kAllWavelengths{1, 1e7};
 
-/// Where n and k are known, both; kAllWavelengths for constants. first_nm > last_nm if nowhere. A
-/// mixture is known where its parts are, or hold their end values.
+/// Range in which both n and k are known; kAllWavelengths for constants; first_nm > last_nm if
+/// empty. A mixture is known wherever its parts are known or clamped.
 WavelengthRange range_of(const Material& material);
 
-/// n + i k at one vacuum wavelength in kAllWavelengths. If the material says clamp, n holds its end
-/// values outside the range of n, and k those of k; so do the parts of a mixture that says it.
-/// Throws DomainError that names the material, its range (that of n or of k) and the wavelength, or
-/// the value if the result is no index that irido computes with: n in [0, 1e4], k in [-1e4, 1e4],
-/// |n + ik| >= 1e-6.
+/// n + i k at one vacuum wavelength in kAllWavelengths. A material set to clamp holds the end
+/// values of n and of k outside their respective ranges, as do the parts of such a mixture. Throws
+/// DomainError naming the material, the range (of n or of k) and the wavelength, or the value if
+/// the result is not an index that irido accepts: n in [0, 1e4], k in [-1e4, 1e4], |n + ik| >=
+/// 1e-6.
 Complex index_at(const Material& material, double wavelength_nm);
 
-/// Whether p waves see another index, too. index_at() is then that of s waves.
+/// Whether p waves see a different index; index_at() is then that of s waves.
 bool is_uniaxial(const Material& material);
 
-/// The first uniaxial one; nullptr if there is none.
+/// The first uniaxial material, or nullptr.
 const Material* first_uniaxial(std::span<const Material> materials);
 
-/// n + i k along the normal of the stack: the extraordinary index, or index_at(). Throws
-/// DomainError as that does, and if one of the two absorbs while the other amplifies.
+/// n + i k along the stack's normal: the extraordinary index, or index_at(). Throws DomainError as
+/// that does, and if one of the two absorbs while the other amplifies.
 Complex extraordinary_index_at(const Material& material, double wavelength_nm);
 
-/// What a medium is made of: the parts of a mixture or a uniaxial medium, the ends of a graded
-/// layer; none for others.
+/// Constituents of a material: the parts of a mixture or a uniaxial medium, the ends of a graded
+/// layer; empty for others.
 std::span<const Material> parts_of(const Material& material);
 
 /// True if the index is the same at every wavelength.
 bool is_constant(const Material& material);
 
-/// Wavelengths strictly inside (first_nm, last_nm) where n or k has a kink, sorted, unique.
+/// Wavelengths strictly inside `between` where n or k has a kink; sorted, unique.
 std::vector<double> kinks(const Material& material, WavelengthRange between);
 
-/// Those of them that are rows of a table, of a mixture's too; none of uniaxial media.
+/// Those kinks that are table rows, including the tables of mixtures; empty for uniaxial media.
 std::vector<double> table_rows(const Material& material, WavelengthRange between);
 
 }  // namespace irido

@@ -7,13 +7,13 @@
 
 namespace irido {
 
-/// How the permittivity of a fine mixture follows from those of inclusion and host.
+/// How the permittivity of a fine mixture follows from those of its constituents.
 enum class MixingRule {
-    bruggeman,        ///< both alike: grains of two media
+    bruggeman,        ///< symmetric: grains of two media
     maxwell_garnett,  ///< spheres of the inclusion in the host
-    lorentz_lorenz,   ///< (eps - 1)/(eps + 2) adds: molecules in empty space
-    linear,           ///< eps adds: walls along the field
-    series            ///< 1/eps adds: walls across the field
+    lorentz_lorenz,   ///< (eps - 1)/(eps + 2) is additive: molecules in vacuum
+    linear,           ///< eps is additive: walls along the field
+    series            ///< 1/eps is additive: walls across the field
 };
 
 inline Complex root_near(const Complex& square) {
@@ -29,11 +29,12 @@ inline Complex first_of(const Series<Complex>& value) {
     return value[0];
 }
 
-/// Permittivity of a mixture, of numbers or of series.
+/// Permittivity of a mixture, as a number or a series.
+///   rule      effective-medium formula
 ///   n1, n2    indices of inclusion and host, n >= 0, not 0
 ///   fraction  volume of the inclusion, f in [0, 1]
-/// Bruggeman's, f (e1 - e)/(e1 + 2 e) + (1 - f) (e2 - e)/(e2 + 2 e) = 0, has two roots; this is the
-/// one that goes from the host to the inclusion without a jump: with p = n1/n2,
+/// Bruggeman's equation, f (e1 - e)/(e1 + 2 e) + (1 - f) (e2 - e)/(e2 + 2 e) = 0, has two roots;
+/// this is the one that connects host and inclusion continuously: with p = n1/n2,
 ///     z = ((3 f - 1) p + (2 - 3 f)/p)/4,   w = z + sqrt(z^2 + 1/2),   e = n1 n2 w,   Re w > 0.
 /// Sources: D. A. G. Bruggeman, Ann. Phys. 416, 636 (1935); J. C. Maxwell Garnett, Phil. Trans. A
 /// 203, 385 (1904); D. E. Aspnes, Thin Solid Films 89, 249 (1982).

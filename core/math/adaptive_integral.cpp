@@ -18,7 +18,7 @@ struct IntegrationPanel {
     double middle() const { return begin + (end - begin) / 2; }
 };
 
-/// Gives panels their integrals.
+/// Computes the integrals of panels.
 void evaluate(std::span<IntegrationPanel> panels, std::size_t components,
               const ManyValues& values_at) {
     const auto& rule = gauss_legendre<kPanelPoints>();
@@ -38,7 +38,7 @@ void evaluate(std::span<IntegrationPanel> panels, std::size_t components,
     }
 }
 
-/// Whether a panel's halves agree with it.
+/// Whether the halves of a panel agree with the whole.
 bool agree(const IntegrationPanel& whole, const IntegrationPanel& first,
            const IntegrationPanel& second, double tolerance) {
     for (std::size_t i = 0; i < whole.integrals.size(); ++i) {

@@ -8,19 +8,20 @@
 
 namespace irido {
 
-/// Components of a function at many points, [point][component].
+/// Evaluates all components of a function at many points, [point][component].
 using ManyValues = std::function<void(std::span<const double> points, std::span<double> values)>;
 
-/// The largest number of panels of integrals().
+/// Largest number of panels that integrals() uses.
 inline constexpr std::size_t kMostPanels = 1U << 16U;
 
-/// Integrals of all components of a function from the first of `ends` to the last: a Gauss rule of
-/// 16 points on each panel between two ends, panels halved until both halves together differ from
-/// the whole by at most their share of the tolerance, in every component. What is returned is the
-/// sum of the halves, whose error is far smaller. Nothing if that takes more than kMostPanels.
-///   ends        ascending, at least two
-///   components  of the function
-///   tolerance   absolute, of every component's integral
+/// Integrals of every component of a function from the first to the last of `ends`, by a 16-point
+/// Gauss rule per panel. A panel is halved until both halves together differ from the whole, in
+/// every component, by no more than its share of the tolerance; the halves, whose error is far
+/// smaller, make up the result. Returns nothing if that takes more than kMostPanels panels.
+///   ends        panel boundaries to start with, ascending, at least two
+///   components  number of components of the function
+///   tolerance   absolute, for each component's integral, > 0
+///   values_at   evaluates the function
 std::optional<std::vector<double>> integrals(std::span<const double> ends, std::size_t components,
                                              double tolerance, const ManyValues& values_at);
 

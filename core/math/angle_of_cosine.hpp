@@ -7,7 +7,7 @@
 
 namespace irido {
 
-/// The angle in degrees, [0, 90], of a cosine in [0, 1]; accurate near 90.
+/// Angle in degrees, [0, 90], whose cosine is in [0, 1]; accurate near 90.
 inline double angle_of_cosine(double cosine) {
     return 90 - std::asin(std::clamp(cosine, 0.0, 1.0)) * 180 / kPi;
 }

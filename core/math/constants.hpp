@@ -10,7 +10,7 @@ inline constexpr double kTwoPi = 2 * kPi;
 inline constexpr double kDegree = kPi / 180;  // in radians
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Energy times vacuum wavelength of a photon, h c / e with the exact constants of the SI, eV nm.
+/// Photon energy times vacuum wavelength, h c / e from the exact SI constants, eV nm.
 inline constexpr double kPhotonEnergy_eVnm = 6.62607015e-34 * 299792458.0 / 1.602176634e-19 * 1e9;
 
 }  // namespace irido

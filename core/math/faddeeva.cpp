@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kSteps = 12;
 const double kStep = std::sqrt(kPi / static_cast<double>(kSteps + 1));
 
-/// Points (k + shift) kStep of a rule, squared, and the integrand's numerator there.
+/// Points (k + shift) kStep of a rule, squared, with the integrand's numerator there.
 struct WaveRule {
     explicit WaveRule(double shift) {
         for (std::size_t k = 0; k < kSteps; ++k) {
@@ -38,7 +38,7 @@ Complex sum_of(const WaveRule& rule, const Complex& z) {
     return Complex(0, 2 * kStep / kPi) * z * Complex(real, imaginary);
 }
 
-/// w of x, y >= 0.
+/// w for x, y >= 0.
 Complex first_quadrant(double x, double y) {
     static const WaveRule midpoints(0.5), trapezoid(1);
     constexpr double kFar = 1e7;  // i/(sqrt(pi) z) (1 + 1/(2 z^2) ...)

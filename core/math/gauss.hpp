@@ -11,7 +11,8 @@ struct GaussNode {
     double weight;
 };
 
-/// Gauss-Legendre rule of even order `count` on [-1, 1], exact for polynomials below 2 count.
+/// Gauss-Legendre rule with an even number `count` of points on [-1, 1], exact for polynomials of
+/// degree below 2 count.
 template <int count>
 const std::array<GaussNode, count>& gauss_legendre() {
     static_assert(count % 2 == 0);

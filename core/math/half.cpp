@@ -29,7 +29,7 @@ std::uint16_t half_bits(double value) {
     if (std::isinf(value)) return static_cast<std::uint16_t>(sign | kHalfInfinity);
     if (value == 0) return static_cast<std::uint16_t>(sign);
     const int exponent = std::max(std::ilogb(value), kSmallestHalfExponent);
-    // 1024 to 2047, its leading bit adding 1 to the exponent; below that for subnormal numbers
+    // 1024 to 2047, whose leading bit adds 1 to the exponent; less for subnormal numbers
     const auto digits = static_cast<unsigned>(std::ldexp(std::abs(value), kHalfDigits - exponent));
     const auto biased = static_cast<unsigned>(exponent + kHalfBias - 1) << unsigned{kHalfDigits};
     return static_cast<std::uint16_t>(sign | (biased + digits));

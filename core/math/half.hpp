@@ -4,13 +4,13 @@
 
 namespace irido {
 
-/// The nearest number that IEEE 754 binary16 holds, ties to even; infinite beyond 65504.
+/// Nearest IEEE 754 binary16 value, ties to even; infinite beyond 65504.
 double rounded_to_half(double value);
 
-/// Bits of a double that binary16 holds, as rounded_to_half() returns it.
+/// Bits of rounded_to_half(value) as a binary16.
 std::uint16_t half_bits(double value);
 
-/// What the bits of a binary16 stand for.
+/// Value of a binary16 given by its bits.
 double half_value(std::uint16_t bits);
 
 }  // namespace irido

@@ -6,12 +6,12 @@
 
 namespace irido {
 
-/// A value that is made when it is first asked for, by the first thread that does.
+/// A value constructed on first use, by whichever thread gets there first.
 template <class T>
 class Lazy {
 public:
-    /// `make` returns a std::unique_ptr<T>; `lock` is the same in every call, and `make` does not
-    /// need it.
+    /// `make` returns a std::unique_ptr<T>. Every call must pass the same `lock`, which `make`
+    /// itself must not take.
     template <class Make>
     T& get(std::mutex& lock, const Make& make) {
         if (T* ready = ready_.load(std::memory_order_acquire)) return *ready;

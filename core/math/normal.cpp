@@ -10,7 +10,7 @@ namespace irido {
 
 namespace {
 
-/// log x, x > 0, to 1 ulp or so: x = 2^e (1 + s)/(1 - s), log = e log 2 + 2 (s + s^3/3 + ...).
+/// log x for x > 0 to about 1 ulp: x = 2^e (1 + s)/(1 - s), log = e log 2 + 2 (s + s^3/3 + ...).
 double portable_log(double x) {
     constexpr double kLog2 = 0.693147180559945309417, kSqrtHalf = 0.70710678118654752;
     constexpr int kTerms = 13;  // s^2 <= 0.0295
@@ -37,7 +37,7 @@ double ratio(const Coefficients& above, const Coefficients& below, double x) {
     return numerator / denominator;
 }
 
-/// |x| for a tail of that probability, (0, 0.075].
+/// |x| at which the tail has that probability, (0, 0.075].
 double tail_quantile(double probability) {
     constexpr Coefficients kNear{1.42343711074968357734,    4.63033784615654529590,
                                  5.76949722146069140550,    3.64784832476320460504,

@@ -35,7 +35,7 @@ void parallel_for(std::size_t count, unsigned threads,
             for (std::size_t i = 1; i < std::min<std::size_t>(threads, count); ++i)
                 helpers.emplace_back(run);
         } catch (const std::system_error&) {
-            // the system has no more threads: those that there are do the work
+            // no more threads available: the existing ones share the work
         }
         run();
     }

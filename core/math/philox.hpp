@@ -6,8 +6,8 @@
 
 namespace irido {
 
-/// Philox4x32-10: four 32-bit words of a counter and a key, the same on every machine. Every
-/// counter is a draw of its own, so that samples need neither an order nor a state.
+/// Philox4x32-10: four 32-bit random words from a counter and a key, the same on every machine.
+/// Every counter is an independent draw, so samples need neither order nor state.
 /// Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, Parallel Random Numbers: As Easy as
 /// 1, 2, 3, SC11 (2011), section 3.3.
 constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
@@ -25,25 +25,25 @@ constexpr std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> count
     return counter;
 }
 
-/// The two words of a 64-bit seed.
+/// A 64-bit seed as a key of two words.
 constexpr std::array<std::uint32_t, 2> philox_key(std::uint64_t seed) {
     return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
 }
 
-/// In (0, 1), 2^32 equally spaced values.
+/// Uniform in (0, 1): one of 2^32 equally spaced values.
 constexpr double unit_number(std::uint32_t word) {
     return (static_cast<double>(word) + 0.5) * 0x1p-32;
 }
 
-/// In (0, 1), 2^53 equally spaced values (but that the last is the largest number below 1).
+/// Uniform in (0, 1): one of 2^53 equally spaced values (the last is the largest double below 1).
 constexpr double unit_number(std::uint32_t high, std::uint32_t low) {
     const std::uint64_t bits = (std::uint64_t{high} << 32 | low) >> 11;
     const double value = (static_cast<double>(bits) + 0.5) * 0x1p-53;
     return value < 1 ? value : 1 - 0x1p-53;
 }
 
-/// A sequence of numbers in (0, 1) with 53 bits for one path, sample or cell: `stream` sets it
-/// apart from others of the same key. Two numbers a call of philox().
+/// Sequence of 53-bit uniform numbers in (0, 1) for one path, sample or cell; `stream` tells it
+/// apart from others with the same key. One call of philox() yields two numbers.
 class PhiloxSequence {
 public:
     constexpr PhiloxSequence(std::array<std::uint32_t, 2> key,
@@ -58,7 +58,7 @@ public:
         }
         return numbers_[used_++];
     }
-    /// Between `from` and `to`.
+    /// Uniform between `from` and `to`.
     constexpr double uniform(double from, double to) { return from + (to - from) * next(); }
 
 private:

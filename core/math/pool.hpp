@@ -6,7 +6,7 @@
 
 namespace irido {
 
-/// Scratch objects that calls borrow one each and leave for later ones. Safe from many threads.
+/// Scratch objects that callers borrow, one each, and hand back for reuse. Thread-safe.
 template <class T>
 class Pool {
 public:

@@ -6,7 +6,7 @@
 
 namespace irido {
 
-/// Numbers that are the same on every machine (log_uniform: with the same math library).
+/// Random numbers, the same on every machine (log_uniform: with the same math library).
 /// Source: splitmix64, G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014.
 class Random {
 public:
@@ -18,19 +18,19 @@ public:
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
         return z ^ (z >> 31);
     }
-    /// In [from, to).
+    /// Uniform in [from, to).
     double uniform(double from, double to) {
         return from + (to - from) * (static_cast<double>(bits() >> 11) * 0x1p-53);
     }
-    /// In [from, to), every decade as likely as any other; 0 < from.
+    /// Log-uniform in [from, to); 0 < from.
     double log_uniform(double from, double to) {
         return std::exp(uniform(std::log(from), std::log(to)));
     }
-    /// In [0, count).
+    /// Integer in [0, count).
     std::size_t below(std::size_t count) {
         return static_cast<std::size_t>(uniform(0, 1) * static_cast<double>(count));
     }
-    /// True in one of `of` draws.
+    /// True with probability 1 / of.
     bool one_in(std::size_t of) { return below(of) == 0; }
 
 private:

@@ -10,7 +10,7 @@
 
 namespace irido {
 
-/// The product without the standard library's detour for infinities.
+/// Complex product without the standard library's special handling of infinities.
 inline Complex product(const Complex& a, const Complex& b) {
     return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -18,8 +18,8 @@ inline double product(double a, double b) {
     return a * b;
 }
 
-/// f(x) = c[0] + c[1] x + c[2] x^2 + c[3] x^3, cut after the third power: arithmetic on series is
-/// exact differentiation. c[m] is the m-th derivative at 0 over m!.
+/// Power series f(x) = c[0] + c[1] x + c[2] x^2 + c[3] x^3, truncated after x^3: arithmetic on
+/// series differentiates exactly. c[m] is the m-th derivative at 0 over m!.
 /// Source: A. Griewank and A. Walther, Evaluating Derivatives (2008), chapter 13.
 template <class T>
 struct Series {
@@ -68,7 +68,7 @@ struct Series {
     Series& operator*=(const Series& factor) { return *this = *this * factor; }
 };
 
-/// The root that begins with `first`, one of the two roots of square[0], which is not 0.
+/// Square root of a series whose leading term is `first`, a root of square[0], not 0.
 template <class T>
 Series<T> root_of(const Series<T>& square, const T& first) {
     Series<T> root(first);
@@ -84,7 +84,7 @@ inline Series<double> sqrt(const Series<double>& square) {
     return root_of(square, std::sqrt(square[0]));
 }
 
-/// base^exponent, which begins with `first`; base[0] is not 0.
+/// base^exponent with leading term `first`; base[0] is not 0.
 template <class T>
 Series<T> power_series(const Series<T>& base, double exponent, const T& first) {
     Series<T> power(first);

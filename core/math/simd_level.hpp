@@ -6,21 +6,21 @@
 
 namespace irido {
 
-/// How many points are computed together, and with which instructions.
+/// Instruction set of a computation, and how many points it handles at once.
 enum class SimdLevel {
-    plain,     ///< the plain kernel, without the vector one
-    baseline,  ///< the vector kernel for any machine, one point at a time
+    plain,     ///< the scalar kernel
+    baseline,  ///< the vector kernel on any machine, one point at a time
     avx2,      ///< AVX2 and FMA, 4 doubles
     avx512,    ///< AVX-512 F, BW, CD, DQ and VL, 8 doubles
 };
 inline constexpr std::array kSimdLevels{SimdLevel::plain, SimdLevel::baseline, SimdLevel::avx2,
                                         SimdLevel::avx512};
 
-/// Lanes of the widest vector of doubles. Rows that vectors read are as much longer than what they
-/// hold, so that the last vector needs no care.
+/// Lanes of the widest vector of doubles. Rows read as vectors are padded by that many values, so
+/// that the last vector needs no special case.
 inline constexpr std::size_t kMostLanes = 8;
 
-/// The next multiple of kMostLanes.
+/// `count` rounded up to a multiple of kMostLanes.
 constexpr std::size_t whole_vectors(std::size_t count) {
     return (count + kMostLanes - 1) / kMostLanes * kMostLanes;
 }
@@ -28,16 +28,16 @@ constexpr std::size_t whole_vectors(std::size_t count) {
 /// "plain", "baseline", "avx2", "avx512".
 std::string_view name_of(SimdLevel level);
 
-/// Whether this machine runs it.
+/// Whether this machine supports the level.
 bool is_available(SimdLevel level);
 
-/// The widest that this machine runs.
+/// The widest level that this machine supports.
 SimdLevel best_simd_level();
 
-/// How a computation is to be run; the answer depends on `simd` in its last digits only and on
-/// `threads` not at all.
+/// How to run a computation. Results depend on `simd` in the last digits only, and not at all on
+/// `threads`.
 struct Execution {
-    unsigned threads = 0;  ///< 0: one a core
+    unsigned threads = 0;  ///< 0: one per core
     SimdLevel simd = best_simd_level();
 
     Execution(unsigned threads_ = 0, SimdLevel simd_ = best_simd_level())

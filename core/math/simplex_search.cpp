@@ -27,7 +27,7 @@ public:
 
     const SimplexMinimum& best() const { return corners_.front(); }
 
-    /// Moves the worst corner until all values, and all corners, are nearly the same.
+    /// Moves the worst corner until all values, and all corners, nearly coincide.
     void descend() {
         const auto n = static_cast<double>(n_);
         const double expansion = 1 + 2 / n, contraction = 0.75 - 1 / (2 * n), shrinking = 1 - 1 / n;
@@ -63,7 +63,7 @@ private:
         return evaluate(copy);
     }
 
-    /// The point that far beyond the middle of all corners but the worst.
+    /// Moves from the worst corner past the centroid of the others, by `factor` times its distance.
     SimplexMinimum along(double factor) {
         SimplexMinimum point{std::vector<double>(n_), 0};
         for (std::size_t i = 0; i < n_; ++i) {

@@ -15,12 +15,12 @@ namespace irido {
 
 namespace {
 
-/// From here on the asymptotic series has 16 digits.
+/// From here on the asymptotic series is accurate to 16 digits.
 constexpr double kAsymptotic = 40;
 
-/// a and b in long double. By E_1(i x) = exp(-i x) (g - i f) and
+/// a and b in long double. From E_1(i x) = exp(-i x) (g - i f) and the continued fraction
 ///     exp(z) E_1(z) = 1/(z + 1 - 1/(z + 3 - 4/(z + 5 - 9/(z + 7 - ...)))),
-/// evaluated from its end.
+/// evaluated backwards.
 std::array<long double, 2> auxiliary_of(long double x) {
     using Wide = std::complex<long double>;
     constexpr int kTerms = 160;
@@ -34,7 +34,7 @@ std::array<long double, 2> auxiliary_of(long double x) {
     return {x * x * (1 - x * f), x * x * g};
 }
 
-/// a and b as polynomials of 1/x on pieces between kAsymptotic and kFirstAuxiliary.
+/// a and b as piecewise polynomials in 1/x between kAsymptotic and kFirstAuxiliary.
 class AuxiliaryPieces {
 public:
     AuxiliaryPieces() {

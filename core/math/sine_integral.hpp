@@ -18,12 +18,12 @@ inline constexpr double kFirstAuxiliary = 4;
 /// Si(x) = int_0^x sin(t)/t dt for any real x, infinite ones included; error below 5e-16 relative.
 double sine_integral(double x);
 
-/// F(x) = int_0^x sinc(t/2)^2/2 dt = Si(x) - (1 - cos x)/x with sinc(x) = sin(x)/x: the power that
-/// a slit diffracts up to a direction. Odd, increasing, F(inf) = pi/2; error below 5e-16 relative.
+/// F(x) = int_0^x sinc(t/2)^2/2 dt = Si(x) - (1 - cos x)/x with sinc(x) = sin(x)/x: the cumulative
+/// power diffracted by a slit. Odd, increasing, F(inf) = pi/2; error below 5e-16 relative.
 double slit_integral(double x);
 
-/// F(to) - F(from) without their cancellation; error below 3e-15 of it, or of the largest
-/// sinc^2/2 on the way times the distance where that is more.
+/// F(to) - F(from) without cancellation; error below 3e-15 relative, or 3e-15 times the interval's
+/// length and the largest sinc^2/2 in it, whichever is larger.
 double slit_integral(double from, double to);
 
 }  // namespace irido

@@ -18,7 +18,7 @@ namespace irido {
 
 namespace {
 
-/// FFTW's planner is not safe from many threads; its plans are.
+/// FFTW's planner is not thread-safe; executing its plans is.
 std::mutex& planner() {
     static std::mutex lock;
     return lock;
@@ -40,7 +40,7 @@ ChebyshevTransform::ChebyshevTransform(std::size_t degree) : degree_(degree) {
     plan_ = std::make_unique<Plan>();
     std::vector<double> in(degree + 1), out(degree + 1);
     const std::scoped_lock guard(planner());
-    // ESTIMATE, because measured plans depend on the machine's mood and with them the last digits
+    // ESTIMATE: measured plans vary from run to run, and the last digits with them
     plan_->handle = fftw_plan_r2r_1d(static_cast<int>(degree + 1), in.data(), out.data(),
                                      FFTW_REDFT00, FFTW_ESTIMATE | FFTW_UNALIGNED);
 }
@@ -66,7 +66,7 @@ void ChebyshevTransform::sum(std::span<const double> in, std::span<double> out) 
 
 void ChebyshevTransform::operator()(std::span<const double> in, std::span<double> out) const {
     if (plan_) {
-        std::vector<double> copy(in.begin(), in.end());  // FFTW's interface has no const
+        std::vector<double> copy(in.begin(), in.end());  // FFTW's interface lacks const
         fftw_execute_r2r(plan_->handle, copy.data(), out.data());
     } else {
         sum(in, out);
@@ -105,15 +105,15 @@ const ChebyshevTransform& chebyshev_transform(std::size_t degree) {
 
 namespace {
 
-/// Points of the grid that one weight is spread over, and the kernel's exponent: with a grid twice
-/// as fine as the sums need, what is left of its transform beyond them is 1e-14.
+/// Grid points that a weight is spread over, and the kernel's exponent: on a grid twice as fine as
+/// the sums need, the aliased part of its transform is 1e-14.
 constexpr std::size_t kTaps = 16;
 constexpr double kHalfWidth = kTaps / 2.0, kExponent = 2.3 * kTaps;
 
-/// Weights spread side by side.
+/// Points spread per batch.
 constexpr std::size_t kSpreadTogether = 128;
 
-/// The smallest length 2^a, 3 2^a or 5 2^a from `least` on, for which the transform is fast.
+/// Smallest FFT-friendly length 2^a, 3 2^a or 5 2^a that is at least `least`.
 std::size_t fast_length(std::size_t least) {
     std::size_t best = 1;
     while (best < least) best *= 2;
@@ -125,7 +125,7 @@ std::size_t fast_length(std::size_t least) {
     return best;
 }
 
-/// Exponents of the kernel on the grid points around a point, from the first on.
+/// Exponents of the kernel at the grid points around a point, starting with the first.
 void kernel_exponents(double from_first, std::span<double> out) {
     for (std::size_t tap = 0; tap < kTaps; ++tap) {
         const double z = (static_cast<double>(tap) - from_first) / kHalfWidth;
@@ -133,7 +133,7 @@ void kernel_exponents(double from_first, std::span<double> out) {
     }
 }
 
-/// Adds all weights, spread by the kernel, to grids of `length` points a turn.
+/// Spreads all weights onto grids of `length` points per turn.
 void spread_points(std::span<const double> turns, std::span<const std::vector<double>> weights,
                    std::size_t length, std::vector<std::vector<double>>& grids) {
     const auto size = static_cast<double>(length);
@@ -146,7 +146,7 @@ void spread_points(std::span<const double> turns, std::span<const std::vector<do
             require_in_range("turns", turn, -0.5, 0.5);
             const double first = std::ceil(turn * size - kHalfWidth);
             start[i] = static_cast<std::size_t>(first + size) % length;
-            kernel_exponents(std::fma(turn, size, -first),  // which keeps the place's last digits
+            kernel_exponents(std::fma(turn, size, -first),  // keeps the position's last digits
                              std::span(kernel).subspan(i * kTaps, kTaps));
         }
         const std::span used = std::span(kernel).first(count * kTaps);
@@ -157,11 +157,11 @@ void spread_points(std::span<const double> turns, std::span<const std::vector<do
                 for (std::size_t tap = 0; tap < kTaps; ++tap)
                     grids[c][start[i] + tap] += weights[c][begin + i] * kernel[i * kTaps + tap];
     }
-    for (std::vector<double>& grid : grids)  // what stands past the end belongs to the beginning
+    for (std::vector<double>& grid : grids)  // wrap around what lies past the end
         for (std::size_t tap = 0; tap < kTaps; ++tap) grid[tap] += grid[length + tap];
 }
 
-/// Transform of the kernel at k = 0 .. count - 1, by a quadrature over its width.
+/// Transform of the kernel at k = 0 .. count - 1, by quadrature over its width.
 std::vector<double> kernel_transform(std::size_t length, std::size_t count) {
     std::vector<double> angle(count), sine(count), cosine(count), result(count, 0.0);
     for (const GaussNode& node : gauss_legendre<60>()) {
@@ -199,7 +199,7 @@ std::vector<std::vector<Complex>> transform_of_points(std::span<const double> tu
     for (std::size_t c = 0; c < weights.size(); ++c) {
         fftw_execute_dft_r2c(plan, grids[c].data(), out);
         result[c].resize(count);
-        // FFTW's sign is the other one
+        // FFTW uses the opposite sign
         for (std::size_t k = 0; k < count; ++k) result[c][k] = std::conj(sums[k]) / kernel[k];
     }
     const std::scoped_lock guard(planner());

@@ -60,8 +60,8 @@ HWY_INLINE V sin_of_eighth(V x) {
 
 #else
 
-/// Coefficients of x^3, x^5 ... of the sine and of x^4, x^6 ... of the cosine on [-pi/4, pi/4], the
-/// highest first; errors below 2^-58.
+/// Coefficients of x^3, x^5 ... of the sine and of x^4, x^6 ... of the cosine on [-pi/4, pi/4],
+/// highest power first; errors below 2^-58.
 /// Source: k_sin.c and k_cos.c of FreeBSD's libm (K. C. Ng).
 constexpr double kSine[] = {1.58969099521155010221e-10, -2.50507602534068634195e-08,
                             2.75573137070700676789e-06, -1.98412698298579493134e-04,
@@ -70,10 +70,9 @@ constexpr double kCosine[] = {-1.13596475577881948265e-11, 2.0875723212981748279
                               -2.75573143513906633035e-07, 2.48015872894767294178e-05,
                               -1.38888888888741095749e-03, 4.16666666666666019037e-02};
 
-/// Sine and cosine, each within 1 ulp for |x| <= 2^40, of `count` vectors at once: step by step for
-/// all of them, so that no step waits for the one before. Subtracts the nearest multiple of pi/2 in
-/// three parts, the first without any error thanks to the fused multiply-add, and keeps what the
-/// rest lost to rounding.
+/// Sine and cosine, each within 1 ulp for |x| <= 2^40, of `count` vectors interleaved step by step
+/// to hide latency. The nearest multiple of pi/2 is subtracted in three parts, the first exactly
+/// thanks to the fused multiply-add, and the rounding error of the remainder is carried along.
 /// Source: W. J. Cody and W. Waite, Software Manual for the Elementary Functions (1980), ch. 8.
 template <std::size_t count>
 HWY_INLINE void sin_cos(const V* HWY_RESTRICT x, SinCos* HWY_RESTRICT out) {
@@ -81,7 +80,7 @@ HWY_INLINE void sin_cos(const V* HWY_RESTRICT x, SinCos* HWY_RESTRICT out) {
     const Lanes d;
     const hn::RebindToUnsigned<Lanes> bits;
     const hn::RebindToSigned<Lanes> integers;
-    // x 2/pi rounded to a whole number, which then stands in the low bits of `shifted`
+    // x 2/pi rounded to an integer, which ends up in the low bits of `shifted`
     const V magic = constant(0x1.8p52);
     const V part2 = constant(0x1.1a62633145c07p-54), part3 = constant(-0x1.f1976b7ed8fbcp-110);
     V shifted[count], turns[count], first[count], product[count], r[count], low[count];
@@ -145,7 +144,7 @@ HWY_INLINE V asinh(V x) {
 HWY_INLINE V atan(V x) {
     return hn::Atan(Lanes(), x);
 }
-/// Sine within 1 ulp of |x| <= pi/4, an eighth of a turn.
+/// Sine within 1 ulp for |x| <= pi/4.
 HWY_INLINE V sin_of_eighth(V x) {
     const V z = hn::Mul(x, x);
     V s = constant(kSine[0]);

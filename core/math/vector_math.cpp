@@ -1,4 +1,4 @@
-// Compiled once for every instruction set: this file includes itself through foreach_target.h.
+// Compiled once per instruction set: this file includes itself through foreach_target.h.
 #include "core/math/vector_math.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace irido::HWY_NAMESPACE {
 
-/// Calls f on whole vectors, the last one padded with zeros.
+/// Calls f on full vectors, the last one padded with zeros.
 template <class F>
 HWY_ATTR void for_each_vector(std::span<const double> x, const F& f) {
     const std::size_t step = hn::Lanes(Lanes());

@@ -7,24 +7,26 @@
 
 namespace irido {
 
-/// Sine and cosine of many angles, radians, |x| <= 2^40, each within 1 ulp.
-/// `sine` and `cosine` are as long as `x`.
+/// Sine and cosine of many angles in radians, |x| <= 2^40, each within 1 ulp.
+///   x             angles
+///   sine, cosine  results, as long as `x`
+///   level         instruction set to use
 void sin_cos(std::span<const double> x, std::span<double> sine, std::span<double> cosine,
              SimdLevel level);
 
-/// Floating-point operations that both take together, as counted by operations_per_point() of
+/// Floating-point operations per sine and cosine pair, as counted by operations_per_point() of
 /// vector/program.hpp.
 inline constexpr double kSinCosOperations = 33;
 
-/// exp(x) - 1 of many x <= 0, within 2 ulp.
+/// exp(x) - 1 for many x <= 0, within 2 ulp.
 void expm1(std::span<const double> x, std::span<double> out, SimdLevel level);
 
-/// Lanes of a vector.
+/// Doubles per vector.
 std::size_t lanes(SimdLevel level);
 
-/// Does `count` fused multiply-adds of whole vectors (of plain doubles where there are none), as
-/// many at a time as hide their latency: the measure of what a core can do. The result depends on
-/// all of them.
+/// Performs `count` fused multiply-adds of full vectors (scalars if the level has none), with
+/// enough of them in flight to hide their latency: a measure of a core's peak throughput. The
+/// result depends on all of them.
 double multiply_adds(std::uint64_t count, SimdLevel level);
 
 }  // namespace irido

@@ -1,10 +1,10 @@
 #pragma once
 
-/// Instruction sets that Highway compiles the vector code for: SimdLevel has one name for each.
-/// Its own dispatch is not used, so nothing of its library is linked and the level is an argument.
+/// Instruction sets that Highway compiles the vector code for, one per SimdLevel. Highway's own
+/// dispatch is not used, so its library is not linked and the level is an argument.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 
-/// The instance of a function in irido::HWY_NAMESPACE for a SimdLevel.
+/// Selects the instance of a function in irido::HWY_NAMESPACE for a SimdLevel.
 #if defined(__x86_64__)
 #define IRIDO_DISPATCH(level, function)                        \
     ((level) == SimdLevel::avx512 ? &::irido::N_AVX3::function \

@@ -27,7 +27,7 @@ Complex whole_power(Complex x, std::uint64_t n) {
     return result;
 }
 
-/// cos NKL and sin NKL / sin KL of a band; scaled alike in a gap.
+/// cos NKL and sin NKL / sin KL in a band; in a gap, both times a common factor.
 struct Periods {
     double cosine, U;
     double log_scale;
@@ -40,7 +40,7 @@ Periods periods(const BlochPoint& at, std::uint64_t repeat) {
         const Complex z = whole_power({at.cos2 - at.sin2, sine}, repeat);
         return {z.real(), z.imag() / sine, 0};
     }
-    // cos KL = cosh kappa, or -cosh kappa, which changes the sign of the matrix and of u and v
+    // cos KL = cosh kappa, or -cosh kappa, which flips the sign of the matrix and of u and v
     const double x = std::max(0.0, -std::min(at.sin2, at.cos2));
     const double kappa = 2 * std::asinh(std::sqrt(x)), sinh_kappa = 2 * std::sqrt(x * (1 + x));
     const double e = std::exp(-2 * N * kappa);
@@ -105,7 +105,7 @@ BlochSeries bloch_series(const BlochMirror& mirror, double omega_per_nm) {
     const BlochPoint at = bloch_point(mirror, omega_per_nm);
     const double sine = 2 * std::sqrt(std::max(0.0, at.sin2) * std::max(0.0, at.cos2));
     const double P = mirror.Y_in + mirror.Y_out;
-    // all times sin(KL)^2 / (4 Y_in Y_out)
+    // all scaled by sin(KL)^2 / (4 Y_in Y_out)
     const double p = P * sine, A = (p * p + at.u * at.u + at.v * at.v) / 2, root = p * at.v;
     const Complex B{(p * p - at.u * at.u - at.v * at.v) / 2, -p * at.u};
     return {4 * mirror.Y_in * mirror.Y_out * sine / (P * at.v),

@@ -19,8 +19,8 @@ double total_path(const BraggPeriod& period) {
     return period.path1_nm + period.path2_nm;
 }
 
-/// Where the Bloch phase of order M would pass without the reflection at the interfaces, told by
-/// the share w <= 1/2 of the smaller path: M w = whole + phi / pi.
+/// Bloch phase of order M in the absence of interface reflections, in terms of the share w <= 1/2
+/// of the shorter path: M w = integer + phi / pi.
 struct Detuning {
     double share;  ///< w
     double phi;    ///< [-pi/2, pi/2]; 0 where the gap of order M is closed
@@ -36,14 +36,18 @@ Detuning detuning(const BraggPeriod& period, double order) {
     return {share, is_closed ? 0 : kPi * rest, std::fmod(whole, 2) != 0};
 }
 
-/// The root in [0, pi/2] of sin(delta) = rho sin(phi - side (1 - 2w) delta), rho = x / (x + 2),
-/// phi in [0, pi/2], side +1 or -1: with alpha = phi/2 + side w delta and beta = side delta - alpha
-/// that is
+/// The root in [0, pi/2] of sin(delta) = rho sin(phi - side (1 - 2w) delta), rho = x / (x + 2), phi
+/// in [0, pi/2], side +1 or -1. With alpha = phi/2 + side w delta and beta = side delta - alpha
+/// this becomes
 ///     f(delta) = side sin(alpha + beta) + x (side > 0 ? cos(alpha) sin(beta)
 ///                                                     : -sin(alpha) cos(beta)) = 0,
-/// in which nothing cancels that its root could feel: neither when rho is nearly 0 or 1, nor when
-/// w is small. f(0) <= 0 <= f(pi/2), and the root is simple.
-/// `step` is the relative size of a Newton step that is the last one.
+/// free of any cancellation that would affect the root, whether rho is close to 0 or 1 or w is
+/// small. f(0) <= 0 <= f(pi/2), and the root is simple.
+///   x              contrast, >= 0
+///   w              share of the shorter path, [0, 1/2]
+///   phi            detuning, [0, pi/2]
+///   positive_side  whether side is +1
+///   step           relative size of a Newton step at which the iteration stops
 double deviation(double x, double w, double phi, bool positive_side, double step) {
     if (x == 0 || phi == 0) return 0;
     double low = 0, high = kPi / 2;
@@ -66,15 +70,16 @@ double deviation(double x, double w, double phi, bool positive_side, double step
     return delta;
 }
 
-/// t = order pi/2 + delta, delta the root in [-pi/2, pi/2] of sin(delta) = +-rho sin(phi -
-/// (1 - 2w) delta) for any phi: its size is found on the side on which everything is positive.
+/// t = order pi/2 + delta, with delta the root in [-pi/2, pi/2] of
+///     sin(delta) = +-rho sin(phi - (1 - 2w) delta)
+/// for phi of either sign: its magnitude is found with all signs positive.
 double total_phase(double x, const Detuning& at, double order, bool negative,
                    double step = kRounding) {
     const double size = deviation(x, at.share, std::abs(at.phi), !negative, step);
     double t = order * (kPi / 2) + ((at.phi < 0) == negative ? size : -size);
     if (order != 1 || t >= 1) return t;
-    // only this one can be near 0, at a high contrast: there cos(wt) cos(t - wt) and
-    // (x + 1) sin(wt) sin(t - wt) are equal
+    // only here can t be near 0, at high contrast: there cos(wt) cos(t - wt) equals
+    // (x + 1) sin(wt) sin(t - wt)
     for (int i = 0; i < 3; ++i) {
         const double alpha = at.share * t, beta = (1 - at.share) * t;
         const double f =
@@ -87,18 +92,18 @@ double total_phase(double x, const Detuning& at, double order, bool negative,
     return t;
 }
 
-/// Relative size of the step that is the last one; most of them square the error.
+/// Relative size of the last step; most steps square the error.
 double last_step(Roots roots) {
     return roots == Roots::exact ? kRounding : 1e-10;
 }
 
-/// max(q, 1/q) - 1; 0 if that is what q's own roundings make of 1.
+/// max(q, 1/q) - 1, or 0 if that is within the rounding errors of q.
 double contrast(double q) {
     const double excess = q < 1 ? (1 - q) / q : q - 1;
     return excess <= 16 * kRounding ? 0 : excess;
 }
 
-/// The omega for which of(omega) = omega. `of` is positive and bounded.
+/// The fixed point of(omega) = omega. `of` is positive and bounded.
 template <class Of>
 double self_consistent(const Of& of) {
     double x = of(1e-2);
@@ -113,7 +118,7 @@ double self_consistent(const Of& of) {
     }
     double above = of(low) - low, below = of(high) - high;
     for (int i = 0; i < 300 && above > 0 && below < 0; ++i) {
-        // a secant through both ends, every third time their middle
+        // secant through both ends, bisection every third step
         x = i % 3 == 2 ? low + (high - low) / 2 : low + (high - low) * (above / (above - below));
         if (!(x > low && x < high)) x = low + (high - low) / 2;
         if (!(x > low && x < high)) return low;
@@ -125,14 +130,14 @@ double self_consistent(const Of& of) {
     return above > 0 ? high : low;
 }
 
-/// Smallest and largest omega path / pi in a range.
+/// Smallest and largest omega path / pi over a range.
 struct TurnRange {
     double least = std::numeric_limits<double>::infinity();
     double most = 0;
 };
 
-/// Landmarks are where the phases say only if both grow with omega. Looked at somewhat beyond the
-/// range too, where ends of gaps are, as far as there is a period.
+/// Throws unless both phases increase with omega, as the landmark formulas assume. Gap edges may
+/// lie outside the range, so it is checked somewhat beyond it, wherever the period exists.
 void require_growing_phases(const PeriodAt& period, const OmegaRange& range) {
     constexpr int kSamples = 2000;
     constexpr double kBeyond = 1.5;
@@ -175,7 +180,7 @@ TurnRange turns_in(const PeriodAt& period, const OmegaRange& range, const Path& 
     return result;
 }
 
-/// The whole numbers below and above.
+/// The integers just below and above.
 std::int64_t first_order(double turns, std::int64_t least) {
     return std::max(least, static_cast<std::int64_t>(std::floor(turns)));
 }
@@ -216,8 +221,8 @@ double omega_of_zero(const BraggPeriod& period, double order) {
     return order * kPi / period.path2_nm;
 }
 
-// With h = (a + b)/2 = M pi/4 + delta/2 and Q = (q + 1/q)/2, cos KL = 0 reads cos 2h = R cos 2g,
-// R = (Q - 1)/(Q + 1), and that sin(delta) = -+R sin(phi - (1 - 2w) delta) for M = 2m + 1.
+// With h = (a + b)/2 = M pi/4 + delta/2, Q = (q + 1/q)/2 and R = (Q - 1)/(Q + 1), cos KL = 0 reads
+// cos 2h = R cos 2g, hence sin(delta) = -+R sin(phi - (1 - 2w) delta) for M = 2m + 1.
 double omega_of_airy(const BraggPeriod& period, double order, Roots roots) {
     const double q = period.admittance_ratio;
     const Detuning at = detuning(period, 2 * order + 1);
@@ -225,8 +230,8 @@ double omega_of_airy(const BraggPeriod& period, double order, Roots roots) {
     return total_phase(x, at, 2 * order + 1, !at.odd_whole, last_step(roots)) / total_path(period);
 }
 
-// cos KL = 1 where sin h = +-r sin g, cos KL = -1 where cos h = +-r cos g, r = (q - 1)/(q + 1);
-// with h = m pi/2 + delta both are sin(delta) = +-r sin(phi - (1 - 2w) delta), one root for each
+// cos KL = 1 where sin h = +-r sin g, cos KL = -1 where cos h = +-r cos g, r = (q - 1)/(q + 1).
+// With h = m pi/2 + delta both become sin(delta) = +-r sin(phi - (1 - 2w) delta), with one root per
 // sign.
 BandGap band_gap(const BraggPeriod& period, double order, Roots roots) {
     const double x = contrast(period.admittance_ratio);

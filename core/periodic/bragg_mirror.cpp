@@ -17,7 +17,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kLargestK = 0.1;
 
-/// The same layers without groups that stand once.
+/// Elements with every group of one repetition dissolved into its layers.
 std::vector<Element> without_single_groups(const std::vector<Element>& elements) {
     std::vector<Element> result;
     for (const Element& element : elements) {
@@ -144,7 +144,7 @@ BraggMirror::Periods BraggMirror::periods_needed(double angle_deg, Polarization 
             while (high < kMost && R(high) < kReflectances[level]) high = std::min(2 * high, kMost);
             if (R(high) < kReflectances[level]) break;
         } catch (const DomainError&) {
-            break;  // a spread thickness has no mean over so many periods
+            break;  // with a thickness distribution, so many periods have no mean
         }
         while (high - low > 1) {
             const std::uint64_t middle = low + (high - low) / 2;

@@ -6,8 +6,8 @@
 
 namespace irido {
 
-/// Draws directions, those that are brighter more often: from cells of equal solid angle, by their
-/// mean radiance at a few points. Every direction may be drawn. Safe from many threads.
+/// Samples directions in proportion to brightness: from cells of equal solid angle, by their mean
+/// radiance at a few points. Every direction has nonzero probability. Thread-safe.
 class EnvironmentSampler {
 public:
     explicit EnvironmentSampler(const Environment& environment);

@@ -4,7 +4,7 @@
 
 namespace irido {
 
-/// How a rough surface reflects light from one direction towards another: GGX facets with separable
+/// Reflection by a rough surface from one direction towards another: GGX facets with separable
 /// masking, BRDF D G1 G1 R / (4 cos cos).
 struct FacetLight {
     double cosine = 1;        ///< of the angle of incidence on the facets concerned
@@ -18,8 +18,12 @@ struct FacetLight {
 ///   alpha   [1e-4, 1]
 FacetLight facet_light(const Vector3& normal, const Vector3& to, const Vector3& from, double alpha);
 
-/// A direction where light may come from, mirrored by a facet that is drawn among those which `to`
-/// sees; it may lie below the surface. u, v in (0, 1), others as above.
+/// Direction of incidence mirrored by a random facet visible from `to`; it may lie below the
+/// surface.
+///   normal  of the surface, of unit length
+///   to      where the light goes, of unit length, above the surface
+///   alpha   roughness, [1e-4, 1]
+///   u, v    random numbers in (0, 1)
 /// Source: E. Heitz, Sampling the GGX distribution of visible normals, JCGT 7(4), 1 (2018).
 Vector3 facet_direction(const Vector3& normal, const Vector3& to, double alpha, double u, double v);
 

@@ -7,7 +7,7 @@
 
 namespace irido {
 
-/// The part of a surface's angles and thicknesses that a picture shows.
+/// The range of angles and thicknesses of a surface that a picture shows.
 struct ShownRange {
     double least_cosine = 0, largest_cosine = 1;  ///< of the angle of incidence, within [0, 1]
     double least_nm = 0, largest_nm = 0;          ///< of the thickness that varies
@@ -30,13 +30,12 @@ public:
         ShownRange range;
         std::size_t channels = 3;
         double tolerance = 0.1;
-        std::size_t most_samples = 0;  ///< above which a table does not pay
+        std::size_t most_samples = 0;  ///< limit beyond which a table does not pay off
         unsigned threads = 1;
     };
 
-    /// Refines both axes until interpolation between the samples errs by less than the tolerance,
-    /// measured in the middle of cells. Ends without success (is_good() is false) if that takes
-    /// more samples than the plan allows.
+    /// Refines both axes until the interpolation error, measured at cell centres, is below the
+    /// tolerance. Gives up (is_good() is false) if that takes more samples than the plan allows.
     GridTable(const Plan& plan, const Function& function, const Distance& distance);
 
     bool is_good() const { return is_good_; }

@@ -25,30 +25,30 @@
 //     x   = cos theta_h = cos ti cos td + sin ti sin td cos psi
 //     c_o = cos theta_o = cos ti cos 2td + sin ti sin 2td cos psi     (o is i turned by 2 td)
 //
-// R depends on td alone, so E = integral R(td) W(td) dtd, and any quantity that is linear in R,
-// such as X, Y and Z, goes the same way:
+// R depends on td alone, so E = integral R(td) W(td) dtd, and any quantity linear in R, such as X,
+// Y and Z, is integrated the same way:
 //
 //     W = 2 cos td sin td integral_0^psi_max D(x) (G2 / cos ti) dpsi
 //     G2 / cos ti = 2 c_o / (c_o A_i + cos ti A_o),   A = sqrt(alpha^2 + (1 - alpha^2) cos^2)
 //
-// psi ends where o goes below the surface, c_o = 0: at tan^2(psi_max/2) = cos(ti - 2td) :
-// -cos(ti + 2td). It is pi as long as ti + 2 td <= 90 degrees, and W ends at td = (90 + ti)/2.
-// There x > 0 wherever c_o > 0, since x = (cos ti + c_o)/(2 cos td).
+// psi ends where o drops below the surface, c_o = 0: at tan^2(psi_max/2) = cos(ti - 2td) : -cos(ti
+// + 2td). It reaches pi as long as ti + 2 td <= 90 degrees, and W ends at td = (90 + ti)/2. There x
+// > 0 wherever c_o > 0, since x = (cos ti + c_o)/(2 cos td).
 //
-// As functions of psi: D has a pole at psi = 2 i artanh(sqrt(P-/M-)) with filter.hpp's P- and M-,
-// and G2 branches where c_o = +-i alpha / s and where c_o = -cos ti. As a function of td, W peaks
-// at td = ti within alpha, and near both ends of its second part it goes as a power 3/2 of the
-// distance; with td = t0 + (t1 - t0) sin^2 phi it is smooth.
+// As functions of psi, D has a pole at psi = 2 i artanh(sqrt(P-/M-)) with filter.hpp's P- and M-,
+// and G2 has branch points where c_o = +-i alpha / s and where c_o = -cos ti. As a function of td,
+// W has a peak of width alpha at td = ti, and near both ends of its second part it behaves as the
+// power 3/2 of the distance; it is smooth in phi with td = t0 + (t1 - t0) sin^2 phi.
 
 namespace irido {
 
 namespace {
 
-/// Angles from grazing, radians, below which the features of G2 are not followed: they are that
-/// narrow themselves.
+/// Angle from grazing, radians, below which the features of G2 are not resolved: they affect only
+/// as narrow a range.
 constexpr double kNarrowest = 1e-6;
 
-/// Of E, from the nodes alone: 1e-12 measured at grazing, less elsewhere.
+/// Error of E due to the nodes alone: 1e-12 measured at grazing, less elsewhere.
 constexpr double kNodesError = 1e-11;
 
 }  // namespace
@@ -71,7 +71,7 @@ AlbedoNodes::AlbedoNodes(double alpha, double theta_i_deg)
                                        Feature{whole_deg_, narrow}};
     before_ = graded_panels(0, whole_deg_, first);
     if (theta_i_deg == 0) return;
-    // the same places in phi, and the logarithm at theta_d = 0
+    // the same features in phi, and the logarithm at theta_d = 0
     std::vector<Feature> second;
     for (const auto& [at, width] : {Feature{theta_i_deg, wide}, Feature{whole_deg_, narrow},
                                     Feature{end_deg_, narrow}, Feature{0, 0}}) {
@@ -143,7 +143,7 @@ WeightedAngles AlbedoNodes::operator()(double begin_deg, double end_deg) const {
 RoughAlbedo::RoughAlbedo(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
                          unsigned threads)
     : colors_([&] {
-          // the series cannot be better than its colours
+          // the series cannot be more accurate than its colours
           ColorRequest exactly = request;
           exactly.sides = {Side::reflected};
           exactly.tolerance = std::max(1e-12, 0.1 * request.tolerance);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr unsigned kFirstLevel = 3, kLastLevel = 30;
 
-/// Angles of a panel, from its end to its begin.
+/// Nodes of a panel, from its end to its beginning.
 std::array<double, AngleSeries::kPanelDegree + 1> nodes_of(const AngleSeries::Panel& panel) {
     const double begin = panel.begin_deg(), end = panel.end_deg();
     std::array<double, AngleSeries::kPanelDegree + 1> nodes;
@@ -32,7 +32,7 @@ double last_of(const AngleSeries::Coefficients& series) {
 }
 
 double sum_of_products(const AngleSeries::Coefficients& a, const AngleSeries::Coefficients& b) {
-    // four sums, so that no step waits for the one before
+    // four partial sums, to hide latency
     std::array<double, 4> sums{a[AngleSeries::kPanelDegree] * b[AngleSeries::kPanelDegree], 0, 0,
                                0};
     for (std::size_t k = 0; k < AngleSeries::kPanelDegree; k += 4)
@@ -40,7 +40,7 @@ double sum_of_products(const AngleSeries::Coefficients& a, const AngleSeries::Co
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// T_0 .. T_16 at x, times a weight.
+/// Adds weight T_k(x), k = 0 .. 16.
 void add_polynomials(double x, double weight, AngleSeries::Coefficients& to) {
     double before = weight, now = weight * x;
     to[0] += before;
@@ -187,7 +187,7 @@ std::vector<double> graded_panels(double begin, double end, std::span<const Feat
         for (const auto& [at, width] : features)
             step =
                 std::min(step, x < at ? std::max(width, 0.5 * (width + at - x)) : width + x - at);
-        // the last panel is not left too narrow to be told from the one before
+        // do not leave a last panel too narrow to be distinguished
         const double next = x + step;
         ends.push_back(next < end && next > x ? next : end);
     }

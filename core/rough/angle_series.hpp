@@ -14,7 +14,7 @@
 
 namespace irido {
 
-/// Quadrature nodes, theta in degrees, and their weights, those of a weight function times dtheta.
+/// Quadrature nodes theta in degrees, with weights that include the weight function and dtheta.
 struct WeightedAngles {
     std::vector<double> theta_deg, weight;
 };
@@ -30,7 +30,7 @@ public:
         std::uint64_t index = 0;
         double begin_deg() const;
         double end_deg() const;
-        /// Its place among all panels, as in a binary heap.
+        /// Index among all panels, numbered as in a binary heap.
         std::uint64_t key() const { return (std::uint64_t{1} << level) + index; }
     };
 
@@ -50,12 +50,12 @@ public:
     const Coefficients& coefficients(std::size_t panel, std::size_t function) const {
         return coefficients_[panel * functions_ + function];
     }
-    /// Estimate of the series' largest error on a panel: the sum of its last three coefficients.
+    /// Error estimate of a function's series on a panel: the sum of its last three coefficients.
     double error(std::size_t panel, std::size_t function) const;
     double value(std::size_t function, double theta_deg) const;
     /// Values of all functions.
     void values(double theta_deg, std::span<double> out) const;
-    /// The largest error() of all functions on the panel of this angle.
+    /// Largest error() of all functions on the panel that contains the angle.
     double error_at(double theta_deg) const;
 
 private:
@@ -68,20 +68,20 @@ private:
     std::vector<Coefficients> coefficients_;
 };
 
-/// Integrals of a weight times T_0 .. T_16 of panels, made once for each panel: what one weight
-/// takes of any number of series.
+/// Integrals of a weight times T_0 .. T_16 on each panel, computed once per panel: all that
+/// integrals of any number of series against this weight need.
 class AngleMoments {
 public:
     using Nodes = std::function<WeightedAngles(double begin_deg, double end_deg)>;
-    /// nodes(begin, end)  of the weight between two angles
+    /// `nodes` returns the weight's quadrature nodes between two angles.
     explicit AngleMoments(Nodes nodes) : nodes_(std::move(nodes)) {}
 
     struct Integral {
         double value = 0;
-        double error = 0;   ///< by the series
+        double error = 0;   ///< due to the series
         double weight = 0;  ///< integral of the weight alone
     };
-    /// Integral of weight times function.
+    /// Integral of the weight times a function.
     Integral operator()(const AngleSeries& series, std::size_t function);
     /// The values of functions, as many as there is room for, from `first` on.
     void values(const AngleSeries& series, std::size_t first, std::span<double> out);
@@ -93,13 +93,13 @@ private:
     std::unordered_map<std::uint64_t, AngleSeries::Coefficients> moments_;  ///< by key
 };
 
-/// A place near which a function varies within `width`: a pole or branch point beside the axis.
+/// A place where a function varies on the scale of `width`: a pole or branch point near the axis.
 struct Feature {
     double at, width;
 };
 
-/// Ends of panels from begin to end, none wider than its distance to any feature, so that a Gauss
-/// rule of 16 nodes converges beyond rounding on each.
+/// Panel boundaries from begin to end, no panel wider than its distance to any feature, so that a
+/// 16-point Gauss rule converges to rounding on each.
 std::vector<double> graded_panels(double begin, double end, std::span<const Feature> features);
 
 /// Calls add(x, weight) at the Gauss nodes of all panels inside [begin, end], of a rule of `points`

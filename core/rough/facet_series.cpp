@@ -10,10 +10,10 @@ namespace irido {
 
 namespace {
 
-/// Of R and T, absolute.
+/// Absolute tolerance of R and T.
 constexpr double kSeriesTolerance = 1e-10;
 
-/// Of one side at one point.
+/// Power of one side at one point, for the light's polarization.
 double mean_power(const Spectra& out, Side side, Light light, bool is_normal, std::size_t point) {
     const std::vector<double>& s = side == Side::reflected ? out.s.R : out.s.T;
     const std::vector<double>& p = side == Side::reflected ? out.p.R : out.p.T;

@@ -12,24 +12,27 @@
 
 namespace irido {
 
-/// R and T of a stack over the angle of incidence, the facets' theta_d in rough layers: what a
-/// roughness then makes of them are moments. Each wavelength's series adapts to it alone and is
-/// made once. Safe from many threads; a value depends on its own arguments only.
+/// R and T of a stack as a function of the angle of incidence, which is theta_d of the facets in a
+/// rough layer; roughness then enters as moments. Each wavelength's series adapts independently and
+/// is computed once. Thread-safe; values depend on their own arguments only.
 class FacetSeries {
 public:
     /// Throws DomainError as StackPower does.
+    ///   stack  of the facets
+    ///   light  polarization
+    ///   sides  functions of the series, in this order
+    ///   simd   instruction set
     FacetSeries(Stack stack, Light light, std::vector<Side> sides, SimdLevel simd);
 
-    /// Computes the series of wavelengths that will be asked for. Throws DomainError as IndexTable
-    /// does.
+    /// Computes the series of wavelengths needed later. Throws DomainError as IndexTable does.
     void prepare(std::span<const double> wavelength_nm, unsigned threads) const;
 
-    /// The functions are the sides, in their order; their error is far below 1e-10.
+    /// Series whose functions are the sides, in order; their error is far below 1e-10.
     std::shared_ptr<const AngleSeries> operator()(double wavelength_nm) const;
     std::vector<std::shared_ptr<const AngleSeries>> operator()(
         std::span<const double> wavelength_nm) const;
 
-    /// Values [side][angle][wavelength] without a series; angles in [0, 90] degrees.
+    /// Values [side][angle][wavelength] computed directly; angles in [0, 90] degrees.
     std::vector<double> values(std::span<const double> theta_deg,
                                const std::vector<double>& wavelength_nm) const;
 

@@ -21,7 +21,7 @@ double checked(const char* name, double theta_deg) {
     return theta_deg;
 }
 
-/// J1 + J2 of one sign of x. `end` is s sqrt(A B), with the sign of -q; `slope` is sqrt(A B) / A.
+/// J1 + J2 for one sign of x. `end` is s sqrt(A B) with the sign of -q; `slope` is sqrt(A B) / A.
 double both_integrals(double P, double M, double end, double slope) {
     const double PM = P * M, root = std::sqrt(PM);
     const double J1 = (kPi - 2 * std::atan(P * slope / root)) / root;
@@ -90,7 +90,7 @@ TransmissionFilter::Rings TransmissionFilter::rings(const HalfAngles& i,
     const double M_minus = rest_ + 2 * s_ * sin_sum * sin_sum;
     const double M_plus = rest_ + 2 * s_ * cos_sum * cos_sum;
 
-    // sin(ti + td - 90) = 2 sin cos of half of it
+    // sin(ti + td - 90) as 2 sin cos of half the angle
     const double past = (std::max(i.deg, d.deg) - 90) + std::min(i.deg, d.deg);
     const double B =
         std::max(0.0, std::numbers::sqrt2 * std::sin(past * kHalfDegree) * (sin_sum + cos_sum));

@@ -23,12 +23,12 @@ FilterNodes::FilterNodes(const TransmissionFilter& filter, double theta_i_deg, S
       kink_deg_(90 - theta_i_deg),
       simd_(simd),
       facets_(facets) {
-    // where P- and M- are zero, at least as far from the axis as alpha
+    // zeros of P- and M-, at least alpha away from the axis
     const double alpha_deg = filter.alpha() / kDegree;
     const std::array<Feature, 2> peaks{Feature{theta_i_deg, alpha_deg},
                                        Feature{-theta_i_deg, alpha_deg}};
     if (facets == Facets::seen) before_ = graded_panels(0, kink_deg_, peaks);
-    // the same, M+ and the logarithm at theta_d = 0 in the plane of v
+    // the same, and M+ and the logarithm at theta_d = 0, in the plane of v
     const std::array<Feature, 3> past{
         feature_at(std::sqrt(Complex(theta_i_deg - kink_deg_, alpha_deg))),
         feature_at(std::sqrt(Complex(180 - theta_i_deg - kink_deg_, alpha_deg))),

@@ -1,4 +1,4 @@
-// Compiled once for every instruction set: this file includes itself through foreach_target.h.
+// Compiled once per instruction set: this file includes itself through foreach_target.h.
 #include "core/rough/filter_row.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ HWY_INLINE V both_integrals(V P, V M, V end, V slope, bool is_cut) {
     return hn::MulAdd(hn::MulAdd(p, J1, end), inverse, J1);
 }
 
-/// F_alpha of one vector of theta_d.
+/// F_alpha for one vector of theta_d.
 HWY_INLINE V filter(const FilterRow& row, const FilterAxis& axis, std::size_t at) {
     const Lanes d;
     const auto load = [&](const double* from) HWY_ATTR { return hn::LoadU(d, from + at); };

@@ -4,11 +4,11 @@
 
 namespace irido {
 
-/// How scratches and what they are scratched into share the light.
+/// How scratches and the surface they are in share the light.
 enum class ScratchEnergy {
     balanced,  ///< nothing gained or lost, see below
     blend,     ///< VWH18: the base times 1 - rho with their rho, twice the area (eqs. 17 and 18)
-    none,      ///< both as if the other were not there
+    none,      ///< each as if the other did not exist
 };
 
 /// One kind of groove: its share rho of the area, and its path v at the mirror direction.

@@ -7,7 +7,7 @@
 
 namespace irido {
 
-/// What a number is drawn from, evenly; low = high for one value.
+/// Range of a uniformly distributed number; low = high for a fixed value.
 struct DrawnRange {
     double low = 0, high = 0;
 };
@@ -21,14 +21,18 @@ struct ScratchField {
     DrawnRange angle_deg{-180, 180};
 };
 
-/// Throws DomainError, which names the member, unless all members are in their ranges.
+/// Throws DomainError naming the member unless all members are in range.
 void require_valid(const ScratchField& field);
 
 /// All scratches of a field whose axis comes nearer than `radius_um` to a point, ordered by cell.
-/// A scratch is drawn from the seed, the field's number and the cell of 1 mm in which its middle
-/// lies, so every extent sees the same scratches, on every machine.
-///   field number in [0, 65535];  |x|, |y| <= 1e9 um;  radius_um [0, 1e7]; at most kMostDrawn
-///   draws, else DomainError
+/// A scratch is drawn from the seed, the field's number and the 1 mm cell that contains its middle,
+/// so every query sees the same scratches, on every machine. Throws DomainError for an argument out
+/// of range or more than kMostDrawn draws.
+///   field         distribution of the scratches
+///   seed          of the random numbers
+///   field_number  [0, 65535]
+///   at            the point, |x|, |y| <= 1e9 um
+///   radius_um     [0, 1e7]
 std::vector<Scratch> scratches_near(const ScratchField& field, std::uint64_t seed,
                                     std::uint32_t field_number, SurfacePoint at, double radius_um);
 inline constexpr double kMostDrawn = 5e7;

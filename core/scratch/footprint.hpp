@@ -14,7 +14,7 @@ struct Footprint {
     double angle_deg = 0;         ///< [-360, 360]
 };
 
-/// Throws DomainError, which names the member, unless all members are in their ranges.
+/// Throws DomainError naming the member unless all members are in range.
 void require_valid(const Footprint& footprint);
 
 /// A footprint along and across a scratch.
@@ -35,25 +35,30 @@ FootprintFrame frame_of(const Footprint& footprint, const Scratch& scratch);
 ///   offset  |s_b| <= 1e12;  half_extent  [0, 1e12], else DomainError. Error below 1e-14.
 double ellipse_mean(double offset, double half_extent);
 
-/// The same of a Gaussian of deviation tau: exp(-s_b^2/(1 + 2 tau^2))/sqrt(1 + 2 tau^2).
+/// Mean of exp(-s^2/sigma^2) over a Gaussian of deviation tau:
+///     exp(-s_b^2/(1 + 2 tau^2))/sqrt(1 + 2 tau^2).
 double gaussian_mean(double offset, double deviation);
 
-/// The sum of ellipse_mean() with n points only; for comparisons.
+/// ellipse_mean() as a sum over n points only; for comparisons.
 double ellipse_mean_by_points(double offset, double half_extent, int points);
 
 /// Length of the axis inside the ellipse, um: 2 a1 a2/h sqrt(1 - s_b^2/h^2), or 0.
 double chord_um(const FootprintFrame& frame);
 
-/// What VWH18 takes for means over an ellipse. Of |eta|^2 at xi_1 = 0, um^2, whose exact mean is
-/// 2 pi sigma^2 G, and of the area density, exactly W G/(sqrt(pi) sigma).
+/// VWH18's approximations of means over an ellipse: of |eta|^2 at xi_1 = 0 in um^2, whose exact
+/// mean is 2 pi sigma^2 G, and of the area density, exactly W G/(sqrt(pi) sigma).
 enum class FootprintFormula {
     length,            ///< eq. 15: from the length of the axis inside
     blend_as_printed,  ///< eq. 16, whose term for small footprints lacks a factor pi
     blend,             ///< eq. 16 with it
 };
+/// Their mean of |eta|^2 at xi_1 = 0, um^2.
+///   formula              one of those above
+///   footprint, scratch   in the same plane
+///   coherence_radius_um  sigma
 double published_eta2_um2(FootprintFormula formula, const Footprint& footprint,
                           const Scratch& scratch, double coherence_radius_um);
-/// Eq. 18, twice the area.
+/// Their area density, eq. 18: twice the area.
 double published_density(const Footprint& footprint, const Scratch& scratch);
 
 }  // namespace irido

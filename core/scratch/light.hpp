@@ -35,7 +35,7 @@ public:
     explicit LightCone(const AreaLight& light);
 
     std::span<const HalfSpace> half_spaces() const { return half_spaces_; }
-    /// Of a polygon, towards the vertices; none of a sphere.
+    /// Directions to the vertices of a polygon; empty for a sphere.
     std::span<const UnitVector> corners() const { return corners_; }
     /// Whether a direction above the horizon belongs to it.
     bool contains(const UnitVector& direction) const;

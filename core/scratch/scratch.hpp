@@ -46,7 +46,7 @@ struct ScratchOptics {
 
 inline constexpr double kWidest_um = 100, kDeepest_um = 100, kMostCoherent_um = 1e4;
 
-/// Throws DomainError, which names the member, unless all members are in their ranges.
+/// Throws DomainError naming the member unless all members are in range.
 void require_valid(const Scratch& scratch);
 void require_valid(const ScratchOptics& optics);
 

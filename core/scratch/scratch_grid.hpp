@@ -8,14 +8,17 @@
 
 namespace irido {
 
-/// Which scratches a place of a rectangle may see: square cells, each with the numbers of all
-/// scratches whose axis comes nearer to the cell than `reach`. One buffer of offsets and one of
-/// numbers, as an engine loads them: VWH18's lists of a triangle, for any surface with texture
-/// coordinates.
+/// Finds the scratches near a point of a rectangle: square cells, each listing all scratches whose
+/// axis comes nearer to the cell than `reach`. The offsets and the lists are two plain buffers, as
+/// an engine loads them: VWH18's per-triangle lists, for any surface with texture coordinates.
 class ScratchGrid {
 public:
-    /// width, height, cell, reach in um, (0, 1e9]; at most 2^24 cells, 2^31 entries, else
-    /// DomainError. `origin` is the corner of cell 0.
+    /// Throws DomainError for more than 2^24 cells or 2^31 entries.
+    ///   scratches            to be listed by their index
+    ///   origin               corner of cell 0
+    ///   width_um, height_um  of the rectangle, (0, 1e9]
+    ///   cell_um              side of a cell, (0, 1e9]
+    ///   reach_um             distance within which scratches are listed, (0, 1e9]
     ScratchGrid(std::span<const Scratch> scratches, SurfacePoint origin, double width_um,
                 double height_um, double cell_um, double reach_um);
 

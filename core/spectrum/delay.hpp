@@ -22,15 +22,18 @@ struct Delays {
     Delay r, t;
 };
 
-/// Phase, group delay, its dispersion and the third order of a coherent stack, by arithmetic on
-/// series in x = (w - w0)/w0 through the recursion of coherent_response(): nothing is differenced.
-/// Groups are powers by squaring. The error of the derivative of order m is about
-/// 1e-15 (tau/|a|)^m, tau the longest delay and |a| the amplitude (1 for t). A reflected amplitude
-/// below 2^-46 of the waves that it is the difference of is rounding, and counts as 0. At 90
-/// degrees t is 0, and its phase and delays are their limits.
-///   stack          coherent layers of fixed thickness;  index  index_series() of its materials
-///   wavelength_nm  vacuum, [1, 1e7]
-///   extraordinary  extraordinary_series() of its materials; may be left out where none is uniaxial
+/// Phase, group delay, group-delay dispersion and third order of a coherent stack, by power series
+/// in x = (w - w0)/w0 carried through the recursion of coherent_response(), without finite
+/// differences. Groups are raised to their power by squaring. The error of the m-th derivative is
+/// about 1e-15 (tau/|a|)^m, with tau the longest delay and |a| the amplitude (1 for t). A reflected
+/// amplitude below 2^-46 of the waves whose difference it is counts as 0. At 90 degrees t is 0, and
+/// its phase and delays are limits.
+///   stack          coherent layers of fixed thickness
+///   index          index_series() of each material
+///   wavelength_nm  in vacuum, [1, 1e7]
+///   incidence      direction of the light in the incident medium
+///   polarization   s or p
+///   extraordinary  extraordinary_series() of each material; optional if none is uniaxial
 Delays delays(const Stack& stack, std::span<const Series<Complex>> index, double wavelength_nm,
               IncidentAngle incidence, Polarization polarization,
               std::span<const Series<Complex>> extraordinary = {});

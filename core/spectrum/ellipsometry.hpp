@@ -29,16 +29,19 @@ struct Ellipsometry {
     double depolarization = 0;        ///< 1 - N^2 - C^2 - S^2, [0, 1]
 };
 
-/// Of a coherent stack.
+/// From the amplitudes of a coherent stack.
 Ellipsometry ellipsometry(Complex r_s, Complex r_p);
 
-/// Of reflectances and the mean of r_p conj(r_s), see cross_reflection():
+/// From the reflectances and the mean of r_p conj(r_s), see cross_reflection():
 ///     N = (R_s - R_p)/(R_s + R_p),   C + i S = -2 conj(K)/(R_s + R_p)
 /// and psi = atan2(sqrt(C^2 + S^2), N)/2, Delta = atan2(S, C).
 Ellipsometry ellipsometry(double R_s, double R_p, Complex cross);
 
-/// Of a stack with incoherent layers and without spread thicknesses, all its beams collected;
-/// arguments as those of StackPower's call.
+/// For a stack with incoherent layers and no thickness distribution, with all of its beams
+/// collected.
+///   stack             power of the stack
+///   media_s, media_p  for each polarization, one per material, followed by the incident medium
+///   k0                2 pi / wavelength, 1/nm
 Ellipsometry ellipsometry(const StackPower& stack, std::span<const Medium> media_s,
                           std::span<const Medium> media_p, double k0);
 

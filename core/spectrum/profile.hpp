@@ -21,11 +21,11 @@ struct FieldPoint {
     double E2() const { return Ex2 + Ey2 + Ez2; }
 };
 
-/// What one layer, or the substrate (the last one), does with the light.
+/// Absorption, penetration depth and peak field of one layer, or of the substrate (the last one).
 struct LayerProfile {
-    double absorbed = 0;                   ///< part of the incident power; 0 in a real substrate
-    std::optional<double> penetration_nm;  ///< in which the intensity of a wave falls to 1/e,
-                                           ///< none where it travels without loss
+    double absorbed = 0;                   ///< of the incident power; 0 in a real substrate
+    std::optional<double> penetration_nm;  ///< 1/e depth of a wave's intensity, none where it
+                                           ///< travels without loss
     double largest_E2 = 0, largest_at_nm = 0;
 };
 
@@ -38,11 +38,15 @@ struct LayerProfile {
 /// at the face below and what is absorbed on the way to it, an exact integral.
 class FieldProfile {
 public:
-    /// The largest number of layers, repetitions included.
+    /// Limit on the number of layers, repetitions included.
     static constexpr std::size_t kMostLayers = 100000;
 
-    ///   stack  coherent, of fixed thicknesses;   media  as of StackPower;   k0  1/nm
     /// Throws DomainError at 90 degrees, and for too many layers.
+    ///   stack         coherent, of fixed thicknesses
+    ///   media         one per material, followed by the incident medium
+    ///   k0            2 pi / wavelength, 1/nm
+    ///   at            direction of the light in the incident medium
+    ///   polarization  s or p, the one that `media` were computed for
     FieldProfile(const Stack& stack, std::span<const Medium> media, double k0, IncidentAngle at,
                  Polarization polarization);
 
@@ -51,10 +55,11 @@ public:
 
     FieldPoint at(double z_nm) const;
 
-    /// L, layers that are written in parts being one.
+    /// Number of layers, each sliced layer counted once.
     std::size_t layers() const { return listed_.empty() ? 0 : listed_.back() + 1; }
 
-    /// Of medium 1..L + 1; with the other polarization's profile, of unpolarized light.
+    /// Profile of medium 1..L + 1; given the other polarization's profile as well, that of
+    /// unpolarized light.
     LayerProfile layer(std::size_t medium, const FieldProfile* other = nullptr) const;
 
 private:

@@ -11,25 +11,24 @@
 
 namespace irido {
 
-/// What a request needs. What is false is not computed, except that quantities may come along with
-/// another one that is needed.
+/// Outputs requested. The others are not computed, unless they come along with a requested one.
 struct Needs {
-    bool s = true, p = true;  ///< if both, p is left open at normal incidence unless:
+    bool s = true, p = true;  ///< if both, p is skipped at normal incidence unless:
     bool p_at_normal = true;
     bool R = true, T = true, A = true;
-    bool amplitudes = false;    ///< r and t; of coherent stacks without spread thicknesses only
+    bool amplitudes = false;    ///< r and t; needs a coherent stack of fixed thicknesses
     bool denominators = false;  ///< of Response
     bool layers = false;        ///< absorption of every layer
 };
 
-/// Quantities of one polarization at every point, [angle][wavelength]; empty where not asked for.
+/// Results of one polarization, [angle][wavelength]; empty if not requested.
 struct Spectrum {
     std::vector<double> R, T, A;
     std::vector<Complex> r, t;
     std::vector<double> denominator_re, denominator_im, log_scale;  ///< of Response
     std::vector<double> A_layers;  ///< [layer][angle][wavelength], layers with groups written out
 
-    /// Where R, T and A were asked for.
+    /// Requires that R, T and A were requested.
     Power power(std::size_t point) const { return {R[point], T[point], A[point]}; }
 };
 
@@ -37,24 +36,30 @@ struct Spectra {
     Spectrum s, p;
 };
 
-/// How a request is computed, and what its physics makes needless.
+/// Cost report: how a request is computed, and which shortcuts its physics allows.
 struct Work {
     std::size_t points = 0;
-    SimdLevel kernel = SimdLevel::plain;  ///< plain where the vector kernel does not take the stack
+    SimdLevel kernel = SimdLevel::plain;  ///< plain if the vector kernel does not support the stack
     // of the vector kernel
-    std::size_t passes = 0;              ///< 1; more if incoherent layers part coherent blocks
-    std::size_t layers = 0;              ///< that are computed, those of a period once
-    std::size_t transparent_layers = 0;  ///< of these: in real arithmetic
-    std::size_t distinct_layers = 0;     ///< matrices computed, where that is less
+    std::size_t passes = 0;              ///< 1; more if incoherent layers separate coherent blocks
+    std::size_t layers = 0;              ///< computed, those of a period once
+    std::size_t transparent_layers = 0;  ///< of these, in real arithmetic
+    std::size_t distinct_layers = 0;     ///< matrices computed, if fewer
     std::size_t powers = 0;              ///< groups raised to their power in closed form
     std::size_t media = 0;               ///< of layers and substrate
-    std::size_t constant_media = 0;      ///< of these: angle terms once an angle
+    std::size_t constant_media = 0;      ///< of these, with angle terms computed once per angle
     bool one_film = false;               ///< the Airy sum
-    bool mirror = false;                 ///< Yeh's closed form of periods in their host
-    std::size_t normal_angles = 0;       ///< one polarization serves both
+    bool mirror = false;                 ///< closed form of an embedded mirror
+    std::size_t normal_angles = 0;       ///< where one polarization serves both
     bool absorbs = false;                ///< any layer
     double operations_per_point = 0;     ///< see vector/program.hpp
 };
+/// Cost of spectra() without computing them.
+///   stack      power of the stack
+///   table      its indices
+///   incidence  directions of the light
+///   needs      outputs requested
+///   execution  threads and instruction set
 Work work_of(const StackPower& stack, const IndexTable& table,
              std::span<const IncidentAngle> incidence, const Needs& needs,
              const Execution& execution = {1});
@@ -66,13 +71,13 @@ struct SpectrumJob {
     std::size_t begin, end;
 };
 
-/// What the layers do that a family of stacks has in common, at points of one angle.
+/// Contribution of the layers that a family of stacks shares, at points of one angle.
 struct FixedLayers {
     std::size_t points = 0;
     std::vector<double> numbers;  ///< see FixedPoints
 };
 
-/// Scratch memory of calls that follow each other on one thread; its content means nothing.
+/// Scratch buffers of one thread, reusable between calls.
 struct SpectrumMemory {
     std::vector<SpectrumJob> jobs;
     PointRun run;
@@ -84,47 +89,57 @@ struct SpectrumMemory {
     std::vector<FixedPoints> fixed_points;
 };
 
-/// A stack made ready for many calls with tables of the same materials, whose absorption and
-/// amplification is nowhere more than stated. Refers to the StackPower. Safe from many threads.
+/// A stack prepared for many calls with tables of the same materials, which absorb and amplify only
+/// where declared. Refers to the StackPower. Thread-safe.
 class SpectrumKernel {
 public:
-    ///   absorbs, amplifies  as of the IndexTables to come, one per material
-    ///   varied              elements of the stack, ascending, if these are all that update() will
-    ///                       find different: what the others do is computed apart, see
-    ///                       shares_layers()
-    /// Throws DomainError if amplitudes are needed of a stack that has none.
+    /// Throws DomainError if amplitudes are requested from a stack that has none.
+    ///   stack               must outlive this object
+    ///   absorbs, amplifies  per material, as in the IndexTables to come
+    ///   needs               outputs requested
+    ///   simd                instruction set
+    ///   varied              elements of the stack, ascending, if update() will change no others;
+    ///                       the rest is then computed separately, see shares_layers()
     SpectrumKernel(const StackPower& stack, const std::vector<bool>& absorbs,
                    const std::vector<bool>& amplifies, const Needs& needs, SimdLevel simd,
                    std::span<const std::size_t> varied = {});
 
-    /// To be called when the StackPower has become that of another stack of the same materials;
-    /// memory is used again. Throws as above.
+    /// Call after assigning another stack of the same materials to the StackPower; memory is
+    /// reused. Throws as the constructor does.
     void update();
 
-    /// Whether layers that do not vary enter as FixedLayers: where these save work, with a single
-    /// coherent block for the vector kernel, and unless the absorption of absorbing layers is
-    /// needed. Results differ from those without in roundings.
+    /// Whether layers that do not vary enter as FixedLayers: if that saves work, if the stack is a
+    /// single coherent block that the vector kernel supports, and unless the absorption of
+    /// absorbing layers is requested. Results then differ within rounding.
     bool shares_layers() const { return !fixed_.runs.empty(); }
-    /// The FixedLayers of all calls with this table and angle, whatever the varied layers.
+    /// Computes the FixedLayers shared by all calls with this table and angle.
+    ///   table      indices
+    ///   incidence  direction of the light
+    ///   out        result
+    ///   memory     scratch
     void fix_layers(const IndexTable& table, IncidentAngle incidence, FixedLayers& out,
                     SpectrumMemory& memory) const;
 
-    /// As spectra(), into memory that is used again; threads as in Execution.
+    /// spectra() into reused memory; 0 threads: one per core.
     void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                     unsigned threads, Spectra& out) const;
-    /// The same on this thread.
+    /// spectra() into reused memory, on this thread.
     void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence, Spectra& out,
                     SpectrumMemory& memory) const;
-    /// The same with the FixedLayers given, which the two above compute for themselves: one or more
-    /// for each angle, whose points add up to those of the table.
+    /// spectra() on this thread with given FixedLayers, which the calls above compute themselves.
+    ///   table      indices
+    ///   incidence  directions of the light
+    ///   fixed      one or more per angle, whose points together are those of the table
+    ///   out        results
+    ///   memory     scratch
     void operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                     std::span<const FixedLayers* const> fixed, Spectra& out,
                     SpectrumMemory& memory) const;
 
-    /// Whether the vector kernel takes the stack, but for the largest phases.
+    /// Whether the vector kernel supports the stack, except for the largest phases.
     bool is_vectorized() const { return is_vectorized_; }
 
-    /// How the call above goes about it.
+    /// How such a call is computed.
     Work work(const IndexTable& table, std::span<const IncidentAngle> incidence) const;
 
 private:
@@ -146,16 +161,20 @@ private:
     ChainProgram program_;  ///< if it is
 };
 
-/// The batch form of the kernel: a stack at all wavelengths of the table and all angles.
-///   incidence  at normal incidence both polarizations are one computation
-/// Stacks of fixed thicknesses go through the vector kernel; spread ones, A_layers and what the
-/// vector kernel leaves go through StackPower one by one. Throws DomainError if amplitudes are
-/// needed of a stack that has none, and as StackPower does.
+/// Spectra of a stack at all wavelengths of a table and all angles. Stacks of fixed thicknesses use
+/// the vector kernel; thickness distributions, A_layers and points that the vector kernel rejects
+/// go through StackPower one by one. Throws DomainError if amplitudes are requested from a stack
+/// that has none, and as StackPower does.
+///   stack      power of the stack
+///   table      its indices
+///   incidence  directions; at normal incidence both polarizations are computed as one
+///   needs      outputs requested
+///   execution  threads and instruction set
 Spectra spectra(const StackPower& stack, const IndexTable& table,
                 std::span<const IncidentAngle> incidence, const Needs& needs,
                 const Execution& execution = {1});
 
-/// The same for the cosines of the angles of incidence, [0, 1].
+/// Spectra for cosines of the angles of incidence, [0, 1].
 inline Spectra spectra(const StackPower& stack, const IndexTable& table,
                        std::span<const double> cos_theta, const Needs& needs,
                        const Execution& execution = {1}) {
@@ -163,7 +182,7 @@ inline Spectra spectra(const StackPower& stack, const IndexTable& table,
                    needs, execution);
 }
 
-/// The same into memory that is used again.
+/// Spectra into memory that is reused.
 void spectra(const StackPower& stack, const IndexTable& table,
              std::span<const IncidentAngle> incidence, const Needs& needs,
              const Execution& execution, Spectra& out);

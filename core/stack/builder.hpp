@@ -7,12 +7,12 @@
 
 namespace irido {
 
-/// A stack that is written down layer by layer, from the incident side to the substrate.
+/// Builds a stack layer by layer, from the incident side to the substrate.
 class StackBuilder {
 public:
     explicit StackBuilder(Complex incident = 1);
 
-    /// Place of the material among the stack's; equal ones are stored once.
+    /// Index of the material in Stack::materials; equal materials are stored once.
     std::size_t material(Complex index);
     std::size_t material(Material material);
 

@@ -8,31 +8,31 @@
 
 namespace irido {
 
-/// |k| below which an incident medium passes as transparent: its waves are those of a real index,
-/// and what it absorbs on its own path is not part of any answer.
+/// An incident medium with |k| below this counts as transparent: its waves are those of the real
+/// index, and its own absorption is not reported.
 inline constexpr double kTransparentBelow_k = 1e-3;
 
-/// Complex index of every material of a stack at every wavelength, computed once for all angles.
+/// Complex index of each material of a stack at each wavelength, computed once for all angles.
 class IndexTable {
 public:
-    /// Throws DomainError as index_at does, and if the incident medium's |k| is not below
-    /// kTransparentBelow_k at one of the wavelengths (a smaller k is left out there).
+    /// Throws DomainError as index_at() does, and if the incident medium's |k| reaches
+    /// kTransparentBelow_k at one of the wavelengths (a smaller k is ignored).
     IndexTable(const Stack& stack, std::vector<double> wavelength_nm);
 
-    /// Becomes the table of a stack of constant indices, given by another table of it, at other
-    /// wavelengths, which are not checked; memory is used again.
+    /// Turns this into the table of a stack of constant indices at other wavelengths (not checked),
+    /// copied from a table of that stack; reuses memory.
     void assign(const IndexTable& constant,
                 std::span<const std::vector<double>* const> wavelengths);
-    /// Becomes the parts, tables of the same stack, one after the other; memory is used again.
+    /// Concatenates tables of the same stack; reuses memory.
     void assign(std::span<const IndexTable* const> parts);
 
-    /// Other indices of one material, as many as there are wavelengths, which are not checked; they
-    /// absorb and amplify where the old ones do at most.
+    /// Replaces one material's indices, one per wavelength (not checked). They may absorb or
+    /// amplify only where the old ones did.
     void replace(std::size_t material, std::span<const Complex> index);
 
     const std::vector<double>& wavelength_nm() const { return wavelength_nm_; }
     std::size_t materials() const { return materials_; }
-    /// Real and imaginary part of one material's index at all wavelengths.
+    /// Real and imaginary part of one material's index, per wavelength.
     std::span<const double> n(std::size_t material) const { return row(n_, material); }
     std::span<const double> k(std::size_t material) const { return row(k_, material); }
     Complex index(std::size_t material, std::size_t wavelength) const {
@@ -41,18 +41,18 @@ public:
     std::size_t incident() const { return incident_; }
     /// Whether any material is uniaxial: index() is then that of s waves.
     bool is_uniaxial() const { return rows_ > materials_; }
-    /// The row of n(row) and k(row) with a material's extraordinary index: its own, or one behind
-    /// all materials.
+    /// The row of n(row) and k(row) that holds a material's extraordinary index: its own, or one
+    /// after all materials.
     std::size_t extraordinary(std::size_t material) const { return extraordinary_[material]; }
     /// 2 pi / wavelength, 1/nm.
     const std::vector<double>& k0() const { return k0_; }
-    /// Largest k0 |n + ik| of any material, 1/nm, or somewhat more.
+    /// Upper bound on k0 |n + ik| over all materials, 1/nm.
     double largest_wavenumber() const { return largest_wavenumber_; }
-    /// Whether the material has the same indices at all wavelengths.
+    /// Whether the material's indices are the same at all wavelengths.
     bool is_constant(std::size_t material) const { return constant_[material]; }
-    /// Per material: whether an index of it has an imaginary part at any wavelength.
+    /// Per material: whether any of its indices has an imaginary part.
     const std::vector<bool>& absorbs() const { return absorbs_; }
-    /// Per material: whether that is negative anywhere.
+    /// Per material: whether any of these is negative.
     const std::vector<bool>& amplifies() const { return amplifies_; }
 
 private:
@@ -63,10 +63,11 @@ private:
 
     std::vector<double> wavelength_nm_;
     std::size_t materials_, incident_;
-    std::vector<std::size_t> extraordinary_;  ///< row per material
-    std::size_t rows_;                        ///< materials, and extraordinary indices
+    std::vector<std::size_t> extraordinary_;  ///< row of each material
+    std::size_t rows_;                        ///< number of materials plus distinct extraordinary
+                                              ///< indices
     double largest_wavenumber_ = 0;
-    // n_ and k_ are [row][wavelength]; all three can be read kMostLanes past their end
+    // n_ and k_ are [row][wavelength]; all three are readable kMostLanes past their end
     std::vector<double> n_, k_, k0_;
     std::vector<bool> constant_, absorbs_, amplifies_;
 };

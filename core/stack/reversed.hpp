@@ -4,10 +4,10 @@
 
 namespace irido {
 
-/// The elements from the other side, those of groups as well. Twice is the same again.
+/// The elements seen from the other side, groups included. Its own inverse.
 std::vector<Element> reversed(const std::vector<Element>& elements);
 
-/// The stack with light from its substrate, which becomes the incident medium.
+/// The stack illuminated through its substrate, which becomes the incident medium.
 Stack reversed(Stack stack);
 
 }  // namespace irido

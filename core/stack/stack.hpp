@@ -9,32 +9,33 @@
 
 namespace irido {
 
-/// Of a layer, and of a standard deviation of it.
+/// Limit of a layer's thickness, and of the standard deviation of a thickness distribution.
 inline constexpr double kLargestThickness_nm = 1e9;
-/// Of a group.
+/// Limit of a group's repeat count.
 inline constexpr std::uint64_t kMostRepeats = 1'000'000'000;
 
 /// One homogeneous plane layer.
 struct Layer {
     std::size_t material = 0;       ///< index into Stack::materials
     double thickness_nm = 0;        ///< [0, 1e9]
-    double thickness_sigma_nm = 0;  ///< standard deviation of a Gaussian spread, [0, 1e9]
+    double thickness_sigma_nm = 0;  ///< standard deviation of a Gaussian thickness distribution,
+                                    ///< [0, 1e9]
     bool coherent = true;           ///< false: powers, not amplitudes, add across it
-    std::uint32_t part = 0;  ///< 1, 2, ... from the top, of a layer that is written in parts;
-                             ///< they are listed as one
+    std::uint32_t part = 0;  ///< 1, 2, ... from the top for the slices of one layer, which are
+                             ///< listed as one layer; else 0
     bool operator==(const Layer&) const = default;
 };
 
 struct Element;
 
-/// Layers repeated as a whole, from the incident side to the substrate.
+/// Layers repeated as a unit, from the incident side to the substrate.
 struct Group {
     std::uint64_t repeat = 1;  ///< [1, 1e9]
     std::vector<Element> elements;
     bool operator==(const Group&) const = default;
 };
 
-/// Where a layer is: the indices of elements, from the outermost to the layer itself.
+/// Position of a layer: indices into nested elements, from the outermost to the layer itself.
 using LayerPlace = std::vector<std::size_t>;
 
 struct Element {

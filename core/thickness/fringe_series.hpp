@@ -20,12 +20,13 @@ struct MeanFringes {
     double R, T;
 };
 
-/// Means over a Gaussian of thicknesses, cut at zero: the series of the round trips, each term of
-/// which is averaged in closed form. Nothing where it would take more terms than quadrature takes
-/// thicknesses, or where the layer amplifies.
+/// Means over a Gaussian thickness distribution truncated at zero: a series over round trips, each
+/// term averaged in closed form. Returns nothing if that takes more terms than quadrature takes
+/// thicknesses, or if the layer amplifies.
+///   fringes   R and T as functions of the thickness
 ///   mean_nm   [0, 1e9]
-///   sigma_nm  standard deviation before the cut, (0, 1e9]
-///   needs_T   if not, T is 0
+///   sigma_nm  standard deviation before truncation, (0, 1e9]
+///   needs_T   if false, T is returned as 0
 std::optional<MeanFringes> mean_fringes(const Fringes& fringes, double mean_nm, double sigma_nm,
                                         bool needs_T = true);
 

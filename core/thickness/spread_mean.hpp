@@ -10,25 +10,25 @@
 
 namespace irido {
 
-/// Which powers are read; others may come out as anything.
+/// Powers that are read; the others are unspecified.
 struct NeededPowers {
     bool T = true, A = true;
 };
 
-/// A layer with a spread of thickness.
+/// A layer with a thickness distribution.
 struct SpreadLayer {
     std::size_t material;
     double mean_nm, sigma_nm;
 };
 
-/// Layers and groups of which some have a spread: what does not change is worked out once.
+/// Layers and groups, some with a thickness distribution; the fixed ones are combined once.
 class MovingElements {
 public:
     MovingElements(std::span<const Element> elements, const ChainLight& light);
 
     Slab slab() const { return slab(0, pieces_.size()); }
 
-    /// The stack as a function of one of its layers, which stands in no group.
+    /// The stack as a function of one of its layers, which must not be in a group.
     ThicknessSweep sweep(const Wave& in, const Layer* layer, const Wave& out) const;
 
 private:
@@ -45,14 +45,20 @@ private:
     std::vector<Piece> pieces_;
 };
 
-/// Means over the thicknesses of all spread layers, one inside the other, each as thickness_mean()
-/// does it. The innermost one is a layer outside groups, if there is one: the rest of the stack is
-/// then worked out once for all its thicknesses (ThicknessSweep), and averaged in closed form where
-/// mean_fringes() can.
+/// Means over the thickness distributions of several layers, nested, each by thickness_mean(). The
+/// innermost is a layer outside groups, if there is one: the rest of the stack is then evaluated
+/// once for all its thicknesses (ThicknessSweep), and averaged in closed form where mean_fringes()
+/// can.
 class SpreadMean {
 public:
-    /// spread_of  for every layer of the chain with a thickness_sigma_nm, from the incident side,
-    ///            which of `spreads` it shares its deviation with
+    /// Refers to its arguments.
+    ///   chain         blocks and incoherent layers
+    ///   spreads       the thickness distributions
+    ///   spread_of     per layer of the chain with a thickness_sigma_nm, from the incident side:
+    ///                 the entry of `spreads` whose deviation it shares
+    ///   media         one per material, followed by the incident medium
+    ///   k0            2 pi / wavelength, 1/nm
+    ///   polarization  s or p, the one that `media` were computed for
     SpreadMean(const Chain& chain, std::span<const SpreadLayer> spreads,
                std::span<const std::size_t> spread_of, std::span<const Medium> media, double k0,
                Polarization polarization);
@@ -63,7 +69,7 @@ public:
 private:
     using Evaluate = std::function<Complex(std::span<double>)>;
 
-    /// A spread layer in the chain: in a block, seen in both directions, or as a gap.
+    /// A layer with a thickness distribution: in a block, for either direction, or incoherent.
     struct Place {
         std::size_t spread;
         std::size_t block;

@@ -7,17 +7,18 @@
 
 namespace irido {
 
-/// Gaussian spread of one layer's thickness, cut at zero.
+/// Gaussian distribution of one layer's thickness, truncated at zero.
 struct ThicknessSpread {
-    double mean_nm;       ///< [0, 1e9]
-    double sigma_nm;      ///< standard deviation before the cut, (0, 1e9]
-    Complex turn_per_nm;  ///< 2 k0 sqrt(q2): what a round trip through 1 nm adds to a wave's phase
+    double mean_nm;          ///< [0, 1e9]
+    double sigma_nm;         ///< standard deviation before truncation, (0, 1e9]
+    Complex turn_per_nm;     ///< 2 k0 sqrt(q2): phase per nm of thickness that a round trip adds
     bool has_phase = false;  ///< whether the function takes a phase
 };
 
-/// Values at a thickness, where a round trip through the layer has `phase` radians more than that
-/// (0 unless has_phase). Returns a number without poles whose zeros are the poles of the values:
-/// where it turns by half a turn between two thicknesses, a narrow line hides between them.
+/// Evaluates the quantities at a thickness, with `phase` radians added to each round trip through
+/// the layer (0 unless has_phase). Returns a pole-free function whose zeros are the poles of the
+/// values: if its argument changes by half a turn between two thicknesses, a narrow line lies
+/// between them.
 using ThicknessFunction =
     std::function<Complex(double thickness_nm, double phase, std::span<double> values)>;
 
@@ -25,8 +26,8 @@ using ThicknessFunction =
 /// 1e-15 times the finesse of its sharpest resonance.
 inline constexpr double kThicknessMeanError = 1e-12;
 
-/// Mean of values that depend on a layer's thickness d by its waves only, that is on
-/// exp(i turn d), and in absorbers on d.
+/// Mean of values that depend on a layer's thickness d only through its waves, that is through
+/// exp(i turn d), and in absorbers through d.
 ///   A few fringes    equally spaced thicknesses, doubled until they agree; if they do not, or
 ///                    where a line hides, panels of 21 Gauss-Kronrod points halved around it.
 ///   No absorption    a mean over one fringe, with the Gaussian wrapped around it.

@@ -5,7 +5,7 @@
 
 namespace irido {
 
-/// A layer of any thickness.
+/// A layer as a function of its thickness.
 class SweptLayer {
 public:
     SweptLayer(const Medium& medium, double k0, Polarization polarization);
@@ -14,8 +14,8 @@ public:
         LayerTurn turn;
         AbsorbedPower absorbed;  ///< zero if the medium does not absorb
     };
-    /// A round trip has `phase` radians more than the thickness says: as layer_turn() and
-    /// absorbed_power(), with Re(delta) + phase/2 for Re(delta) in all sines and cosines.
+    /// State at a thickness, with `phase` radians added to each round trip: layer_turn() and
+    /// absorbed_power() with Re(delta) + phase/2 in place of Re(delta) in all sines and cosines.
     State operator()(double thickness_nm, double phase) const;
 
     Complex kz() const { return kz_; }  ///< over k0, Im >= 0
@@ -30,20 +30,28 @@ private:
     Coupling coupling_;
 };
 
-/// A coherent stack as a function of one layer's thickness. What lies above and below is worked out
-/// once; then the fields at the top are c P + sd Q with c, sd of LayerTurn, and a thickness costs a
-/// sine and a cosine.
+/// A coherent stack as a function of one layer's thickness. The layers above and below are combined
+/// once; the fields at the top are then c P + sd Q with c, sd of LayerTurn, so that each thickness
+/// costs one sine and one cosine.
 class ThicknessSweep {
 public:
+    /// Combines the fixed layers.
+    ///   in            incident wave
+    ///   above         slab between the incident side and the layer
+    ///   layer         its medium
+    ///   below         slab between the layer and the substrate
+    ///   out           transmitted wave
+    ///   k0            2 pi / wavelength, 1/nm
+    ///   polarization  s or p, the one that media and waves were computed for
     ThicknessSweep(const Wave& in, const Slab& above, const Medium& layer, const Slab& below,
                    const Wave& out, double k0, Polarization polarization);
 
-    /// Powers and a denominator, without amplitudes; `phase` as in SweptLayer. As slab_response()
-    /// else.
+    /// Powers and denominator, without amplitudes; otherwise as slab_response(). `phase` as in
+    /// SweptLayer.
     Response operator()(double thickness_nm, double phase = 0) const;
 
-    /// R and T as functions of a round trip through the layer, without what the interference above
-    /// an absorbing incident medium takes.
+    /// R and T as functions of the layer's round trip, without the interference flux in an
+    /// absorbing incident medium.
     Fringes fringes() const;
     /// Whether any layer absorbs or amplifies.
     bool absorbs() const { return absorbs_; }
@@ -52,7 +60,7 @@ private:
     /// A part of the incident power; unit = unit_ / |sum|^2.
     double absorbed(const SweptLayer::State& at, double unit) const;
 
-    /// What both fields of a column contribute.
+    /// Contributions of one column of the layer's matrix.
     struct Column {
         Complex b, c;             ///< at the layer's upper face
         Complex sum, difference;  ///< at the top: Y0 B + C and Y0 B - C, times in.b

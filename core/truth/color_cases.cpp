@@ -9,7 +9,7 @@ namespace irido {
 
 namespace {
 
-/// 0 to 1, both ends included.
+/// Equally spaced values from 0 to 1, both included.
 std::vector<double> steps(int count) {
     std::vector<double> values(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
@@ -91,7 +91,7 @@ ColorFamily fpb24_table1(Random&) {
     return at_18_angles(fpb24_mirror(repeat, period_nm / 2.0, period_nm / 2.0));
 }
 
-/// A stack of which something goes from 0 to 1: many of them at 0 degrees, four at 0 to 80.
+/// Stacks whose parameter runs from 0 to 1: many of them at 0 degrees, four at 0 to 80.
 template <class StackAt>
 ColorFamily at_normal(int count, const StackAt& stack_at) {
     ColorFamily family{{}, {0}};
@@ -211,7 +211,7 @@ ColorFamily bragg(Random& random) {
     return at_some_angle(random, b.over(1.52));
 }
 
-/// A film of the first material, of a spread of thicknesses, on the second one, at three angles.
+/// Films of the first material over a range of thicknesses on the second, at three angles.
 ColorFamily tabulated_film(std::string_view film, double thickest_nm, std::string_view base) {
     ColorFamily family{{}, {0, 40, 70}};
     for (const double t : steps(16)) {
@@ -228,7 +228,7 @@ ColorFamily ito_glass(Random&) {
     return tabulated_film("ITO", 400, "BK7");
 }
 
-/// Silver between two oxides on glass, all of them scaled.
+/// Silver between two oxides on glass, with all thicknesses scaled together.
 ColorFamily low_e(Random&) {
     ColorFamily family{{}, {0, 40, 70}};
     for (const double t : steps(16)) {
@@ -243,7 +243,7 @@ ColorFamily low_e(Random&) {
     return family;
 }
 
-/// Six layers of a table, or of an index like it.
+/// Six layers of a tabulated index, or of a similar analytic one.
 template <bool is_table>
 ColorFamily six_oxides(Random&) {
     ColorFamily family{{}, {0, 40, 70}};

@@ -10,24 +10,24 @@
 
 namespace irido {
 
-/// Stacks of the same materials and structure, each asked at all the angles.
+/// Stacks of the same materials and structure, all evaluated at all the angles.
 struct ColorFamily {
-    std::vector<Stack> variants;  ///< they differ in their thicknesses
+    std::vector<Stack> variants;  ///< differ in thickness only
     std::vector<double> angles_deg;
 };
 
-/// Colours to compare methods with.
+/// One test case for comparing colour methods.
 struct ColorCase {
     std::string_view name;     ///< one word
-    std::string_view summary;  ///< what is asked, one line
-    bool is_set;               ///< of random stacks, each a family of one stack and one angle
+    std::string_view summary;  ///< what it tests, one line
+    bool is_set;               ///< random stacks, each a family of one stack and one angle
     ColorFamily (*make)(Random& random);
 };
 
-/// Published cases, batches and random sets, in the order in which they are reported.
+/// Published cases, batches and random sets, in reporting order.
 std::span<const ColorCase> color_cases();
 
-/// One family; of a set `count` ones, number i made from the seed + i.
+/// The families of a case: one, or for a set `count` of them, number i made from seed + i.
 std::vector<ColorFamily> color_families(const ColorCase& of, std::uint64_t count,
                                         std::uint64_t seed);
 

@@ -10,7 +10,7 @@ namespace irido {
 
 namespace {
 
-// more digits than are promised: at grazing angles and small alpha some are lost
+// more digits than promised: grazing angles and small alpha lose some
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>,
                                            boost::multiprecision::et_off>;
 

@@ -14,8 +14,8 @@ namespace {
 /// Largest double below 90.
 constexpr double kLargestReferenceAngle_deg = 0x1.67fffffffffffp+6;
 
-/// How far from the given inputs conditions are taken, in 2^-53: a kernel rounds a few times. What
-/// q2 is made of are squares, which move by twice as much.
+/// Perturbation of the inputs at which conditions are evaluated, in 2^-53: a kernel rounds a few
+/// times. q2 is built from squares, which change twice as much.
 constexpr double kShift = 4, kShiftOfSquares = 2 * kShift;
 
 using Transfer = textbook::Transfer<textbook::Digits<50>>;
@@ -85,7 +85,7 @@ std::array<ConditionedPower, 2> conditioned_power(const Stack& stack, double wav
 
 namespace {
 
-/// Layers of the elements, groups written once.
+/// Layers of the elements, each group listed once.
 void add_layers(std::span<const Element> elements, std::vector<Layer>& layers) {
     for (const Element& element : elements) {
         if (const Layer* layer = std::get_if<Layer>(&element.value)) {
@@ -127,8 +127,8 @@ std::vector<LayerPowerSlopes> reference_slopes(const Stack& stack, double wavele
 
 namespace {
 
-/// Whether f, which is positive at three points in a row and least in the middle, gets down to 0
-/// between them, by golden section.
+/// Whether f, positive at three successive points with its smallest value at the middle one, drops
+/// to 0 between them; by golden-section search.
 template <class F>
 bool reaches_zero(const F& f, double low, double middle, double high, double least) {
     constexpr double kShare = 0.3819660112501051;

@@ -17,7 +17,7 @@ double dielectric(Random& random) {
     return random.uniform(1.2, 2.7);
 }
 
-/// Nothing, or an absorption of any size.
+/// No absorption, or absorption of any magnitude.
 double some_absorption(Random& random) {
     return random.one_in(2) ? 0 : random.log_uniform(1e-12, 1);
 }
@@ -35,17 +35,17 @@ double visible(Random& random) {
     return random.uniform(380, 780);
 }
 
-/// A layer of a thickness between the two; what a case draws, it draws in the order of its lines.
+/// A layer with a thickness between the two. Cases draw their random numbers in line order.
 Element film(StackBuilder& b, Random& random, Complex index, double from_nm, double to_nm) {
     return b.layer(index, random.uniform(from_nm, to_nm));
 }
 
-/// The same with every decade as likely as any other.
+/// The same with a log-uniform thickness.
 Element any_film(StackBuilder& b, Random& random, Complex index, double from_nm, double to_nm) {
     return b.layer(index, random.log_uniform(from_nm, to_nm));
 }
 
-/// Up to three ulps away, at every second draw up to 1e-3 away.
+/// Up to three ulps away, or, in every second draw, up to 1e-3 away.
 double beside(double value, Random& random) {
     if (random.one_in(2)) {
         const double away = random.log_uniform(1e-15, 1e-3);
@@ -57,7 +57,7 @@ double beside(double value, Random& random) {
     return value;
 }
 
-/// 2 to `most`, every fourth draw `most`.
+/// 2 to `most`; every fourth draw is `most`.
 std::uint64_t many(Random& random, double most = 1e9) {
     if (random.one_in(4)) return static_cast<std::uint64_t>(most);
     return static_cast<std::uint64_t>(random.log_uniform(2, most));
@@ -81,7 +81,7 @@ StackCase grazing(Random& random) {
     return {b.over(substrate(random)), visible(random), 90 - below};
 }
 
-/// The angle in degrees at which light of n0 goes along a medium of index n < n0.
+/// Critical angle in degrees for light going from n0 into a medium of index n < n0.
 double critical_angle_deg(double n, double n0) {
     return std::asin(n / n0) * kDegrees;
 }
@@ -208,7 +208,7 @@ long double edge_factor(const Pair& pair, long double q, bool even, long double 
                 : (1 + q) * std::cos(h) + (1 - q) * std::cos(g);
 }
 
-/// Wavelength of one edge of the gap of that order, by bisection of the factor's one half-turn.
+/// Wavelength of one edge of the gap of that order, by bisection over the half turn of the factor.
 double band_edge_nm(const Pair& pair, std::size_t order, bool upper) {
     constexpr long double kPi = std::numbers::pi_v<long double>;
     const bool even = order % 2 == 0;
@@ -224,7 +224,7 @@ double band_edge_nm(const Pair& pair, std::size_t order, bool upper) {
     }
 }
 
-/// Layers of index n and thickness d; along is n0 sin(theta).
+/// Layers of indices n and thicknesses d; along is n0 sin(theta).
 Pair pair_of(const std::array<double, 2>& n, const std::array<double, 2>& d, double along, bool s) {
     std::array<double, 2> q{};
     for (std::size_t i = 0; i < 2; ++i) q[i] = std::sqrt(n[i] * n[i] - along * along);
@@ -245,7 +245,7 @@ StackCase band_edge(Random& random) {
     return {b.over(substrate(random)), beside(edge, random), angle};
 }
 
-/// A mirror in its host at any wavelength, where phases are commensurate, or at a band edge.
+/// An embedded mirror at any wavelength, at commensurate phases, or at a band edge.
 StackCase hosted_mirror(Random& random) {
     const double host = random.one_in(2) ? 1 : dielectric(random);
     const double contrast = random.one_in(4) ? random.log_uniform(1e-12, 1) : 0;
@@ -378,7 +378,7 @@ StackCase absorbing_gap(Random& random) {
     return {b.over(random.one_in(2) ? Complex(n0) : substrate(random)), visible(random), angle};
 }
 
-/// A spacer between two quarter-wave mirrors, at its resonance or beside it.
+/// A spacer between two quarter-wave mirrors, at or near its resonance.
 StackCase resonator(Random& random) {
     const double low = random.uniform(1.3, 1.6), high = random.uniform(1.8, 2.6);
     const double nm = visible(random);
@@ -407,7 +407,7 @@ StackCase small_index(Random& random) {
     return {b.over(below), visible(random), angle};
 }
 
-/// Periods of gaps past their critical angle and of what light tunnels between.
+/// Periods of layers beyond their critical angle and of others that light tunnels between.
 StackCase frustrated_mirror(Random& random) {
     const double n0 = random.uniform(1.5, 4), gap = random.uniform(1, 1.4);
     StackBuilder b(n0);
@@ -420,7 +420,7 @@ StackCase frustrated_mirror(Random& random) {
     return {b.over(random.one_in(2) ? n0 : random.uniform(1, 4)), visible(random), angle};
 }
 
-/// Groups of groups of groups, in gaps and past critical angles.
+/// Groups nested three deep, in gaps and beyond critical angles.
 StackCase nested_gaps(Random& random) {
     const bool frustrated = random.one_in(2);
     StackBuilder b(frustrated ? random.uniform(1.5, 3) : 1);
@@ -439,7 +439,7 @@ StackCase nested_gaps(Random& random) {
     return {b.over(random.uniform(1, 2.5)), visible(random), random.uniform(0, 89)};
 }
 
-/// Layers and periods exactly at the critical angle of one: 1 under 2, at 30 degrees.
+/// Layers and periods with one medium exactly at its critical angle: 1 under 2, at 30 degrees.
 StackCase critical_period(Random& random) {
     StackBuilder b(2);
     std::vector<Element> period{any_film(b, random, 1, 1, 1e4),
@@ -450,7 +450,7 @@ StackCase critical_period(Random& random) {
     return {b.over(random.one_in(2) ? 2 : random.uniform(1.2, 4)), visible(random), 30};
 }
 
-/// (H L)^N 2H (L H)^N, at its resonance and beside it.
+/// (H L)^N 2H (L H)^N, at and near its resonance.
 StackCase twin_mirrors(Random& random) {
     const double nm = random.uniform(400, 700);
     const double high = random.uniform(1.9, 2.6), low = random.uniform(1.35, 1.55);
@@ -465,7 +465,7 @@ StackCase twin_mirrors(Random& random) {
             random.one_in(2) ? nm : nm * (1 + random.log_uniform(1e-15, 1e-3)), angle};
 }
 
-/// Periods of a metal and a dielectric, T down to 1e-300.
+/// Metal-dielectric periods, T down to 1e-300.
 StackCase metal_periods(Random& random) {
     StackBuilder b;
     const Complex inside{random.uniform(0.05, 1), random.uniform(1, 7)};

@@ -8,25 +8,25 @@
 
 namespace irido {
 
-/// One question to a coherent stack.
+/// One test case for the coherent kernels.
 struct StackCase {
     Stack stack;
     double wavelength_nm = 550;
     double angle_deg = 0;
 };
 
-/// A part of what may be asked where a kernel could lose its digits, and a way to ask there.
+/// A numerically difficult region of the input space, and a sampler for it.
 struct Regime {
     std::string_view name;     ///< one word
-    std::string_view summary;  ///< what its cases are, one line
-    bool passive;              ///< nothing amplifies
+    std::string_view summary;  ///< description of its cases, one line
+    bool passive;              ///< no gain media
     StackCase (*make)(Random& random);
 };
 
-/// All regimes in the order in which they are reported.
+/// All regimes, in reporting order.
 std::span<const Regime> regimes();
 
-/// The regime of that name, nullptr if there is none.
+/// The regime of that name, or nullptr.
 const Regime* find_regime(std::string_view name);
 
 }  // namespace irido

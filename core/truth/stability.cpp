@@ -14,20 +14,20 @@ namespace irido {
 
 namespace {
 
-/// Below these, too few digits are left to compare: of subnormal T, and of A = 1 - R - T.
+/// Below these values too few digits are left to compare: of subnormal T, and of A = 1 - R - T.
 constexpr double kSmallestT = 1e-290, kSmallestA = 1e-30;
 
-/// Past this, what first derivatives say of a relative error of T is no bound: T may be 0.
+/// Beyond this, first derivatives do not bound the relative error of T: T may be 0.
 constexpr double kLargestRelativeBound = 0.5;
 
-/// Wavelengths that the vector kernel gets with the one that is compared.
+/// Wavelengths that the vector kernel evaluates at once, including the one compared.
 constexpr std::size_t kCompany = 11;
 
 using Powers = std::array<Power, 2>;  // s, p
 constexpr std::array kPolarizations{Polarization::s, Polarization::p};
 
-/// The vector kernel gets the question among wavelengths that ask for different care, at a place
-/// that varies; the plain one computes point by point.
+/// The vector kernel evaluates the case among wavelengths that take other code paths, at a random
+/// position; the plain kernel works point by point.
 Powers powers_of(const StackCase& c, Random& random, SimdLevel simd) {
     const std::size_t count = simd == SimdLevel::plain ? 1 : kCompany;
     const std::size_t place = random.below(count);
@@ -42,12 +42,12 @@ Powers powers_of(const StackCase& c, Random& random, SimdLevel simd) {
     return {at.s.power(place), at.p.power(place)};
 }
 
-/// An error with the condition that it has to be seen with; nothing to compare if absent.
+/// An error and the condition to judge it by; absent if there is nothing to compare.
 struct CaseError {
     double error = 0, condition = 0;
 };
 
-/// One polarization of one case.
+/// Errors of one case in one polarization.
 struct Answer {
     CaseError R, T, A;
     std::optional<CaseError> T_relative, A_relative;
@@ -61,13 +61,14 @@ CaseError absolute_error(double value, double exact, double condition) {
     return {std::abs(value - exact) / scale, condition / scale};
 }
 
-/// Relative, or of the logarithm where that is less: what an exponent is off by is what tells.
+/// Relative error, or that of the logarithm if smaller: for a tiny T the accuracy of its exponent
+/// is what counts.
 CaseError relative_error(double value, double exact, double condition) {
     const double relative = std::abs(value - exact) / std::abs(exact), ratio = value / exact;
     return {ratio > 1 ? std::min(relative, std::log(ratio)) : relative, condition};
 }
 
-/// One quantity of one answer.
+/// One quantity to be checked.
 struct Judged {
     std::string_view which;
     const StackCase& question;
@@ -128,7 +129,7 @@ Answer compared(const StackCase& question, Polarization polarization, const Powe
     return answer;
 }
 
-/// Different numbers for every regime and every seed.
+/// A random stream per regime and seed.
 Random random_of(const Regime& regime, std::uint64_t seed) {
     std::uint64_t key = 0xcbf29ce484222325U;  // FNV-1a of the name
     for (const char letter : regime.name)
@@ -136,7 +137,7 @@ Random random_of(const Regime& regime, std::uint64_t seed) {
     return Random(key ^ Random(seed).bits());
 }
 
-/// Both polarizations; random is for what surrounds the question.
+/// Both polarizations; `random` draws the accompanying wavelengths.
 std::array<Answer, 2> answers(const StackCase& c, bool passive, Random random, SimdLevel simd) {
     const auto exact = conditioned_power(c.stack, c.wavelength_nm, c.angle_deg);
     std::array<Answer, 2> result;
@@ -164,7 +165,7 @@ ErrorSummary summary_of(std::vector<CaseError> errors) {
     return summary;
 }
 
-/// What is wrong with an answer, "" for nothing.
+/// Description of a failure, or "".
 std::string violation_of(const Answer& answer, bool passive) {
     if (answer.refused) return passive ? "refused though nothing amplifies" : "";
     if (!answer.finite) return "not a finite number";

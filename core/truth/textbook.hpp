@@ -12,8 +12,8 @@
 
 #include "core/truth/reference.hpp"
 
-/// Transfer matrices as textbooks write them, for any real type: what reference.hpp offers, with
-/// the parts that tests put together in other ways. Shares no formula with the kernel. Internal.
+/// Textbook transfer matrices for any real type: the implementation behind reference.hpp, in parts
+/// that tests can recombine. Shares no formula with the kernel. Internal.
 /// Source: P. Yeh, Optical Waves in Layered Media (1988), section 5.1: D P D^-1 of the forward and
 /// the backward wave, kz on an explicit branch; groups by repeated squaring.
 namespace irido::textbook {
@@ -69,7 +69,7 @@ R power_of_two(std::int64_t exponent) {
     return ldexp(R(1), static_cast<int>(std::clamp(exponent, -kFarAway, kFarAway)));
 }
 
-/// kz of the wave that decays (or, where nothing decays, travels) away.
+/// kz of the outgoing wave: decaying or, without decay, travelling.
 template <class R>
 Cx<R> outgoing_root(const Cx<R>& z) {
     using std::sqrt;
@@ -83,24 +83,25 @@ Cx<R> outgoing_root(const Cx<R>& z) {
     return {z.im / (2 * v), v};
 }
 
-/// Moves inputs by some 2^-53 of themselves.
+/// Perturbs inputs by a few 2^-53 of themselves.
 class Shift {
 public:
     static Shift none() { return {}; }
-    /// Each by a random amount up to half an ulp; seed 0 not at all.
+    /// Random perturbation of each input by up to half an ulp; seed 0 leaves them unchanged.
     static Shift random(std::uint64_t seed) {
         Shift shift;
         shift.state_ = seed;
         return shift;
     }
-    /// All by that many 2^-53, so that all q2 and all phases grow (shrink if it is negative).
+    /// Perturbation by that many 2^-53 so that all q2 and all phases increase (decrease if
+    /// negative).
     static Shift along(double roundings) {
         Shift shift;
         shift.along_ = roundings * 0x1p-53;
         return shift;
     }
 
-    /// An input that makes q2 and phases grow, and one that makes them shrink.
+    /// up() for inputs that increase q2 and phases, down() for those that decrease them.
     template <class R>
     R up(const R& x) {
         return moved(x, along_);
@@ -123,8 +124,8 @@ private:
     double along_ = 0;
 };
 
-/// A medium as the waves see it. n, k and n0^2 cos^2, n0^2 sin^2 are there to tell how eps and q2
-/// depend on what was given.
+/// A medium at one angle. n, k, n0^2 cos^2 and n0^2 sin^2 are kept for the derivatives of eps and
+/// q2.
 template <class R>
 struct MediumOf {
     Cx<R> eps, q2, kz;
@@ -181,7 +182,7 @@ MatrixOf<R> transposed(const MatrixOf<R>& m) {
     return {m.a, m.c, m.b, m.d, m.exponent};
 }
 
-/// What a layer does to its waves, kz d = phase: cos and -i sin, divided by exp(decay).
+/// Propagation through a layer, phase = kz d: cos and -i sin of it, divided by exp(decay).
 template <class R>
 struct Turn {
     const MediumOf<R>* medium;
@@ -189,7 +190,7 @@ struct Turn {
     Cx<R> phase, mean, half;
 };
 
-/// Fields B and C of the wave that goes with kz.
+/// Fields B and C of the wave with that kz.
 template <class R>
 struct WaveOf {
     Cx<R> b, c;
@@ -206,7 +207,11 @@ WaveOf<R> wave(const MediumOf<R>& m, Polarization polarization) {
 template <class R>
 class Transfer {
 public:
-    /// The stack's own numbers, shifted; its materials say what their index is.
+    /// From the stack's own inputs, perturbed; indices are taken from its materials.
+    ///   stack          layers and half-spaces
+    ///   wavelength_nm  in vacuum, [1, 1e7]
+    ///   angle_deg      [0, 90)
+    ///   shift          perturbation of the inputs
     Transfer(const Stack& stack, double wavelength_nm, double angle_deg,
              Shift shift = Shift::none())
         : shift_(shift) {
@@ -227,7 +232,10 @@ public:
         add_layer_media();
     }
 
-    /// The same for media as the kernel takes them, eps and q2 exact.
+    /// From media as the kernel takes them, eps and q2 exact.
+    ///   above, below  half-spaces
+    ///   media         one per material of the stack
+    ///   k0            2 pi / wavelength, 1/nm, > 0
     Transfer(const Medium& above, const Medium& below, std::span<const Medium> media, double k0)
         : k0_(k0), above_(converted(above)), below_(converted(below)) {
         for (const Medium& m : media) media_.push_back(converted(m));
@@ -237,8 +245,8 @@ public:
     Transfer(const Transfer&) = delete;
     Transfer& operator=(const Transfer&) = delete;
 
-    /// Takes the layers that are meant from now on; they must outlive their use. The phases are
-    /// added to those of incoherent layers in their order.
+    /// Sets the current layers, which must outlive their use. `extra_phases` are added to the
+    /// phases of incoherent layers, in order.
     void set_layers(std::span<const Element> elements, std::span<const R> extra_phases = {}) {
         elements_ = elements;
         turns_.clear();
@@ -253,8 +261,8 @@ public:
                 f.out.flux() / (norm(f.incident) * f.in.flux()) * squared_scale(f)};
     }
 
-    /// Whether roundings of that many 2^-53 could carry the substrate over its critical angle,
-    /// where powers have a square root's infinite slope. (Layers have no such points.)
+    /// Whether that many roundings of 2^-53 could move the substrate across its critical angle,
+    /// where powers have an infinite, square-root slope. (Layers have no such points.)
     bool is_near_branch_point(double roundings) const {
         using std::abs;
         const MediumOf<R>& m = below_;
@@ -262,14 +270,14 @@ public:
         return abs(m.q2.re) < reach && abs(m.q2.im) < reach;
     }
 
-    /// Condition numbers as reference.hpp defines them.
+    /// Condition numbers as defined in reference.hpp.
     Condition condition(Polarization polarization) const {
         return Derivatives(*this, polarization).sum();
     }
 
-    /// x times the derivatives of R and of ln T by every input x, in this order: of every layer,
-    /// one of a group being one, its thickness, the wavelength, n, k, n0 and cos(theta); of the
-    /// substrate n, k, n0 and cos(theta); n0 and cos(theta) of the incident medium.
+    /// x times the derivatives of R and of ln T with respect to every input x, in this order: for
+    /// every layer (one in a group counts once) thickness, wavelength, n, k, n0 and cos(theta); for
+    /// the substrate n, k, n0 and cos(theta); for the incident medium n0 and cos(theta).
     std::vector<std::array<R, 2>> slopes(Polarization polarization) const {
         Derivatives derivatives(*this, polarization);
         derivatives.sum();
@@ -300,7 +308,7 @@ private:
         return medium_of<R>({R(m.eps.real()), R(m.eps.imag())}, {R(m.q2.real()), R(m.q2.imag())});
     }
 
-    /// At kz = 0 the two waves are one; a shift far below the last digit of a double parts them.
+    /// At kz = 0 the two waves coincide; a shift far below double precision separates them.
     void add_layer_media() {
         const double shift = std::numeric_limits<R>::digits10 > 40 ? 1e-36 : 1e-30;
         layer_media_ = media_;
@@ -326,8 +334,8 @@ private:
         }
     }
 
-    /// Going up by d multiplies the downward wave by exp(-i kz d), the upward one by its inverse;
-    /// mean and half difference of the two.
+    /// Moving up by d multiplies the downward wave by exp(-i kz d) and the upward one by its
+    /// inverse: mean and half difference of the two factors.
     Turn<R> turn_of(const Layer& layer, const R& extra_phase) {
         using std::abs;
         using std::cos;
@@ -351,7 +359,7 @@ private:
                 {cosine * less, -sine * more}};
     }
 
-    /// D P D^-1 with D = [[b, b], [c, -c]]: fields at the lower face to the upper.
+    /// D P D^-1 with D = [[b, b], [c, -c]]: maps fields at the lower face to the upper face.
     MatrixOf<R> of_turn(const Turn<R>& turn, Polarization polarization) const {
         const auto [b, c] = wave(*turn.medium, polarization);
         return {turn.mean, turn.half * b / c, turn.half * c / b, turn.mean, 0};
@@ -366,7 +374,7 @@ private:
         return total;
     }
 
-    /// Matrix of one element; `turn` is moved past its layers, `decay` is what to divide out.
+    /// Matrix of one element without exp(decay); advances `turn` past its layers.
     MatrixOf<R> of(const Element& element, Polarization polarization, std::size_t& turn,
                    R& decay) const {
         if (std::holds_alternative<Layer>(element.value)) {
@@ -416,9 +424,9 @@ private:
     std::vector<Turn<R>> turns_;
 };
 
-/// The derivatives of R, ln T and A = 1 - R - T by every input, from the bottom of the calculation
-/// to its inputs: with the adjoints G of r and of ln(1/t), dr = sum of G_ij dM_ij, a product of
-/// matrices hands each factor its own.
+/// Derivatives of R, ln T and A = 1 - R - T with respect to every input, by reverse-mode
+/// differentiation: the adjoints G of r and of ln(1/t), dr = sum of G_ij dM_ij, are passed from a
+/// product of matrices to its factors.
 template <class R>
 class Transfer<R>::Derivatives {
 public:
@@ -450,7 +458,7 @@ public:
 private:
     using Adjoints = std::array<MatrixOf<R>, 2>;  ///< of r and of ln(1/t)
 
-    /// One input's share: x times the derivatives by x of r, of ln(1/t) and of ln(flux out/in).
+    /// Adds one input x, given x times the derivatives of r, ln(1/t) and ln(flux out/in) by x.
     void add(const Cx<R>& dr, const Cx<R>& dlog, const R& dflux = R(0)) {
         using std::abs;
         const R reflected = 2 * dot(r_, dr), log_transmitted = dflux - 2 * dlog.re;
@@ -491,11 +499,11 @@ private:
         }
     }
 
-    /// Back through the squarings.
+    /// Propagates adjoints back through the squarings.
     void of_group(const Group& group, const Adjoints& whole, std::size_t& turn) {
         std::size_t next = turn;
         R decay(0);
-        // squares M^(2^bit), and what the bits below make of them: M^(repeat mod 2^bit)
+        // squares M^(2^bit), and products of those of the lower bits: M^(repeat mod 2^bit)
         std::vector<MatrixOf<R>> squares{transfer_.of(group.elements, polarization_, next, decay)};
         std::vector<MatrixOf<R>> lower(1);
         for (std::uint64_t left = group.repeat; left > 1; left >>= 1) {
@@ -559,7 +567,7 @@ private:
         });
     }
 
-    /// Here q2 is n0^2 cos^2, so that n0 is one input.
+    /// In the incident medium q2 is n0^2 cos^2, so n = n0 is a single input.
     void of_above() {
         const MediumOf<R>& m = transfer_.above_;
         const Cx<R> along{2 * m.along2, R(0)};

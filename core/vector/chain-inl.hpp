@@ -44,7 +44,7 @@ struct ChainRun : AbsorbingGroupsRun {
         }
     }
 
-    /// What stands in the stored rows instead of layers.
+    /// Applies the stored rows of fixed layers.
     template <bool kS, bool kP>
     HWY_INLINE void fixed_step(const Program::Step& step, Fields& s, Fields& p, V& dying) const {
         const std::size_t rows = FixedRun::rows_of(step.kind);

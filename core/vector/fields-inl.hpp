@@ -1,5 +1,5 @@
-// What layers and groups do to the fields, for as many points as a vector has lanes. Included once
-// for every instruction set, so no #pragma once: see kernel.cpp.
+// Propagation of the fields through layers and groups, for as many points as a vector has lanes.
+// Included once per instruction set, so no #pragma once: see kernel.cpp.
 #if defined(IRIDO_FIELDS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef IRIDO_FIELDS_INL
 #undef IRIDO_FIELDS_INL
@@ -167,7 +167,7 @@ double* aligned_room(std::vector<double>& memory, std::size_t count) {
     return memory.data() + (past == 0 ? 0 : kMostLanes - past / 8);
 }
 
-/// cos, and sin with what belongs to a transparent layer, which may be evanescent.
+/// cos, and sin with its medium's factors, of a transparent layer, which may be evanescent.
 struct Turn {
     V cos, sin, exponent;
 };
@@ -373,7 +373,7 @@ HWY_INLINE DepthIntegrals depth_integrals(const double* medium, Cx phase, SinCos
     return result;
 }
 
-/// Power that an absorbing layer takes, times exp(-2 Im delta); f is at its lower face.
+/// Power absorbed in a layer, times exp(-2 Im delta); f is at its lower face.
 template <bool kIsP>
 HWY_INLINE V absorbed_in_layer(const Fields& f, const double* medium, const DepthIntegrals& i) {
     const V loss = slot(medium, kLoss);

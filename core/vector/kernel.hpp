@@ -10,20 +10,20 @@
 
 namespace irido {
 
-/// A number of every point of a run, or one for all.
+/// One number per point of a run, or a single one for all.
 struct Stream {
     const double* values = nullptr;  ///< a run that varies can be read kMostLanes past its end
     bool varies = false;
 };
 
 /// Stored rows of all FixedRuns of a program at some points: [vector of kMostLanes points][row],
-/// each row kMostLanes numbers.
+/// with kMostLanes numbers per row.
 struct FixedPoints {
     const double* numbers = nullptr;
     std::size_t count = 0;  ///< of points
 };
 
-/// Points that the vector kernel takes together.
+/// Points that the vector kernel processes in one call.
 struct PointRun {
     std::size_t count = 0;
     Stream k0;         ///< 2 pi / wavelength, 1/nm
@@ -42,8 +42,8 @@ struct PointRun {
     std::size_t fixed_rows = 0;
 };
 
-/// Where the quantities of one polarization go, each nullptr if it is not needed; the value of
-/// point i is stored at i * stride.
+/// Destinations of one polarization's results, nullptr if not needed; the value of point i goes to
+/// index i * stride.
 struct RunOutput {
     double *R = nullptr, *T = nullptr, *A = nullptr;
     Complex *r = nullptr, *t = nullptr;
@@ -51,28 +51,35 @@ struct RunOutput {
     std::size_t stride = 1;
 };
 
-/// Memory that runs use one after another; what is in it means nothing between them.
+/// Scratch buffers, reusable between runs.
 struct RunMemory {
     std::vector<double> records;
     std::vector<char> evanescent;
     std::vector<std::size_t> varying;
 };
 
-/// What coherent_response() computes, for many points at once.
-///   s, p  nullptr for a polarization that is not needed
-///   redo  receives the points that need the plain kernel (no finite result, or exponents too
-///         large for this one)
-/// A lane's result does not depend on what is in the other lanes. R, T and A agree with
-/// coherent_response() to the last digits that the question determines.
+/// coherent_response() for many points at once. The result of a lane does not depend on the other
+/// lanes. R, T and A agree with coherent_response() to the digits that the problem's conditioning
+/// permits.
+///   program  compiled layers
+///   run      points
+///   s, p     outputs, nullptr for a polarization that is not needed
+///   redo     receives the points that need the plain kernel (result not finite, or exponents too
+///            large)
+///   memory   scratch
+///   level    instruction set
 void run_program(const Program& program, const PointRun& run, const RunOutput* s,
                  const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
                  SimdLevel level);
 
-/// Stores the rows of a FixedRun at all points.
-///   s, p  the polarizations to be stored
-///   rows  of all runs of the program that it belongs to
-///   to    room for FixedPoints::numbers
-/// Points that need the plain kernel get NaN.
+/// Stores the rows of a FixedRun at all points. Points that need the plain kernel get NaN.
+///   fixed   elements to store
+///   run     points
+///   s, p    polarizations to store
+///   rows    number of rows of all FixedRuns of the program
+///   to      room for FixedPoints::numbers
+///   memory  scratch
+///   level   instruction set
 void store_fixed(const FixedRun& fixed, const PointRun& run, bool s, bool p, std::size_t rows,
                  double* to, RunMemory& memory, SimdLevel level);
 

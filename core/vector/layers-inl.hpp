@@ -184,7 +184,7 @@ struct LayersRun : MediaRun {
         if (kFlux) f.absorbed = Mul(f.absorbed, exp(Mul(constant(-2), exponent)));
     }
 
-    /// What waves that die in a layer turn in the denominator, as dying_phase() in coherent.cpp.
+    /// Phase of the damped waves of a layer, as in slab_response.cpp.
     static HWY_INLINE V dying_turn(V a, V b, V before) {
         const V b2 = Mul(b, b);
         return MulAdd(a, Div(b2, Add(constant(1), b2)), before);

@@ -1,6 +1,6 @@
-// A run of points and the media of its layers: what a layer needs of its medium at a vector of
-// points. Its plain twin is medium() of core/coherent/coherent.hpp. Included once for every
-// instruction set, so no #pragma once: see kernel.cpp.
+// A run of points and the media of its layers: their per-vector constants. The plain twin is
+// medium() of core/coherent/coherent.hpp. Included once per instruction set, so no #pragma once:
+// see kernel.cpp.
 #if defined(IRIDO_MEDIA_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef IRIDO_MEDIA_INL
 #undef IRIDO_MEDIA_INL

@@ -1,6 +1,6 @@
-// What many periods of two transparent layers do in a host of the index of one of them, for as many
-// points as a vector has lanes: mirror_power() of hosted_mirror.hpp, and its denominator. Included
-// once for every instruction set, so no #pragma once: see kernel.cpp.
+// Closed form of many periods of two transparent layers embedded in the material of one of them,
+// for as many points as a vector has lanes: mirror_power() of hosted_mirror.hpp, and its
+// denominator. Included once per instruction set, so no #pragma once: see kernel.cpp.
 #if defined(IRIDO_MIRROR_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef IRIDO_MIRROR_INL
 #undef IRIDO_MIRROR_INL

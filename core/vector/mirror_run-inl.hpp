@@ -41,7 +41,7 @@ struct MirrorRun : FilmRun {
         }
     }
 
-    /// What a mirror's points have in common. With eps = n^2 of host 1 and other layer 2
+    /// Constants shared by a mirror's points. With eps = n^2 of host 1 and other layer 2
     ///     s: q = kz2/kz1              q - 1/q = (eps2 - eps1) / (kz1 kz2)
     ///     p: q = eps2 kz1/(eps1 kz2)  q - 1/q = (eps2 - eps1) (cos^2 (eps1 + eps2) - eps1)
     ///                                           / (eps2 kz1 kz2)

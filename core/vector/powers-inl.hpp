@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace irido::HWY_NAMESPACE {
 namespace {
 
-/// What leaves the stack.
+/// Powers and amplitudes of the light leaving the stack.
 struct PowersRun : ChainRun {
     using ChainRun::ChainRun;
 
@@ -23,7 +23,7 @@ struct PowersRun : ChainRun {
             if (redo >> lane & 1) redo_.push_back(point + lane);
     }
 
-    /// The wave that meets the stack, B : C, and what becomes of its power.
+    /// The incident wave, B : C, and factors for its power.
     struct Incident {
         Cx b, c;
         V unit;   ///< 4 |B|^2 |C|^2 / flux: power of a wave in units of the incident one
@@ -58,7 +58,7 @@ struct PowersRun : ChainRun {
         return exp(Mul(constant(factor), log_scale));
     }
 
-    /// What leaves the stack at its top.
+    /// The light leaving the stack at its top.
     struct Ends {
         Cx sum, r, t;
         V R, T, A, log_scale;
@@ -117,8 +117,8 @@ struct PowersRun : ChainRun {
         e.A = e.mixed;
     }
 
-    /// A where the difference 1 - R - T would lose it; what roundings did to the denominator that
-    /// it has in common with R and T shows in their sum.
+    /// A from the absorbed flux, where 1 - R - T would lose precision; rounding errors of the
+    /// common denominator show up in the sum of the three.
     static HWY_INLINE void from_flux(Ends& e, const Fields& f) {
         const Mask small = hn::Le(Abs(e.A), constant(kSubtractable));
         e.A = IfThenElse(small, MulAdd(e.unit, f.absorbed, e.mixed), e.A);

@@ -16,8 +16,8 @@ struct Program {
         transparent,      ///< layers in real arithmetic
         absorbing,        ///< layers in complex arithmetic
         group,            ///< a transparent period, raised to its power in closed form
-        absorbing_group,  ///< a period some of whose layers absorb, likewise; A from 1 - R - T only
-        fixed_fields,     ///< fields above the lowest layers, which are stored
+        absorbing_group,  ///< a period with absorbing layers, likewise; A from 1 - R - T only
+        fixed_fields,     ///< stored fields above the lowest layers
         fixed_real,       ///< the stored matrix of transparent layers
         fixed_complex     ///< the stored matrix of layers some of which absorb
     };
@@ -40,21 +40,21 @@ struct Program {
     std::vector<PlainLayer> layers;    ///< each combination of medium and thickness once
     std::vector<std::uint32_t> order;  ///< of `layers`, from the substrate up
     std::vector<Step> steps;
-    bool shares_layers = false;  ///< layers occur often: their matrices are computed once a point
+    bool shares_layers = false;  ///< layers recur: matrices are computed once per point
     bool absorbs = false;        ///< any layer
     bool has_absorbing_groups = false;
     double largest_thickness_nm = 0;
-    std::optional<HostedMirror> mirror;  ///< where its closed form is the faster one
+    std::optional<HostedMirror> mirror;  ///< if its closed form is faster
 
     bool is_one_film() const {
         return steps.size() == 1 && steps[0].count == 1 && steps[0].kind == Kind::transparent;
     }
 };
 
-/// Neighbouring elements that are the same in many stacks: what they do is computed once a point,
-/// and stored as rows of numbers over the points. For s, then for p: the fields B and C (4 rows),
-/// or the matrix (4 real rows, or 8), and the logarithm of a factor of it; the last row is what
-/// waves that die there turn in the denominator.
+/// Neighbouring elements shared by many stacks: evaluated once per point and stored as rows of
+/// numbers over the points. For s, then for p: the fields B and C (4 rows) or the matrix (4 rows if
+/// real, else 8), and the logarithm of a common factor; the last row is the phase of the damped
+/// waves, see slab_response.cpp.
 struct FixedRun {
     std::size_t first, count;  ///< among the elements
     Program program;
@@ -69,40 +69,45 @@ struct FixedRuns {
     std::size_t rows = 0;
 };
 
-/// What is worth to be stored of coherent elements of which those in `varied` differ from stack to
-/// stack: nothing if `varied` is empty, if it would not save enough, or if some elements are better
-/// left to the plain kernel.
-///   varied   indices of elements, ascending
-///   absorbs  one per material: whether its index has an imaginary part anywhere
+/// Runs of elements worth caching when only `varied` change between stacks. Empty if `varied` is
+/// empty, if too little would be saved, or if some elements are better left to the plain kernel.
+///   elements   coherent elements, from the incident side
+///   substrate  index of its material
+///   absorbs    per material: whether its index has an imaginary part anywhere
+///   varied     indices of elements, ascending
 FixedRuns fixed_runs(std::span<const Element> elements, std::size_t substrate,
                      const std::vector<bool>& absorbs, std::span<const std::size_t> varied);
 
-/// The program of coherent elements, into memory that is used again; false if they are better left
-/// to the plain kernel: nested groups of many layers.
-///   absorbs  as above
-///   needs_A  groups of a few absorbing layers are written out for their absorption
-///   fixed    of these elements
+/// Compiles coherent elements, reusing memory. Returns false if they are better left to the plain
+/// kernel: nested groups of many layers.
+///   elements   from the incident side
+///   substrate  index of its material
+///   absorbs    per material: whether its index has an imaginary part anywhere
+///   needs_A    expands groups of a few absorbing layers to get their absorption
+///   fixed      fixed runs of these elements
+///   program    result
 bool compile(std::span<const Element> elements, std::size_t substrate,
              const std::vector<bool>& absorbs, bool needs_A, const FixedRuns& fixed,
              Program& program);
 
-/// The mirror if its closed form is faster than its program.
-///   absorbs  as above
+/// The mirror, if its closed form is faster than its program. `absorbs` tells per material whether
+/// its index has an imaginary part anywhere.
 std::optional<HostedMirror> fast_mirror(const std::optional<HostedMirror>& mirror,
                                         const std::vector<bool>& absorbs);
 
-/// Whether a mirror's denominators come without a logarithm, as those of its layers one by one.
+/// Whether a mirror's denominators need no logarithm, as if computed layer by layer.
 bool has_few_layers(const HostedMirror& mirror);
 
-/// Operations of one point of a hosted mirror, counted as below, in bands.
+/// Operations per point of an embedded mirror in bands; see operations_per_point().
 double operations_of_mirror(int polarizations, bool constant);
 
-/// Floating-point operations that the vector kernel spends on one point where all transparent
-/// layers travel and all of A is 1 - R - T: additions, multiplications, fused pairs of them,
-/// divisions and square roots count one each; comparisons, selections and bit operations nothing.
+/// Floating-point operations of the vector kernel per point, if light travels in all transparent
+/// layers and all of A is 1 - R - T. Additions, multiplications, fused pairs of them, divisions and
+/// square roots count as one each; comparisons, selections and bit operations as none. Counted in
+/// the kernel's source.
+///   program        compiled layers
 ///   polarizations  1 or 2
-///   constant       no medium varies over the points: its normal index is not computed again
-/// Counted in the source of the kernel.
+///   constant       no medium varies over the points, so normal indices are not recomputed
 double operations_per_point(const Program& program, int polarizations, bool constant);
 
 }  // namespace irido

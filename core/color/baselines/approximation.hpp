@@ -8,8 +8,8 @@
 
 namespace irido {
 
-/// Methods that others use, to be compared with; their StackColor::error is infinite. A perfect
-/// mirror has the illuminant's white. Materials hold their end values outside their range.
+/// Approximate methods in common use, as baselines; their StackColor::error is infinite. A perfect
+/// mirror has the illuminant's white. Materials are clamped outside their range.
 ///
 ///     equal     method.count equally spaced wavelengths over the whole support, [2, 1e6]; error
 ///               O(1/count^2), since the sensitivity is piecewise linear. Any stack.

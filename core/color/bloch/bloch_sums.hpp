@@ -12,7 +12,7 @@
 namespace irido {
 
 /// Points x = cos(pi j / n), j = 0 .. n, with the weights of two rules for integrals over [-1, 1];
-/// zeros up to whole vectors.
+/// padded with zeros to full vectors.
 struct CosineNodes {
     explicit CosineNodes(std::size_t n);
 
@@ -20,10 +20,10 @@ struct CosineNodes {
     std::vector<double> x;
     std::vector<double>
         trapezoid;               ///< pi/n sin(pi j / n): for sqrt(1 - x^2) times smooth functions
-    std::vector<double> curtis;  ///< Clenshaw and Curtis's: for smooth functions
+    std::vector<double> curtis;  ///< Clenshaw-Curtis: for smooth functions
 };
 
-/// A part of the spectrum that lies in one band or one gap.
+/// A spectral range inside a single band or gap.
 struct BlochRange {
     double low = 0, high = 0;  ///< omega, 1/nm
     bool is_gap = false;
@@ -36,13 +36,18 @@ struct BlochMemory {
     std::vector<double> weight;  ///< [4][node], of the table's rows
 };
 
-/// Integral over nu of T times a smooth sensitivity over one range, on the cosine points between
-/// its ends. At those the terms of the series fall to zero like sin KL, as a square root does,
-/// while the whole T is smooth: each has its rule.
-///   terms  in a band 2^k >= 1: the average and the harmonics m < terms of bloch_series(); 0: all
-///          of T
-/// Vectors for `level`; SimdLevel::plain is the plain sum of bloch_transmittance(), bloch_series()
-/// and SmoothSensitivity::at().
+/// Integral over nu of T times the smoothed colour-matching functions over one range, on the cosine
+/// points between its ends. At the ends the terms of the series vanish like sin KL, as a square
+/// root, while T as a whole is smooth: each case has its own rule.
+///   mirror       the periods at one angle and polarization
+///   range        a band or a gap
+///   terms        in a band 2^k >= 1: the average and the harmonics m < terms of bloch_series();
+///                0: T
+///   nodes        points and weights
+///   sensitivity  smoothed colour-matching functions
+///   memory       scratch
+///   level        instruction set; SimdLevel::plain sums bloch_transmittance(), bloch_series() and
+///                SmoothSensitivity::at() point by point
 Triple bloch_sum(const BlochMirror& mirror, const BlochRange& range, std::uint64_t terms,
                  const CosineNodes& nodes, const SmoothSensitivity& sensitivity,
                  BlochMemory& memory, SimdLevel level);

@@ -20,18 +20,23 @@ struct FilmOrders {
 
 struct OrderSum {
     Triple xyz{};
-    double error = 0;  ///< bound of what is left out, of interpolation and of rounding
+    double error = 0;  ///< bound on truncation, interpolation and rounding
 };
 
-/// Where a series ends: where all that follows is below the tolerance, by the orders' geometric
-/// decay and the bound of H from there on, and not after the last order. Nothing past the end is
-/// computed.
+/// Where a series is truncated: at the latest after the last order, and otherwise once the
+/// remainder, bounded by the geometric decay of the orders and the bound of H, is below the
+/// tolerance. Nothing beyond that is computed.
 struct OrderLimits {
     double tolerance = 1e-7;
-    std::size_t last = 0;  ///< 0: no last one
+    std::size_t last = 0;  ///< 0: no limit
 };
 
-/// The sums of many angles, one after the other, the six numbers of H side by side.
+/// Sums for many angles, one after the other, with the six numbers of H processed side by side.
+///   transform  H
+///   orders     the fringes, one entry per angle
+///   limits     where to truncate
+///   sums       results, one per entry of `orders`
+///   level      instruction set
 void sum_orders(const SensitivityTransform& transform, std::span<const FilmOrders> orders,
                 const OrderLimits& limits, std::span<OrderSum> sums, SimdLevel level);
 

@@ -13,10 +13,10 @@
 #include "core/stack/index_table.hpp"
 #include "core/stack/stack.hpp"
 
-/// What the two kinds of film_color() have in common.
+/// Code shared by the two kinds of film_color().
 namespace irido {
 
-/// Where BB17 takes the indices of X, Y and Z (section 4, Validation).
+/// Wavelengths at which BB17 takes the indices for X, Y and Z (section 4, Validation).
 inline constexpr std::array<double, 3> kPeaks_nm{600, 560, 450};
 
 inline DomainError no_series(double angle_deg) {
@@ -31,13 +31,13 @@ inline std::array<double, 2> weights(Light light, double cos_theta) {
     return {0.5, 0.5};
 }
 
-/// Three indices at one wavelength, the film's thickness to be filled in.
+/// Film with its three indices at one wavelength; the thickness is left to be filled in.
 inline Film film_at(const IndexTable& table, const Stack& stack, std::size_t wavelength) {
     return {table.n(stack.incident)[wavelength], table.n(only_film(stack).material)[wavelength],
             table.index(stack.substrate, wavelength), 0};
 }
 
-/// The film's thicknesses, whose spread is that of a Gaussian.
+/// The film's thickness distribution, a Gaussian.
 struct Thickness {
     double mean_nm, sigma_nm;
 
@@ -45,14 +45,15 @@ struct Thickness {
         : mean_nm(layer.thickness_nm), sigma_nm(layer.thickness_sigma_nm) {
         require_in_range("thickness_nm", mean_nm, 0, kLargestThickness_nm);
         require_in_range("thickness_sigma_nm", sigma_nm, 0, kLargestThickness_nm);
-        mean_nm = std::max(mean_nm, 1e-9 * sigma_nm);  // the spread is taken in parts of the mean
+        mean_nm = std::max(mean_nm, 1e-9 * sigma_nm);  // the standard deviation is taken relative
+                                                       // to the mean
     }
     bool vanishes() const { return mean_nm == 0 && sigma_nm == 0; }
-    /// Of the Gaussian.
+    /// Fraction of the Gaussian below zero.
     double part_below_zero() const {
         return sigma_nm == 0 ? 0 : std::erfc(mean_nm / sigma_nm / std::numbers::sqrt2) / 2;
     }
-    /// A film of no thickness is none: the incident medium goes on.
+    /// A film of zero thickness is replaced by the incident medium.
     Film of(Film film) const {
         if (vanishes()) film.film = film.incident;
         film.thickness_nm = mean_nm;
@@ -60,7 +61,7 @@ struct Thickness {
     }
 };
 
-/// What every colour of one call needs.
+/// Data shared by all colours of one call.
 struct Lighting {
     const Triple& white;
     std::span<const Side> sides;
@@ -77,6 +78,11 @@ struct Lighting {
     }
 };
 
+/// film_color() for indices that depend on the wavelength.
+///   tables   observer and illuminant; must outlive the result
+///   held     the film, its materials clamped
+///   method   fourier or fourier_constant
+///   request  options
 std::unique_ptr<ColorAlgorithm> dispersive_film_color(const ColorTables& tables, const Stack& held,
                                                       const ColorMethod& method,
                                                       const ColorRequest& request);

@@ -9,11 +9,12 @@
 
 namespace irido {
 
-/// The only layer of a stack, in groups of one repetition or not; nullptr if there is none or more.
+/// The only layer of a stack, possibly inside groups of one repetition; nullptr if there is none or
+/// more than one.
 const Layer* only_layer(const Stack& stack);
 
-/// Throws DomainError that names the method unless the stack is one coherent film of one thickness
-/// and reflected light is all that is asked for.
+/// Throws DomainError naming the method unless the stack is one coherent film of fixed thickness
+/// and only reflected light is requested.
 void require_film(std::string_view method, const Stack& stack, const ColorRequest& request);
 
 /// The film of such a stack.

@@ -13,11 +13,10 @@
 
 namespace irido {
 
-/// FixedLayers at the angles that were asked for last, as many as have room. Safe from many
-/// threads.
+/// FixedLayers at the angles requested most recently, as many as fit. Thread-safe.
 class FixedLayersCache {
 public:
-    /// At one angle; what is in it stays as long as it is held.
+    /// Entries for one angle; they stay valid as long as this is held.
     struct Angle {
         std::vector<std::unique_ptr<const FixedLayers>> layers;  ///< by SpectralPoints::id
         std::size_t numbers = 0;
@@ -29,11 +28,11 @@ public:
 
     std::shared_ptr<Angle> at(IncidentAngle incidence);
 
-    /// One for each of the points, nullptr if it is not there.
+    /// Finds the layers for each of the points; nullptr for those not cached.
     void find(const Angle& angle, std::span<const SpectralPoints* const> points,
               std::vector<const FixedLayers*>& found);
 
-    /// Keeps a copy, for which other angles make room; nullptr if that is not enough.
+    /// Stores a copy, evicting other angles to make room; nullptr if it still does not fit.
     const FixedLayers* add(Angle& angle, const SpectralPoints& points, const FixedLayers& layers);
 
 private:

@@ -9,8 +9,8 @@
 
 namespace irido {
 
-/// What a colour loses where fringes are replaced by their mean: that is known at the points at
-/// which the means were integrated, which follow them closely.
+/// Error of a colour due to replacing fringes by their mean, estimated at the points at which the
+/// means were integrated, which resolve them closely.
 class LeftOutFringes {
 public:
     /// A row of a table, at which the slope of an index jumps.
@@ -22,10 +22,13 @@ public:
     void clear() { points_.clear(); }
     void add(double wavelength_nm, const FringeMean& mean);
 
-    /// Where the phase turns many times from some points to the next, all that the sensitivity has
-    /// of waves of such a path; elsewhere, where the means are about as quick as the phase, all
-    /// that the fringes may add. Infinite if a mean was not finite.
-    ///   only_edges  the means are quick next to the edges of gaps only, which they know of
+    /// Where the phase advances by many turns between points, the error is the Fourier integral of
+    /// the weighted colour-matching functions at that path difference; elsewhere, where the means
+    /// vary about as fast as the phase, everything that the fringes may add. Infinite if a mean was
+    /// not finite.
+    ///   side        reflected or transmitted
+    ///   tables      observer and illuminant
+    ///   only_edges  the means vary fast near gap edges only, which they account for
     double error(Side side, const ColorTables& tables, bool only_edges);
 
     /// What fringes leave at kinks of their phase, to be asked after error(): between two kinks
@@ -37,7 +40,7 @@ public:
 private:
     struct Point {
         double wavelength_nm, phase, swing_R, swing_T;
-        double turned;  ///< the way of the phase from the shortest wavelength to here
+        double turned;  ///< phase accumulated from the shortest wavelength to here
     };
     static double path_nm(const Point& from, const Point& to);
 

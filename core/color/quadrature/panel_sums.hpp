@@ -6,8 +6,14 @@
 
 namespace irido {
 
-/// sums[r] = sum over j of row[r][j] (values[j] - reference) for `count` rows of `stride` numbers
-/// each, a multiple of kMostLanes; as many values are read.
+/// Dot products sums[r] = sum over j of row[r][j] (values[j] - reference).
+///   rows       `count` rows of `stride` numbers each
+///   count      number of rows
+///   stride     a multiple of kMostLanes
+///   values     `stride` numbers
+///   reference  subtracted from every value
+///   sums       results, one per row
+///   level      instruction set
 void row_sums(const double* rows, std::size_t count, std::size_t stride, const double* values,
               double reference, double* sums, SimdLevel level);
 

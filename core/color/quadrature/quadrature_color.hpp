@@ -8,22 +8,24 @@
 
 namespace irido {
 
-/// Product quadrature of any stack, materials holding their end values outside their range: every
-/// piece of the spectrum between two kinks of the materials is a panel, and panels whose fringes
-/// or resonances are not resolved are halved. `error` is an honest estimate; it exceeds the
-/// tolerance where the effort ran out: request.evaluations, or earlier for stacks of many layers,
-/// after about a second of work. A colour does not depend on the other angles of a call.
-/// Where request.varied leaves layers that many colours have in common, and the vector kernel takes
-/// the stack, these are stored for the angles asked for last, as request.kept_numbers has room:
-/// quickest where one angle's colours follow each other. Stacks that differ in other layers are
-/// then refused by DomainError. Throws DomainError as StackPower and IndexTable do.
+/// Product quadrature of any stack, with materials clamped outside their range: each piece of the
+/// spectrum between two kinks of the materials is a panel, and panels with unresolved fringes or
+/// resonances are bisected. `error` is a reliable estimate. It exceeds the tolerance if the effort
+/// is exhausted: after request.evaluations, or earlier for stacks of many layers, after about a
+/// second of work. A colour does not depend on the other angles of a call. If request.varied leaves
+/// layers that many colours share, and the vector kernel supports the stack, their results are
+/// cached for the angles used last, within request.kept_numbers: fastest if the colours of one
+/// angle follow each other. Stacks that differ in other layers are then rejected with DomainError.
+/// Throws DomainError as StackPower and IndexTable do.
 std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
                                                  const ColorRequest& request);
 
-/// Layers that quadrature_color() computes for a colour, more or less: points times layers. A
-/// function of its arguments that needs no table and is the same on every machine.
-///   indices  of the stack's materials at one wavelength
-///   pieces   smooth_pieces() of the stack, less one
+/// Estimated work of quadrature_color() for one colour, points times layers. Depends on its
+/// arguments only: no table is needed, and the result is the same on every machine.
+///   stack      to be coloured
+///   indices    of its materials, at one wavelength
+///   pieces     smooth_pieces() of the stack, less one
+///   incidence  direction of the light
 double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
                        IncidentAngle incidence);
 

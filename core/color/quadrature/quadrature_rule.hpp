@@ -9,19 +9,18 @@
 
 namespace irido {
 
-/// Degrees of the rules that colours are integrated with, each double the one before.
+/// Degrees of the rules for integrating colours, each double the previous one.
 inline constexpr std::array<std::size_t, 6> kDegrees{4, 8, 16, 32, 64, 128};
 
-/// How fast Chebyshev coefficients are taken to fall past the last one: as exp(-rate k/degree). The
-/// first rate holds for every spectrum whose poles are further off than the points are from each
-/// other.
+/// Assumed decay rates of the Chebyshev coefficients beyond the last one: exp(-rate k/degree). The
+/// first rate holds for every spectrum whose poles are farther away than the spacing of the points.
 inline constexpr std::array<double, 6> kFallRates{2, 4, 8, 12, 16, 24};
 
-/// Largest |D'|/|D| of a denominator whose zeros are as far as a rate of kFallRates takes: twice as
-/// far as the ellipse around the panel on which coefficients fall by that.
+/// Largest |D'|/|D| of a denominator whose zeros are as far away as a rate of kFallRates requires:
+/// twice as far as the ellipse around the panel on which coefficients decay at that rate.
 double steepest_of(double rate, double degree);
 
-/// A panel's rule with what judges its error.
+/// A panel's rule with the data for its error estimate.
 struct QuadratureRule {
     QuadratureRule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree);
 
@@ -44,7 +43,7 @@ struct QuadratureRule {
     ///   values  at the points; as many are read as the stride
     ///   sums    room for sum_count() numbers
     void sum(const double* values, double reference, double* sums, SimdLevel simd) const;
-    /// Size of the middle coefficients over that of the last ones; for degrees from 16 on.
+    /// Ratio of the middle coefficients' size to that of the last ones; for degrees from 16.
     double fall_seen(std::span<const double> sums) const;
     /// Of the integrals, `sums` being those of sum(). `rate` is an index into kFallRates that
     /// is known to hold; half of the fall from the middle to the last coefficients counts as well.

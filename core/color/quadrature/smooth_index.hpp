@@ -26,18 +26,22 @@ namespace irido {
 /// fit makes the first mu_k of X, Y and Z small, which leaves little of what is smooth.
 class IndexFit {
 public:
-    /// What one material's error is per unit of G and of G^2, for X, Y, Z.
+    /// Error due to one material per unit of G and of G^2, for X, Y, Z.
     struct Error {
         std::size_t material;
         Triple first, second;
     };
 
-    ///   materials  of the stack with rows in the panel
-    ///   rows       of their tables, those in the panel
+    /// Fits the indices on one panel.
+    ///   stack        whose materials are fitted
+    ///   sensitivity  weights of the fit
+    ///   panel        spectral range
+    ///   materials    those with table rows in the panel
+    ///   rows         these rows
     IndexFit(const Stack& stack, const Sensitivity& sensitivity, WavelengthRange panel,
              std::span<const std::size_t> materials, std::span<const double> rows);
 
-    /// Puts the polynomials into a table of the stack at wavelengths of the panel.
+    /// Writes the polynomials into a table of the stack at wavelengths of the panel.
     void replace(IndexTable& table) const;
 
     /// Errors of the materials, of K = kDegrees[level], level < kLevels, and coefficients that fall

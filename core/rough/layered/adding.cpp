@@ -20,7 +20,7 @@ namespace {
 
 using ModeMatrix = Eigen::MatrixXd;
 
-/// Panels of 16 angles over a quarter turn, and azimuths over half a turn.
+/// Panels of 16 angles per quarter turn, and azimuths per half turn.
 struct AddingLevel {
     std::size_t panels, azimuths;
 };
@@ -33,11 +33,11 @@ constexpr std::size_t kJudged = 8;
 /// Angles asked for that are solved together.
 constexpr std::size_t kAnglesTogether = 48;
 
-/// Part of the tolerance that modes which are left out may have.
+/// Fraction of the tolerance allotted to the modes left out.
 constexpr double kModeShare = 0.05;
 
-/// R over theta_d in steps of 1/kStepsPerDegree degrees, linear in between: the fastest fringes
-/// that facets within 1 degree of each other do not wash out differ from that by 1e-5.
+/// R is tabulated over theta_d in steps of 1/kStepsPerDegree degrees and interpolated linearly: for
+/// the fastest fringes that facets 1 degree apart do not average out, the error is 1e-5.
 constexpr double kStepsPerDegree = 100;
 constexpr std::size_t kSteps = 9000;
 
@@ -46,7 +46,7 @@ constexpr std::size_t kModesTogether = 16;
 
 }  // namespace
 
-/// Angles inside: nodes, then those asked for.
+/// Angles inside: nodes, then the angles requested.
 struct Adding::Grid {
     std::vector<double> theta_deg;
     Eigen::VectorXd weight;   ///< of the nodes
@@ -62,7 +62,7 @@ struct Adding::Grid {
 /// whose mode m is, with S^2 = A^2 - B^2 and rho = B/(A + S),
 ///     alpha^2/pi ([m = 0] + (-rho)^m (2q/S + q^2 A/S^3 + m q^2/S^2)).
 struct Adding::Lobes {
-    std::vector<double> step, lobe;  ///< [i >= j][azimuth]; theta_d in steps of the table of R
+    std::vector<double> step, lobe;  ///< [i >= j][azimuth]; theta_d in steps of R's table
     std::size_t azimuths = 0;
     struct Peak {
         double scale, ratio, constant, slope;  ///< -rho, and what stands with it and with m

@@ -8,20 +8,22 @@
 
 namespace irido {
 
-/// Light that is reflected more than once between the layers, the base and the coating of a
-/// surface, by the adding method in azimuthal modes. With K_l^m(i,o) the m-th mode of a layer's
-/// lobe, (1/2 pi) integral f_l cos(m phi) dphi, tau_l its straight transmission and w the weights
-/// of angle nodes, 2 pi cos sin dtheta, from the base (in mode 0 alone) upwards
+/// Light reflected more than once between the layers, base and coating of a surface, by the adding
+/// method in azimuthal modes. Let K_l^m(i,o) be the m-th mode of a layer's lobe, (1/2 pi) integral
+/// f_l cos(m phi) dphi, tau_l its straight transmission, and w the weights of the angle nodes, 2 pi
+/// cos sin dtheta. From the base (which has mode 0 only) upwards
 ///     B <- K_l + tau_l (1 - B w K_l w)^-1 B tau_l,
-/// and with a coating of reflectance R0, whose mirror turns the azimuth by half a turn,
+/// and with a coating of reflectance R0, whose mirror reflection rotates the azimuth by half a
+/// turn,
 ///     U = (1 - (-1)^m B w R0)^-1 B.
-/// What is reflected once is left out, analytically: the rest is smooth and needs few modes. Angles
-/// asked for are nodes without a weight. Nodes and modes are refined until two levels agree.
-/// Source: H. C. van de Hulst, Multiple Light Scattering (1980), chapter 4; of the single facets,
-/// FPB24 section 4.
+/// Single reflections are subtracted analytically: the rest is smooth and needs few modes. The
+/// angles requested are added as nodes of zero weight. Nodes and modes are refined until two levels
+/// agree.
+/// Source: H. C. van de Hulst, Multiple Light Scattering (1980), chapter 4; for the individual
+/// facets, FPB24 section 4.
 class Adding {
 public:
-    /// Refers to the scattering. tolerance is relative to what all paths together give.
+    /// Refers to `scattering`. `tolerance` is relative to the sum over all paths.
     Adding(const LayeredScattering& scattering, double tolerance, const Execution& execution);
 
     /// How finely angles and modes are taken, and what that leaves.
@@ -42,7 +44,7 @@ public:
 
     struct Values {
         std::vector<double> values;
-        double error = 0;  ///< largest estimate, relative to the value by all paths
+        double error = 0;  ///< largest estimate, relative to the value for all paths
     };
 
     /// The same at the level that the tolerance takes, judged at some of the wavelengths; the finer
@@ -50,7 +52,7 @@ public:
     Values brdf_rest(std::span<const ScatterPair> pairs,
                      const std::vector<double>& wavelength_nm) const;
 
-    /// What they add to the albedo, [angle][wavelength].
+    /// Contribution of multiple reflections to the albedo, [angle][wavelength].
     Values albedo_rest(std::span<const double> theta_i_deg,
                        const std::vector<double>& wavelength_nm) const;
 

@@ -30,7 +30,7 @@ const std::array<double, count>& barycentric() {
 
 double coating_return(const Coating& coating) {
     const double top = coating.top_deg(), left = 90 - top;
-    // theta = top -+ v^2: R0 has a root at the critical angle
+    // theta = top -+ v^2, as R0 has a square root at the critical angle
     const std::array<double, 9> ends{0, 0.1, 0.3, 1, 2, 3, 5, 7, std::sqrt(90.0)};
     double sum = 0;
     const auto add = [&](double sign, double farthest) {
@@ -86,7 +86,7 @@ void reflected_share(const LobeNodes& nodes,
                     kernel[j * values.size() + c] += weight * slope_of(x) * values[c];
             });
         }
-        // R has panels of its own, between which the kernel is interpolated
+        // R has its own panels, on which the kernel is interpolated
         const double first = theta_of(begin), last = theta_of(end);
         for (std::size_t c = 0; c < series.size(); ++c)
             for (const AngleSeries::Panel& panel : series[c]->panels()) {

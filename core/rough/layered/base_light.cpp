@@ -21,7 +21,7 @@ constexpr double kCoarse = 1e-6;
 /// The integral over psi for facets of tilt tm; `rise` = 90 - tm - td, in degrees.
 template <int points>
 double over_ring(double alpha, double cm, double sm, double cd, double sd, double rise_deg) {
-    // cos o = level - swing cos psi; it ends where that is 0
+    // cos o = level - swing cos psi, cut off at 0
     const double level = cm * cd, swing = sm * sd;
     const double lowest = sin_deg(rise_deg);  // cos(tm + td)
     const bool is_whole = lowest >= 0;

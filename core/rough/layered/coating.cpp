@@ -11,7 +11,7 @@ namespace irido {
 
 namespace {
 
-/// Light in n1 that meets n2; kz in units of k0.
+/// Light in n1 meeting n2; kz in units of k0.
 Coating::Crossing crossing(double n1, double n2, double cos1, double sin1) {
     const double kz1 = n1 * cos1, S = n1 * sin1;
     const double square = (n2 - n1) * (n2 + n1) + kz1 * kz1;  // kz2^2

@@ -18,7 +18,7 @@ constexpr std::size_t kMostKept = 8192;
 
 }  // namespace
 
-/// Moments of one angle, for one thread at a time.
+/// Moments of one angle; locked while in use.
 struct LayerTransport::Moments {
     explicit Moments(FilterNodes nodes) : moments(std::move(nodes)) {}
     std::mutex lock;

@@ -13,28 +13,28 @@
 
 namespace irido {
 
-/// How straight rays cross a rough layer.
+/// How a straight ray crosses a rough layer.
 enum class Crossings {
-    single,    ///< one facet each, FPB24's f_t cos
-    multiple,  ///< as many as Smith's model has on a straight ray, 1 + 2 Lambda on average
+    single,    ///< one facet, FPB24's f_t cos
+    multiple,  ///< all facets that Smith's model puts on a straight ray, 1 + 2 Lambda on average
 };
 
-/// What one rough layer does with light, a wavelength at a time: what is computed once is kept.
-/// Safe from many threads; a value depends on its own arguments only.
+/// Transport of light through one rough layer, per wavelength; intermediate results are cached.
+/// Thread-safe; values depend on their own arguments only.
 class LayerTransport {
 public:
-    /// Throws DomainError for an alpha outside [1e-4, 1] and as StackPower does.
+    /// Throws DomainError if alpha is not in [1e-4, 1], and as StackPower does.
     LayerTransport(const RoughLayer& layer, SimdLevel simd);
 
     double alpha() const { return filter_.alpha(); }
-    /// Functions of its series.
+    /// Indices of the functions in its series.
     static constexpr std::size_t kR = 0, kT = 1;
     const FacetSeries& facets() const { return facets_; }
 
     /// f_t cos of straight light, [wavelength]: tau, or with Crossings::multiple
     ///     tau* = tau / (1 - (1 - G1) Tf Tb),
-    /// Tf and Tb being the means of T over the facets that the ray meets from the front and from
-    /// behind: 1 where T = 1. theta_deg [0, 90].
+    /// where Tf and Tb are the means of T over the facets that the ray meets from the front and
+    /// from behind; 1 where T = 1. theta_deg in [0, 90].
     std::vector<double> straight(double theta_deg, std::span<const double> wavelength_nm,
                                  Crossings crossings) const;
 

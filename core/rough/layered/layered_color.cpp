@@ -15,17 +15,17 @@ namespace irido {
 
 namespace {
 
-/// Optical path of fringes that roughness leaves in what goes through a layer or is reflected into
-/// all directions, nm: where a spectrum begins; it is refined where that is not enough.
+/// Optical path difference, nm, of the fringes that survive averaging over roughness, in light that
+/// a layer transmits or reflects into all directions: initial sampling, refined if necessary.
 constexpr double kSmoothPath_nm = 4000;
 
-/// Things integrated together.
+/// Items integrated together.
 constexpr std::size_t kColorsTogether = 64;
 
-/// Of what adding gives, where nothing smaller is asked for.
+/// Smallest tolerance passed to the adding method.
 constexpr double kAddingTolerance = 1e-3;
 
-/// Wavelengths of one colour at most.
+/// Most wavelengths for one colour.
 constexpr std::size_t kMostWavelengths = 1U << 14U;
 
 LayeredSurface held_surface(LayeredSurface surface, const Sensitivity& sensitivity) {
@@ -33,7 +33,7 @@ LayeredSurface held_surface(LayeredSurface surface, const Sensitivity& sensitivi
     return surface;
 }
 
-/// Ends of the pieces in which all materials and the base are smooth.
+/// Boundaries of the ranges in which all materials and the base are smooth.
 std::vector<double> pieces_of(const LayeredSurface& surface, WavelengthRange support) {
     std::vector<double> ends{support.first_nm, support.last_nm};
     for (const RoughLayer& layer : surface.layers) {
@@ -49,7 +49,7 @@ std::vector<double> pieces_of(const LayeredSurface& surface, WavelengthRange sup
     return ends;
 }
 
-/// Twice the optical thickness of a stack at one wavelength, of groups as often as they repeat.
+/// Twice the optical thickness of a stack at one wavelength, repetitions included.
 double path_of(std::span<const Element> elements, const IndexTable& indices) {
     double path = 0;
     for (const Element& element : elements) {
@@ -62,7 +62,7 @@ double path_of(std::span<const Element> elements, const IndexTable& indices) {
     return std::min(path, 1e6);
 }
 
-/// All wavelengths of some points.
+/// Wavelengths of all the points together.
 std::vector<double> wavelengths_of(std::span<const SpectralPoints* const> parts) {
     std::vector<double> all;
     for (const SpectralPoints* part : parts)
@@ -157,7 +157,7 @@ void LayeredColor::add_first_layer(std::span<const ScatterPair> pairs,
     }
 }
 
-/// The integral of R of a layer's facets times what the layers above let through both ways.
+/// Integral of R of a layer's facets times the transmission of the layers above on both ways.
 SurfaceColor LayeredColor::lower_layer(std::size_t l, const ScatterPair& inside) const {
     const LayerTransport& layer = scattering_.layer(l);
     const Stack& stack = layer.facets().stack();
@@ -239,7 +239,7 @@ std::vector<SurfaceColor> LayeredColor::brdf(std::span<const ScatterPair> pairs,
     return colors;
 }
 
-/// What Adding gives, whose tolerance is one of the colour's as well.
+/// Adds the multiply reflected light, computed by Adding.
 void LayeredColor::add_rest_of(std::span<const ScatterPair> pairs,
                                std::span<SurfaceColor> colors) const {
     const double tolerance = std::max(tolerance_, kAddingTolerance);

@@ -10,18 +10,18 @@
 
 namespace irido {
 
-/// XYZ of spectra at the wavelengths of a rule, [thing][wavelength].
+/// XYZ of spectra [item][wavelength], sampled at the wavelengths of a rule.
 std::vector<Triple> sampled_colors(const Sensitivity& sensitivity, const SampleRule& rule,
                                    std::span<const double> spectra);
 
 struct SurfaceColor {
     Triple xyz{};
-    double error = 0;  ///< estimate of the largest of X, Y, Z
+    double error = 0;  ///< estimated largest error of X, Y, Z
 };
 
-/// Colours of layered surfaces. What the first layer reflects is the colour of its facets at
-/// theta_d by color_algorithm()'s automatic method, times numbers that do not depend on the
-/// wavelength; what lies below is integrated by product quadrature together with the layers above.
+/// Colours of layered surfaces. The first layer contributes the colour of its facets at theta_d, by
+/// color_algorithm()'s automatic method, times factors independent of wavelength; the layers below
+/// are integrated over the spectrum together with the transmission of those above.
 class LayeredColor {
 public:
     /// tolerance  largest error of X, Y, Z, [1e-12, 1]: of BRDFs relative to 1 or, where that is
@@ -33,17 +33,18 @@ public:
     LayeredColor(const ColorTables& tables, LayeredSurface surface, Crossings crossings,
                  double tolerance, const Execution& execution, const ColorMethod& method = {});
 
-    /// pi times the BRDF of pairs: a white diffuser has the illuminant's white. What all paths add
-    /// is by Adding where there is no closed form, with its error.
+    /// pi times the BRDF of pairs of directions, so that a white diffuser has the illuminant's
+    /// white. Where all paths have no closed form, their contribution is computed by Adding, with
+    /// its error.
     std::vector<SurfaceColor> brdf(std::span<const ScatterPair> pairs, Paths paths) const;
 
-    /// Directional-hemispherical.
+    /// Directional-hemispherical albedo.
     std::vector<SurfaceColor> albedo(std::span<const double> theta_i_deg, Paths paths) const;
 
     const LayeredScattering& scattering() const { return scattering_; }
 
 private:
-    /// Spectra of several things at wavelengths: [thing][wavelength], in [0, 1] or not far off.
+    /// Spectra of several items, [item][wavelength], approximately in [0, 1].
     using SpectraAt = std::function<std::vector<double>(const std::vector<double>& wavelength_nm)>;
     std::vector<SurfaceColor> integrated(std::size_t count, double tolerance,
                                          const SpectraAt& spectra_at) const;
@@ -58,7 +59,7 @@ private:
     Execution execution_;
     ColorMethod method_;
     LayeredScattering scattering_;
-    std::vector<double> pieces_;  ///< ends of what is smooth in wavelength
+    std::vector<double> pieces_;  ///< ends of the wavelength ranges in which everything is smooth
 };
 
 }  // namespace irido

@@ -21,10 +21,10 @@ namespace irido {
 
 namespace {
 
-/// Of straight light relative to masking, where it is integrated over.
+/// Tolerance of straight light relative to masking, where it is integrated over.
 constexpr double kExitTolerance = 1e-7;
 
-/// Pairs whose facets are computed together.
+/// Pairs of directions whose facets are computed together.
 constexpr std::size_t kPairsTogether = 16;
 
 Coating coating_of(const LayeredSurface& surface) {
@@ -37,7 +37,7 @@ Coating coating_of(const LayeredSurface& surface) {
 
 }  // namespace
 
-/// prod_{k<l} f_t cos of layers at angles: [angle][l][wavelength].
+/// Products prod_{k<l} f_t cos of layers at angles: [angle][l][wavelength].
 struct LayeredScattering::Straight {
     std::map<double, std::vector<double>> products;
     std::size_t wavelengths = 0;
@@ -74,7 +74,7 @@ void LayeredScattering::require_closed(Paths paths) const {
             "alone");
 }
 
-/// Layers that light crosses on its way to what reflects below.
+/// Number of layers that light crosses to reach the lowest reflector.
 std::size_t LayeredScattering::crossed_layers() const {
     return has_base() || layers_.empty() ? layers_.size() : layers_.size() - 1;
 }
@@ -85,7 +85,7 @@ double LayeredScattering::base_albedo(double wavelength_nm) const {
     return std::get<Constant>(surface_.base_albedo).value;
 }
 
-/// f_t cos of every layer at every angle.
+/// f_t cos of every layer at every angle, computed directly.
 LayeredScattering::Straight LayeredScattering::straight_directly(
     std::span<const double> theta_deg, std::size_t count,
     const std::vector<double>& wavelength_nm) const {
@@ -108,8 +108,8 @@ LayeredScattering::Straight LayeredScattering::straight_directly(
     return straight;
 }
 
-/// The same, of very many angles from series over the angle where these are shorter: 1e-9 of what
-/// is not masked.
+/// The same, but for very many angles interpolated by series over the angle if those are cheaper;
+/// error 1e-9 of the unmasked light.
 LayeredScattering::Straight LayeredScattering::straight_through(
     std::span<const double> theta_deg, std::size_t count,
     const std::vector<double>& wavelength_nm) const {
@@ -249,13 +249,13 @@ double LayeredScattering::masking(std::size_t count, double theta_deg) const {
     return G1;
 }
 
-/// prod_{k<count} f_t cos relative to masking(), which has the features at grazing: a function of
-/// the angle inside for each wavelength.
+/// prod_{k<count} f_t cos divided by masking(), which carries the features at grazing: one function
+/// of the angle inside per wavelength.
 AngleSeries LayeredScattering::exits(std::size_t count, const std::vector<double>& wavelength_nm,
                                      double tolerance) const {
     constexpr double kNearGrazing_deg = 1e-6;
     return {wavelength_nm.size(), tolerance, [&](std::span<const double> angles) {
-                // at grazing both vanish: the limit from above the surface
+                // at grazing both vanish: take the limit from smaller angles
                 std::vector<double> below;
                 for (const double theta : angles)
                     below.push_back(std::min(theta, 90 - kNearGrazing_deg));
@@ -278,7 +278,7 @@ std::vector<double> LayeredScattering::base_exit(const std::vector<double>& wave
                            [&](double theta) { return masking(layers_.size(), theta); });
 }
 
-/// Moments of the lobe of one angle of the first layer, for one thread at a time.
+/// Moments of the first layer's lobe for one angle; locked while in use.
 struct LayeredScattering::Moments {
     Moments(double alpha, double theta_deg, const Coating& coating)
         : nodes(alpha, theta_deg, coating.top_deg()),

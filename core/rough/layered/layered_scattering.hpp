@@ -14,30 +14,31 @@
 
 namespace irido {
 
-/// Which light counts.
+/// Light paths taken into account.
 enum class Paths {
-    single,  ///< reflected once, by a layer or the base: FPB24 eq. 34
-    all,     ///< between layers, base and coating as often as it may be
+    single,  ///< a single reflection, by a layer or the base: FPB24 eq. 34
+    all,     ///< any number of reflections between layers, base and coating
 };
 
-/// Directions outside a surface that point away from it.
+/// A pair of directions outside a surface, pointing away from it.
 struct ScatterPair {
     double theta_i_deg = 0, theta_o_deg = 0;  ///< [0, 90]
     double phi_deg = 180;                     ///< azimuth between them, [0, 180]; 0: the same side
 };
 
-/// BRDF and albedo of a layered surface at wavelengths. The coating's mirror is in the albedo and
-/// not in the BRDF.
+/// Spectral BRDF and albedo of a layered surface. The coating's mirror reflection is part of the
+/// albedo but not of the BRDF.
 ///
 ///     f_r(i,o) = T0(i) T0(o) (n0/n_in)^2 sum_l f_l(i',o') prod_{k<l} tau_k(i') tau_k(o')
 ///     f_l      = D G1 G1 R(theta_d) / (4 cos i' cos o'),   of the base: albedo / pi
 ///
-/// with the refracted directions i', o'. tau multiplies radiance, f_t cos in FPB24's terms: their
-/// eq. 34 lacks the cosine. All paths have a closed form if there is one layer without a coating,
-/// or a coating over a base alone: the base, which feeds itself, is multiplied by 1/(1 - albedo
-/// rbar). Source: FPB24 sections 4.1 to 4.3.
+/// with the refracted directions i', o'. tau multiplies radiance, so it is f_t cos in FPB24's
+/// notation: their eq. 34 lacks the cosine. The sum over all paths has a closed form for a single
+/// layer without a coating, and for a coating directly on a base: the base, which is lit by its own
+/// light, gains the factor 1/(1 - albedo rbar).
+/// Source: FPB24 sections 4.1 to 4.3.
 ///
-/// Safe from many threads; what is computed once is kept.
+/// Thread-safe; intermediate results are cached.
 class LayeredScattering {
 public:
     /// Throws DomainError as LayerTransport and index_at do.
@@ -48,7 +49,7 @@ public:
     Crossings crossings() const { return crossings_; }
     const LayerTransport& layer(std::size_t l) const { return *layers_[l]; }
     std::size_t layers() const { return layers_.size(); }
-    /// Whether all paths have a closed form.
+    /// Whether the sum over all paths has a closed form.
     bool is_closed() const;
 
     /// Per steradian, [pair][wavelength]. Throws DomainError as IndexTable does, and for Paths::all
@@ -56,20 +57,26 @@ public:
     std::vector<double> brdf(std::span<const ScatterPair> pairs,
                              const std::vector<double>& wavelength_nm, Paths paths) const;
 
-    /// What the base does of it, times a number.
+    /// Contribution of the base to the BRDF.
+    ///   pairs          of directions
+    ///   wavelength_nm  in vacuum
+    ///   paths          single reflection, or all
+    ///   times          factor on the result
     std::vector<double> base_brdf(std::span<const ScatterPair> pairs,
                                   const std::vector<double>& wavelength_nm, Paths paths,
                                   double times = 1) const;
 
-    /// What the layers above layer l let through of light on its way in and out, at angles inside,
-    /// [wavelength].
+    /// Transmission of the layers above layer l on the way in and out, [wavelength].
+    ///   l                         number of layers above
+    ///   theta_i_deg, theta_o_deg  angles inside, degrees
+    ///   wavelength_nm             in vacuum
     std::vector<double> through(std::size_t l, double theta_i_deg, double theta_o_deg,
                                 const std::vector<double>& wavelength_nm) const;
 
-    /// Whether there is a base that is not black, and it is seen.
+    /// Whether there is a non-black base that light can reach.
     bool has_base() const;
 
-    /// Directional-hemispherical, [angle][wavelength]. Throws as brdf() does.
+    /// Directional-hemispherical albedo, [angle][wavelength]. Throws as brdf() does.
     std::vector<double> albedo(std::span<const double> theta_i_deg,
                                const std::vector<double>& wavelength_nm, Paths paths) const;
 
@@ -81,20 +88,20 @@ public:
     /// Paths::all unless is_closed().
     std::vector<double> base_factors(const std::vector<double>& wavelength_nm, Paths paths) const;
 
-    /// Of the base, 0 where there is none.
+    /// Albedo of the base, 0 if there is none.
     double base_albedo(double wavelength_nm) const;
 
-    /// Probability of going on through a layer when it is sampled: 2 f_t cos / (1 + G1), the share
-    /// of the light that is neither masked on its way in nor reflected. Source: FPB24 eq. 31.
+    /// Probability of continuing through a layer when sampling it: 2 f_t cos / (1 + G1), the
+    /// fraction of light neither masked on entering nor reflected. Source: FPB24 eq. 31.
     double passing(std::size_t layer, double theta_deg, double straight) const;
 
-    /// Probabilities of reflection at the coating, each layer and the base, which takes what is
-    /// left: [angle outside][wavelength][2 + layers]. Source: FPB24 eq. 35.
+    /// Sampling probabilities of reflection by the coating, each layer and the base, which receives
+    /// the remainder: [angle outside][wavelength][2 + layers]. Source: FPB24 eq. 35.
     std::vector<double> sampling(std::span<const double> theta_i_deg,
                                  const std::vector<double>& wavelength_nm) const;
 
-    /// The same for one sample of all wavelengths: [angle outside][2 + layers], with means of
-    /// f_t cos over the wavelengths.
+    /// Sampling probabilities for one sample shared by all wavelengths, from f_t cos averaged over
+    /// them: [angle outside][2 + layers].
     std::vector<double> multiplexed_sampling(std::span<const double> theta_i_deg,
                                              const std::vector<double>& wavelength_nm) const;
 

@@ -31,7 +31,7 @@ MirrorFacet MirrorFacets::operator()(double near, double far) const {
     const double difference2 = cosines2_ + sines2_ + both_ * far * far;
     facet.theta_d_deg =
         std::fmin(90, std::atan2(std::sqrt(difference2), std::sqrt(sum2)) / kDegree);
-    // opposite grazing directions: of all facets between them the upright one
+    // opposite grazing directions are mirrored by many facets: take the upright one
     facet.sin2 = sum2 > 0 ? across / sum2 : 0;
     facet.cos2 = sum2 > 0 ? upward2_ / sum2 : 1;
     return facet;

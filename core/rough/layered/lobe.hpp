@@ -9,17 +9,18 @@ struct MirrorFacet {
     double sin_i = 0, cos_i = 1, sin_o = 0, cos_o = 1;
 };
 
-/// Of two directions above the surface: polar angles in [0, 90] degrees, azimuth between them in
-/// [0, 180], 0 being the same side. No step cancels: with the vectors i and o of length 1,
+/// For two directions above the surface. Nothing cancels: with unit vectors i and o,
 ///     theta_d = atan2(|i - o|, |i + o|),
 ///     sin^2 = ((sin i - sin o)^2 + 4 sin i sin o cos^2(phi/2)) / |i + o|^2.
+///   theta_i_deg, theta_o_deg  polar angles, [0, 90] degrees
+///   phi_deg                   azimuth between them, [0, 180] degrees; 0: the same side
 MirrorFacet mirror_facet(double theta_i_deg, double theta_o_deg, double phi_deg);
 
-/// The same of one pair of polar angles at many azimuths.
+/// mirror_facet() for one pair of polar angles and many azimuths.
 class MirrorFacets {
 public:
     MirrorFacets(double theta_i_deg, double theta_o_deg);
-    /// near, far  cos and sin of half the azimuth
+    /// `near` and `far` are the cosine and sine of half the azimuth.
     MirrorFacet operator()(double near, double far) const;
 
     /// |i + o|^2 is up2 + across2 + both cos^2(phi/2): squares of its part along the normal, and
@@ -33,8 +34,8 @@ private:
     MirrorFacet facet_;
 };
 
-/// D G1(i) G1(o) / (4 cos i cos o) of GGX facets, per steradian: the BRDF where R = 1. It is finite
-/// at grazing, where G1 goes as the cosine. Source: FPB24 eqs. 17 to 19, whose masking is
+/// D G1(i) G1(o) / (4 cos i cos o) of GGX facets, per steradian: the BRDF for R = 1. Finite at
+/// grazing, where G1 is proportional to the cosine. Source: FPB24 eqs. 17 to 19, whose masking is
 /// separable.
 double lobe(double alpha, const MirrorFacet& facet);
 

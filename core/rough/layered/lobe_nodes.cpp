@@ -13,7 +13,7 @@ namespace irido {
 
 namespace {
 
-/// Radians below which features near an end are not followed: they are that narrow themselves.
+/// Radians below which features near an end are not resolved: they affect only as narrow a range.
 constexpr double kNarrowestLobe = 1e-6;
 
 Feature feature_beside(Complex root) {
@@ -82,7 +82,7 @@ std::vector<double> LobeNodes::panels_of(const Ring& ring) const {
     const double end = std::sqrt(ring.psi_max);
     const double peak =
         ring.swing > 0 ? 2 * std::atanh(std::sqrt(ring.P / (ring.P + ring.swing))) : kPi;
-    // cos o - top = left + tilt x + b/4 x^2 at a distance x = u^2 from the end, more or less
+    // cos o - top is roughly left + tilt x + b/4 x^2 at a distance x = u^2 from the end
     const double left = std::max(0.0, ring.c_last - ring.c_top);
     const double tilt = 0.5 * ring.b * std::sin(ring.psi_max);
     const auto distance = [&](double rise) {
@@ -92,7 +92,7 @@ std::vector<double> LobeNodes::panels_of(const Ring& ring) const {
     std::vector<Feature> features{
         feature_beside(std::sqrt(Complex(ring.psi_max, std::min(peak, kPi)))),
         {0, std::sqrt(std::clamp(masking, kNarrowestLobe, kPi))}};
-    if (top_deg_ < 90) {  // the root of E, and where it would be on the other side
+    if (top_deg_ < 90) {  // the root of E, and its continuation on the other side
         const double far = ring.b > 0 ? 4 * tilt / ring.b : kPi;
         const double near = left > 0 ? distance(left) : far;
         features.push_back({0, std::sqrt(std::clamp(near, kNarrowestLobe, kPi))});

@@ -9,20 +9,20 @@
 
 namespace irido {
 
-/// Quadrature over the directions into which the facets of a rough layer reflect light from one
-/// direction, theta_i, ordered by the facets' theta_d: for anything smooth E(o) and R(theta_d),
+/// Quadrature over the directions into which the facets of a rough layer reflect light from
+/// theta_i, ordered by the facets' theta_d, for smooth functions E(o) and R(theta_d):
 ///     integral f E cos_o dw_o with R = R(theta_d)
 ///         = integral dtheta_d R 2 cos td sin td  integral D G1(i)/cos i G1(o) E(o) dpsi,
-/// with cos o = cos i cos 2td + sin i sin 2td cos psi. Directions beyond `top` are left out, where
-/// E may go to 0 as a square root. Nodes in psi are uniform in the root of the distance to the end,
-/// and graded towards D's peak at psi = 0 and to where G1 and E vary; nodes in theta_d are those of
-/// AlbedoNodes.
+/// with cos o = cos i cos 2td + sin i sin 2td cos psi. Directions beyond `top`, where E may vanish
+/// as a square root, are left out. Nodes in psi are uniform in the square root of the distance to
+/// the end and graded towards D's peak at psi = 0 and to where G1 and E vary; nodes in theta_d are
+/// those of AlbedoNodes.
 class LobeNodes {
 public:
-    /// alpha [1e-4, 1];  theta_i_deg [0, top_deg];  top_deg (0, 90]
+    /// alpha in [1e-4, 1], theta_i_deg in [0, top_deg], top_deg in (0, 90].
     LobeNodes(double alpha, double theta_i_deg, double top_deg);
 
-    /// Calls add(cos_o, weight) at the nodes in psi of a theta_d in (0, 90) degrees.
+    /// Calls add(cos_o, weight) at the psi nodes of one theta_d in (0, 90) degrees.
     template <class Add>
     void over_psi(double theta_d_deg, const Add& add) const {
         const Ring ring = ring_at(theta_d_deg);
@@ -39,7 +39,8 @@ public:
     }
 
     /// Calls visit(begin, end, theta_of, slope_of, variable_of) for panels in the variable in which
-    /// the weights are smooth: theta_of(x) in degrees and its derivative, variable_of(theta_deg).
+    /// the weights are smooth: theta_of(x) in degrees, its derivative slope_of(x), and the inverse
+    /// variable_of(theta_deg).
     template <class Visit>
     void over_panels(const Visit& visit) const {
         const auto same = [](double x) { return x; };
@@ -58,24 +59,24 @@ public:
     /// Weight per radian of theta_d, the integral over psi with E = exit.
     double weight(double theta_d_deg, const std::function<double(double cos_o)>& exit) const;
 
-    /// Nodes in theta_d between two angles with the weights dtheta_d, psi left out.
+    /// Nodes in theta_d between two angles with weights dtheta_d, not integrated over psi.
     WeightedAngles over_theta_d(double begin_deg, double end_deg) const;
 
 private:
     struct Ring {
-        double c_first, c_last, c_top;  ///< cos o at psi = 0 and pi, and where it ends
+        double c_first, c_last, c_top;  ///< cos o at psi = 0 and pi, and its cut-off
         double b, psi_max, P, swing, scale;
     };
     struct Node {
         double cos_o, weight;
     };
-    double angle_behind(double theta_d_deg) const;  ///< phi of theta_d = whole + theta_i sin^2 phi
+    double angle_behind(double theta_d_deg) const;  ///< phi: theta_d = whole + theta_i sin^2 phi
     Ring ring_at(double theta_d_deg) const;
-    std::vector<double> panels_of(const Ring& ring) const;  ///< ends of panels in u
+    std::vector<double> panels_of(const Ring& ring) const;  ///< panel boundaries in u
     Node node_at(const Ring& ring, double u) const;
 
     double alpha_, s_, rest_;
-    double theta_i_deg_, si_, seen_i_;  ///< seen: G1 / cos
+    double theta_i_deg_, si_, seen_i_;  ///< seen_i_: G1 / cos
     double top_deg_, c_top_;
     double whole_deg_, end_deg_;
     std::vector<double> before_, behind_;

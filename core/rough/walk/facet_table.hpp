@@ -7,12 +7,12 @@
 
 namespace irido {
 
-/// Functions of an angle at many wavelengths on a uniform grid of angles, linear in between: for
-/// simulations, whose noise is far larger than that.
+/// Functions of an angle at many wavelengths on a uniform grid of angles, interpolated linearly:
+/// for simulations, whose noise is far larger than the error.
 class AngleTable {
 public:
     AngleTable() = default;
-    /// count  of values at each of the angles, which are `steps` + 1 from 0 to 90 degrees
+    /// Tabulates `count` values at each of `steps` + 1 angles from 0 to 90 degrees.
     AngleTable(std::size_t steps, std::size_t count);
 
     std::span<float> row(std::size_t step) {
