@@ -34,7 +34,7 @@ ValueRange range_of(const json& value) {
     return {value[0].get<double>(), value[1].get<double>()};
 }
 
-/// Violations of the schema or, if there are none, repeated names.
+/// Schema violations or, if there are none, duplicate names.
 std::vector<Problem> broken_rules(const json& document) {
     static const Schema schema(json::parse(scene_schema_text()));
     std::vector<Problem> problems = check(schema, document);
@@ -93,7 +93,7 @@ private:
                                                        pointer + "/vary" + pointer_step(path))});
         try {
             result.source = inner_stack(object["stack"], pointer + "/stack", folder_);
-            // the stack at both ends of what varies
+            // the stack at both ends of the varied ranges
             if (read_at(result, &ValueRange::last)) read_at(result, &ValueRange::first);
         } catch (const std::exception& error) {
             result.faults.push_back(fault_of(result, error));
@@ -102,7 +102,7 @@ private:
         return result;
     }
 
-    /// Reads the stack with one end of what varies; false if it has faults there.
+    /// Reads the stack at one end of the varied ranges; false if it has faults there.
     bool read_at(SceneMaterial& material, double ValueRange::*end) const {
         StackSource& source = material.source;
         const std::size_t faults = material.faults.size();
@@ -126,7 +126,7 @@ private:
         return material.faults.size() == faults;
     }
 
-    /// A line of stack_problems(), "FILE: POINTER: message".
+    /// Parses a line of stack_problems(), "FILE: POINTER: message".
     static SceneFault fault_of_line(const SceneMaterial& material, const std::string& line) {
         const std::string pointer = material.pointer + "/stack", prefix = pointer + ": ";
         if (!line.starts_with(prefix)) return {pointer, line};
