@@ -21,11 +21,10 @@ struct DesignTask {
     std::uint64_t seed = 1;
     std::optional<double> time_s;
     std::optional<std::size_t> evaluations;
-    bool has_merit = false;  ///< whether the task gives a merit
-    bool has_sigma = false;  ///< whether any target states a sigma
-    StackSource source;      ///< the stack's document
-    std::vector<std::vector<std::string>>
-        paths;  ///< for each free value, its paths in that document
+    bool has_merit = false;                       ///< whether the task gives a merit
+    bool has_sigma = false;                       ///< whether any target states a sigma
+    StackSource source;                           ///< the stack's document
+    std::vector<std::vector<std::string>> paths;  ///< of each free value in the document
     std::vector<std::string> notes;
     /// Materials that needles choose from: indices into the stack's materials, and as written in
     /// the document.

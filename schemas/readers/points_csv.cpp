@@ -109,8 +109,7 @@ private:
     std::string_view text_;
     const std::string& name_;
     std::size_t at_ = 0, start_ = 0;
-    std::deque<std::string>
-        unquoted_;  ///< texts of cells that differ from their spelling in the file
+    std::deque<std::string> unquoted_;  ///< texts of cells that are spelt differently in the file
 };
 
 using PlacedCells = std::vector<Rows::Cell>;

@@ -17,17 +17,17 @@ namespace irido::tables {
 namespace {
 
 constexpr std::size_t kMostSamplesOfAxis = 8192, kMostValues = 1U << 27;
-constexpr std::size_t kChunks = 64;            ///< of the work, whatever the number of threads
-constexpr std::size_t kMostFitted = 1U << 20;  ///< samples of a table whose size is looked for
-constexpr double kHelpful = 0.9;               ///< of the error, after a step that helped
+constexpr std::size_t kChunks = 64;  ///< of the work, independent of the number of threads
+constexpr std::size_t kMostFitted = 1U << 20;  ///< limit for a table whose size is being chosen
+constexpr double kHelpful = 0.9;  ///< of the error, after a step that counts as helpful
 constexpr int kMostIdle = 3;
 constexpr std::size_t kFirstSize = 4;
 constexpr std::size_t kDroppedSamples = 65;  ///< along an axis that has one sample
-constexpr std::size_t kCoarseSamples = 9;    ///< along others, while one axis is looked at
-constexpr std::size_t kWorstCells = 8;       ///< that are looked at on a finer grid
+constexpr std::size_t kCoarseSamples = 9;    ///< along the others, while one axis is examined
+constexpr std::size_t kWorstCells = 8;       ///< to be examined on a finer grid
 constexpr std::size_t kFineSamples = 9;      ///< along each side of these
 constexpr std::size_t kEndSamples = 1025;    ///< along a range that may end early
-constexpr std::size_t kFewSamples = 256;     ///< of a level that is measured, not estimated
+constexpr std::size_t kFewSamples = 256;  ///< limit for measuring a level instead of estimating it
 
 std::size_t size_of(const std::vector<LutAxis>& axes, std::size_t first, std::size_t last) {
     std::size_t count = 1;
@@ -35,7 +35,7 @@ std::size_t size_of(const std::vector<LutAxis>& axes, std::size_t first, std::si
     return count;
 }
 
-/// The plan's function on a grid, in pieces along the plan's axis.
+/// The plan's function on a grid, evaluated in pieces along the plan's split axis.
 std::vector<double> evaluated(const LutPlan& plan, const std::vector<LutAxis>& axes,
                               unsigned threads, const std::function<void(double)>& progress = {}) {
     const std::size_t split = plan.split_axis, count = axes[split].count();
@@ -62,7 +62,7 @@ std::vector<double> evaluated(const LutPlan& plan, const std::vector<LutAxis>& a
     return values;
 }
 
-/// Values on a grid, linearly interpolated at other samples along one of its axes.
+/// Values on a grid, linearly interpolated to other samples along one axis.
 std::vector<double> resampled(const std::vector<double>& values, const std::vector<LutAxis>& axes,
                               std::size_t a, const std::vector<double>& at, std::size_t channels) {
     const std::vector<double>& x = axes[a].values;
@@ -102,7 +102,7 @@ public:
                unsigned threads)
         : plan_(plan), axes_(std::move(axes)), stored_(std::move(stored)), threads_(threads) {}
 
-    /// Samples between those of the grid at which an axis is checked; none if it is a list.
+    /// Samples at which an axis is checked between those of the grid; none if it is a list.
     std::vector<double> between(std::size_t a) const {
         const LutAxis& planned = plan_.axes[a].axis;
         if (plan_.mips && a == 0) return {};
@@ -119,7 +119,8 @@ public:
         std::vector<double> at;
     };
 
-    /// The largest differences at the samples of `targets`, the largest first, and where.
+    /// The largest differences at the samples of `targets`, in descending order, with their
+    /// locations.
     std::vector<Difference> largest(const std::vector<LutAxis>& targets, std::size_t most) const {
         std::vector<LutAxis> axes = axes_;
         std::vector<double> approximate = stored_;
@@ -175,7 +176,7 @@ public:
         return result;
     }
 
-    /// The largest differences at the middles of all cells, and where.
+    /// The largest differences at the midpoints of all cells, with their locations.
     std::vector<Difference> worst_middles() const {
         std::vector<LutAxis> targets = axes_;
         for (std::size_t a = 0; a < axes_.size(); ++a)
@@ -184,7 +185,7 @@ public:
         return largest(targets, kWorstCells);
     }
 
-    /// The samples of the grid around a place.
+    /// The samples of the grid around a point.
     std::vector<LutAxis> ends_of_cell(const std::vector<double>& at) const {
         std::vector<LutAxis> ends = axes_;
         for (std::size_t a = 0; a < axes_.size(); ++a) {
@@ -205,7 +206,7 @@ private:
         result.at = one.at;
     }
 
-    /// A fine grid over the cell around a place.
+    /// A fine grid over the cell around a point.
     std::vector<LutAxis> cell_of(const std::vector<double>& at) const {
         std::vector<LutAxis> cell = axes_;
         for (std::size_t a = 0; a < axes_.size(); ++a) {
@@ -229,7 +230,7 @@ std::vector<double> as_stored(std::vector<double> values, LutType type) {
     return values;
 }
 
-/// The parts of a table that are sampled together, as grids of the plan's axes.
+/// The parts of a table that are sampled together, as grids over the plan's axes.
 std::vector<std::vector<LutAxis>> grids_of(const Lut& lut) {
     if (!lut.mips) return {lut.axes};
     std::vector<std::vector<LutAxis>> grids;
@@ -275,17 +276,17 @@ private:
         return axis;
     }
 
-    /// Few samples along the other axes.
+    /// A few samples along the other axes.
     std::vector<LutAxis> coarse() const {
         std::vector<LutAxis> axes;
         for (std::size_t a = 0; a < plan_.axes.size(); ++a)
             axes.push_back(is_free(a) ? range(a, kCoarseSamples) : plan_.axes[a].axis);
-        // larger spreads only leave less to see
+        // wider distributions only blur what there is to see
         if (lut_.mips) axes.front().values.resize(1);
         return axes;
     }
 
-    /// Along axis a of a grid: the last sample that differs from the last of all.
+    /// Along axis a of a grid: the last sample that differs from the very last one.
     std::size_t last_different(std::size_t a, const std::vector<LutAxis>& axes,
                                std::size_t reference) const {
         const std::vector<double> values = evaluated(plan_, axes, making_.threads);
@@ -301,7 +302,7 @@ private:
         return last;
     }
 
-    /// The range ends where the function has become constant.
+    /// Ends the range where the function has become constant.
     void end_early(std::size_t a) {
         std::vector<LutAxis> axes = coarse();
         axes[a] = range(a, kEndSamples);
@@ -314,12 +315,12 @@ private:
              to_text(axis.values.back()) + ": range cut there");
     }
 
-    /// One sample for an axis along which the function is constant, few for others.
+    /// One sample for an axis along which the function is constant, a few for others.
     void start(std::size_t a) {
         std::vector<LutAxis> axes = coarse();
         axes[a] = range(a, kDroppedSamples);
         const LutAxis whole = range(a, 3);
-        // parts side by side cannot be told apart in one texel
+        // side-by-side parts cannot be told apart in one texel
         const bool is_needed = lut_.mips && lut_.channels.size() > 4 && a + 1 == lut_.axes.size();
         if (!is_needed && last_different(a, axes, kDroppedSamples / 2) == 0) {
             lut_.axes[a].values = {whole.values[1]};
@@ -330,10 +331,10 @@ private:
         }
     }
 
-    /// The fewest samples along a non-constant axis: two, also in the last mip level.
+    /// The minimum of samples along a non-constant axis: two, also in the last mip level.
     std::size_t least() const { return lut_.mips ? std::size_t{2} << (lut_.levels() - 1) : 2; }
 
-    /// Of the first mip level, where there are any.
+    /// Of the first mip level, if there are levels.
     InterpolationError error_now() {
         const std::vector<LutAxis> grid = grids_of(lut_).front();
         const Comparison comparison(plan_, grid,
@@ -355,7 +356,7 @@ private:
         }
     }
 
-    /// Enlarges the axes that contribute most to the error, if possible.
+    /// Enlarges the axes that contribute most to the error; false if none can grow.
     bool has_grown(const InterpolationError& error) {
         double largest = 0;
         for (std::size_t a = 0; a < plan_.axes.size(); ++a)
@@ -366,7 +367,7 @@ private:
             const std::size_t count = lut_.axes[a].count();
             if (!is_free(a) || !(error.of_axis[a] > largest / 2) || count >= kMostSamplesOfAxis)
                 continue;
-            // the error falls with the square of the spacing, once it is small
+            // the error falls as the square of the spacing once it is small
             const std::size_t factor = error.of_axis[a] > 16 * tolerance_ ? 4 : 2;
             lut_.axes[a] = range(a, std::max(kFirstSize, count * factor));
             has_grown = true;
@@ -384,7 +385,8 @@ private:
                              to_text(error.value) + " remains; a range that excludes it may work");
     }
 
-    /// Fewer samples along one axis after the other, the largest first, while the error allows.
+    /// Reduces the samples of one axis after the other, the largest first, while the error allows
+    /// it.
     void shrink() {
         std::vector<std::size_t> order;
         for (std::size_t a = 0; a < plan_.axes.size(); ++a)
@@ -448,7 +450,7 @@ void fill(Lut& lut, const LutPlan& plan, const LutMaking& making) {
     }
 }
 
-/// A table without values; with a tolerance, the plan's ranges may be cut.
+/// A table without values; with a tolerance, the plan's ranges may be shortened.
 Lut sized(const LutKind& kind, LutPlan& plan, const LutMaking& making) {
     Lut lut;
     lut.kind = kind.name;
@@ -496,9 +498,9 @@ double least_evaluations(const LutPlan& plan, const LutMaking& making) {
         if (is_range && has_counts) count = sizing.counts[a];
         samples *= static_cast<double>(count);
     }
-    if (sizing.tolerance)  // each range is looked at, with few samples along the others
+    if (sizing.tolerance)  // each range is examined, with few samples along the others
         return samples * static_cast<double>(ranges * kDroppedSamples) / kCoarseSamples;
-    // the values; and to measure their error, between them along each range and along all
+    // the values and, to measure their error, points between them along each range and along all
     return samples * (making.measure ? 2 + static_cast<double>(ranges) : 1);
 }
 
@@ -535,7 +537,7 @@ std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized
 double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads) {
     constexpr std::size_t few = 8;  // samples along an axis
     constexpr double evaluations =
-        4;  // of the values, between them along each of two axes and both
+        4;  // of the values: between them along each of two axes and both
     double seconds = 0;
     for (std::vector<LutAxis> grid : grids_of(sized)) {
         const auto all = static_cast<double>(size_of(grid, 0, grid.size()));

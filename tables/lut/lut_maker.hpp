@@ -22,18 +22,18 @@ struct LutSizing {
 struct LutMaking {
     LutSizing sizing{};
     LutType type = LutType::f32;
-    bool mips = false;     ///< the first axis as mip levels, where the plan allows it
-    bool measure = true;   ///< store the interpolation error in the facts
+    bool mips = false;     ///< makes the first axis mip levels, where the plan allows it
+    bool measure = true;   ///< stores the interpolation error in the facts
     unsigned threads = 0;  ///< 0: one per core; the table does not depend on it
     std::function<void(double done)> progress{};  ///< called with a growing fraction
 };
 
 /// The error of a table that is interpolated linearly along all axes that are ranges. Measured at
-/// the middles of the cells along each axis and along all axes, and on a finer grid in the eight
-/// worst cells: a sampled maximum, not a bound. Uses the values as stored.
+/// the midpoints of the cells, along each axis alone and along all together, and on a finer grid in
+/// the eight worst cells: a sampled maximum, not a bound. Uses the values as stored.
 struct InterpolationError {
     double value = 0;
-    std::vector<double> at;       ///< the place, one number per axis
+    std::vector<double> at;       ///< its location, one number per axis
     std::vector<double> of_axis;  ///< along each axis alone
 };
 
@@ -54,12 +54,12 @@ double least_evaluations(const LutPlan& plan, const LutMaking& making);
 /// The result of make_lut() without values and error.
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
-/// The estimated interpolation error of each mip level of a sized table, from few samples in the
+/// The estimated interpolation error of each mip level of a sized table, from a few samples in the
 /// cells that would be worst at a single thickness. Empty if there are no levels.
 std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized, unsigned threads);
 
-/// Estimated seconds of make_lut() for the values of a sized table and their error, extrapolated
-/// from few samples of each level.
+/// Estimated time of make_lut(), in seconds, for the values of a sized table and their error,
+/// extrapolated from a few samples of each level.
 double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads);
 
 }  // namespace irido::tables

@@ -14,23 +14,24 @@ namespace irido::tables {
 struct GridExtent {
     SurfacePoint origin{};  ///< the corner of cell 0, um
     double width_um = 1000, height_um = 1000, cell_um = 100;
-    double reach_um = 360;  ///< how far off a scratch counts
+    double reach_um = 360;  ///< maximum distance at which a scratch counts
 };
 
-/// Scratches and their grid as engines load them, little-endian, one buffer after the other:
+/// Scratches and their grid in the form that engines load, little-endian, one buffer after the
+/// other:
 ///     records  float32 [scratches][8]: x, y (from the origin), tangent x, y, start, end, width,
 ///              depth, um; ends of endless scratches are -+3e38
 ///     offsets  uint32 [cells + 1]; cell = row columns + column
 ///     entries  uint32: those of a cell are records[entries[offsets[cell]]] and so on, ascending
-/// The header says where each of them begins, and what the rectangle is.
+/// The header gives the offset of each buffer, and the rectangle.
 struct GridFile {
     std::string bytes;
     nlohmann::json header;
 };
 GridFile grid_file(std::span<const Scratch> scratches, const GridExtent& extent);
 
-/// What is wrong with the bytes of a grid file, one line each: a size, the checksum, an entry out
-/// of range or order, a scratch that is missing in a cell that it crosses.
+/// Errors in the bytes of a grid file, one line each: a wrong size or checksum, an entry out of
+/// range or order, a scratch missing from a cell that it crosses.
 std::vector<std::string> grid_problems(std::string_view bytes, const nlohmann::json& header);
 
 }  // namespace irido::tables
