@@ -28,8 +28,8 @@ std::vector<std::string> case_names(std::span<const Case> all) {
     return names;
 }
 
-/// The cases of "a,b", in that order, or of "all". Throws UsageError, which refers to the help of
-/// the subcommand `bench`.
+/// The cases named in "a,b", in that order, or all of them for "all". Throws UsageError, which
+/// refers to the help of the subcommand `bench`.
 template <class Case>
 std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> all,
                                const std::string& bench) {

@@ -14,7 +14,7 @@ namespace irido::cli {
 
 namespace {
 
-/// A mirror of FPB24's figure 7 as facets, N = 10, n2 = 1.5, over a grey base of albedo 0.5.
+/// Facets with the mirror of FPB24's figure 7, N = 10, n2 = 1.5, over a grey base of albedo 0.5.
 struct LayeredCase {
     std::string_view name, summary;
     double host, thickness_nm, alpha;
@@ -50,7 +50,7 @@ LayeredSurface surface_of(const LayeredCase& of) {
     return {outside, inside, {{std::move(stack), of.alpha, true}}, Constant{0.5}};
 }
 
-/// Directions of view under a beam from 30 degrees.
+/// Viewing directions for a beam at 30 degrees.
 std::vector<ScatterPair> bench_pairs() {
     std::vector<ScatterPair> pairs;
     for (double theta = 2.5; theta < 80; theta += 5)

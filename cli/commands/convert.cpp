@@ -26,7 +26,7 @@ struct ConvertCommand {
     bool quiet = false;
 };
 
-/// What is written: JSON, an expression, or a format of another program.
+/// The output: JSON, an expression, or a format of another program.
 struct Target {
     bool is_expression = false;
     const schemas::StackFormat* other = nullptr;
@@ -69,7 +69,7 @@ std::string as_expression(const schemas::StackDocument& document, bool quiet) {
     return expression.text + "\n";
 }
 
-/// The layers from the other side. Throws InputError for layers that are not the same from there.
+/// Reverses the layers. Throws InputError for layers whose reverse cannot be expressed.
 void reverse_layers(nlohmann::json& layers, const std::string& file) {
     if (!layers.is_array()) return;
     std::reverse(layers.begin(), layers.end());
@@ -83,7 +83,7 @@ void reverse_layers(nlohmann::json& layers, const std::string& file) {
     }
 }
 
-/// The document with its stack from the other side.
+/// Reverses the document's stack.
 void reverse(schemas::StackSource& source) {
     nlohmann::json& document = source.document;
     if (document.contains("substrate_roughness_nm"))
@@ -93,7 +93,7 @@ void reverse(schemas::StackSource& source) {
     if (document.contains("layers")) reverse_layers(document["layers"], source.file);
 }
 
-/// The stack of a file of another program, or one as every command reads it.
+/// The stack from a file of another program, or from any source that other commands accept.
 schemas::StackSource load(const ConvertCommand& command) {
     const std::string& path = command.stack.stack;
     const auto* const format =
@@ -113,7 +113,7 @@ schemas::StackSource load(const ConvertCommand& command) {
     return source;
 }
 
-/// Throws UsageError if a file beside the output is there with something else in it.
+/// Throws UsageError if a file to be written next to the output exists with different content.
 void require_free(const std::string& path, const std::string& text) {
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored) && schemas::read_own_file(path) != text)

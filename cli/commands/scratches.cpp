@@ -34,7 +34,8 @@ std::array<double, 2> parse_two(const char* option, const std::string& text, dou
             parse_one_number(option, std::string(parts[1]), lowest, kLargestExtent_um)};
 }
 
-/// Distance of an axis from a rectangle's centre, minus half its diagonal, is below the reach.
+/// Scratches whose axis passes within the reach of the rectangle: its distance from the centre,
+/// minus half the diagonal, is less than the reach.
 std::vector<Scratch> scratches_of(const ScratchedSurface& surface,
                                   const tables::GridExtent& extent) {
     const SurfacePoint center{extent.origin.x_um + extent.width_um / 2,

@@ -14,8 +14,7 @@ struct Tick {
 class AxisPlaces {
 public:
     /// low, high  range of the data, used for ends that the axis leaves open; widened to round
-    /// numbers
-    ///            if `widen` is set or if both are equal
+    ///            numbers if `widen` is set or if both are equal
     /// from, to   coordinates of the axis' first and last value
     AxisPlaces(const FigureAxis& axis, double low, double high, bool widen, double from, double to);
 

@@ -17,8 +17,7 @@ struct GridExtent {
     double reach_um = 360;  ///< maximum distance at which a scratch counts
 };
 
-/// Scratches and their grid in the form that engines load, little-endian, one buffer after the
-/// other:
+/// Scratches and their grid as engines load them, little-endian, one buffer after the other:
 ///     records  float32 [scratches][8]: x, y (from the origin), tangent x, y, start, end, width,
 ///              depth, um; ends of endless scratches are -+3e38
 ///     offsets  uint32 [cells + 1]; cell = row columns + column

@@ -1,8 +1,7 @@
 // CSV: for people, spreadsheets and scripts.
 // - The first line has the names: one column per axis, then one per channel.
 // - One line per sample, the last axis fastest; with mip levels, level 0 comes first, and each
-// level
-//   has its own samples, with the level's value of the mip axis in the leading column.
+//   level has its own samples, with its value of the mip axis in the leading column.
 // - Numbers are the shortest text of the double to which the table's type rounds the value, so that
 //   f16, f32 and f64 all read back bit-identical. Linear axes are written as in the metadata.
 // - The metadata is in the companion FILE.csv.json; a table on standard output has none.

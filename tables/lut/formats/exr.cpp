@@ -2,9 +2,8 @@
 // - f16 (half) or f32 (float), one part of scan lines, ZIP compression.
 // - 1 channel is Y; 2 are R, G and a B of zeros (three's EXRLoader refuses R and G alone); 3 are
 //   R, G, B, whatever they mean: also for XYZ, because readers take channels named X, Y, Z for
-//   grey,
-//   and the metadata says what they are; 4 are R, G, B, A. More are blocks of three, R, G, B, side
-//   by side along x; the metadata's key `blocks` gives their number.
+//   grey, and the metadata says what they are; 4 are R, G, B, A. More are blocks of three,
+//   R, G, B, side by side along x; the metadata's key `blocks` gives their number.
 // - The last axis is x, the one before it y. The first sample is the leftmost column of the topmost
 //   row, which is the file's first line. (three's EXRLoader flips the rows: its data begin with the
 //   bottom row and flipY is false, so that v = 1 is the first sample.)
