@@ -213,6 +213,6 @@ TEST_CASE("bench layered measures four methods", "[cli][bench]") {
     REQUIRE(rows.size() == 5);
     CHECK(rows[0] == std::vector<std::string>{"case", "method", "prepare_s", "evaluate_s",
                                               "smape_percent", "efficiency"});
-    // all paths have no bias, unlike single reflections
+    // all paths are unbiased, unlike single reflections
     CHECK(std::stod(rows[4][4]) < std::stod(rows[2][4]));
 }
