@@ -57,7 +57,11 @@ std::string cases_help(std::span<const Case> all) {
     return text;
 }
 
-/// Appends a column with value(row) for every row.
+/// Appends a column of numbers.
+/// records  receives the column
+/// name     name of the column
+/// rows     one per record
+/// value    value(row) gives the number
 template <class Row, class Value>
 void add_numbers(tables::Records& records, std::string name, const std::vector<Row>& rows,
                  const Value& value) {

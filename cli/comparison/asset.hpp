@@ -13,6 +13,10 @@ inline constexpr const char* kAssetEngines = "gltf,three,babylon,materialx-gltf"
 /// columns material, thickness_nm (both ends if there is a texture), then those of EngineRows. A
 /// grey base is the real index with its F0; other bases have no exact colour. Throws InputError,
 /// also if no material is iridescent, and UsageError for engines that do not take F0.
+/// file       the .gltf or .glb file
+/// typed      options of the comparison
+/// execution  threads and SIMD level
+/// say        receives the text of a note
 tables::Records asset_rows(const std::string& file, const ComparisonQueryOptions& typed,
                            const Execution& execution,
                            const std::function<void(const std::string&)>& say);

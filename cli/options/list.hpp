@@ -27,7 +27,7 @@ std::vector<std::string_view> comma_separated(std::string_view text);
 std::vector<double> parse_list(std::string_view option, std::string_view text, double lowest,
                                double highest);
 
-/// Parses a single number, or a single whole number. Throws UsageError.
+/// Parse a single number, or a single whole number. Throw UsageError.
 /// option           name of the option, for errors
 /// text             as given; any LIST with one value
 /// lowest, highest  closed range of the value, in the option's unit

@@ -23,8 +23,11 @@ struct OfferedWords {
 
 void offer(OfferedWords words);
 
-/// Offers the words that `make` returns; it is called only if they are needed. `option`, the
-/// option's name without dashes, must live as long as the program.
+/// Offers the words that a function returns.
+/// command  the command
+/// option   the option's name without dashes; must live as long as the program
+/// make     returns the words; called only if they are needed
+/// use      what a value is: one word, a word or a file, or several words
 template <class Make>
 void offer(const CLI::App& command, std::string_view option, Make make,
            OfferedWords::Use use = OfferedWords::Use::one) {
@@ -36,7 +39,11 @@ void offer(const CLI::App& command, std::string_view option, Make make,
            use});
 }
 
-/// Offers the words of a text, separated by blanks; the text must live as long as the program.
+/// Offers the words of a text.
+/// command  the command
+/// option   the option's name without dashes; must live as long as the program
+/// words    separated by blanks; must live as long as the program
+/// use      what a value is: one word, a word or a file, or several words
 void offer(const CLI::App& command, std::string_view option, const char* words,
            OfferedWords::Use use = OfferedWords::Use::one);
 

@@ -13,8 +13,9 @@ struct Tick {
 /// Maps the values of an axis to coordinates in a picture.
 class AxisPlaces {
 public:
-    /// low, high  range of the data, used for ends that the axis leaves open; widened to round
-    ///            numbers if `widen` is set or if both are equal
+    /// axis       the axis
+    /// low, high  range of the data, used for ends that the axis leaves open; widened if equal
+    /// widen      widens the range of the data to round numbers
     /// from, to   coordinates of the axis' first and last value
     AxisPlaces(const FigureAxis& axis, double low, double high, bool widen, double from, double to);
 

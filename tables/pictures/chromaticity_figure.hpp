@@ -20,6 +20,10 @@ struct ChromaticityPath {
 /// Paths in the CIE 1931 diagram (x, y) and the CIE 1976 one (u', v'), side by side, with the
 /// observer's spectral locus, the triangle of sRGB and the white point. Throws PictureError if no
 /// stop of a path has a chromaticity.
+/// title  the figure's title
+/// paths  the paths
+/// eye    whose spectral locus is drawn
+/// white  XYZ of the white point
 Figure chromaticity_figure(const std::string& title, const std::vector<ChromaticityPath>& paths,
                            const Observer& eye, const Triple& white);
 

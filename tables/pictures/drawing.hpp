@@ -92,6 +92,9 @@ struct Drawing {
 Path box_path(const Box& box);
 
 /// A straight line.
+/// from, to  its ends
+/// ink       its colour
+/// width     of the stroke, in units of the picture
 Path line_path(Point from, Point to, const Ink& ink, double width = 1);
 
 }  // namespace irido::tables

@@ -19,8 +19,11 @@ struct PanelPlaces {
 /// Maps a panel's numbers to a box. Throws PictureError.
 PanelPlaces panel_places(const Panel& panel, const Box& box);
 
-/// Draws a panel's grid lines, cells, areas, curves, frame and labels. Adds a note for whatever is
-/// not drawn point by point.
+/// Draws a panel's grid lines, cells, areas, curves, frame and labels.
+/// panel   the panel
+/// places  its axes, from panel_places()
+/// to      receives the shapes
+/// notes   receives a note for whatever is not drawn point by point
 void draw_panel(const Panel& panel, const PanelPlaces& places, std::vector<DrawnGroup>& to,
                 std::set<std::string>& notes);
 

@@ -14,10 +14,15 @@ namespace irido::oracle {
 Delays differenced_delays(const Stack& stack, double wavelength_nm, double angle_deg,
                           Polarization polarization);
 
-/// Moduli of r and t from the same amplitudes.
+/// Moduli of r and t from the same amplitudes as differenced_delays().
 struct Moduli {
     double r, t;
 };
+/// Moduli of these amplitudes.
+/// stack          the stack
+/// wavelength_nm  vacuum wavelength, nm
+/// angle_deg      angle of incidence, degrees
+/// polarization   s or p
 Moduli moduli(const Stack& stack, double wavelength_nm, double angle_deg,
               Polarization polarization);
 

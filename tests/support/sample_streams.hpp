@@ -33,6 +33,11 @@ inline StreamIdentity identity_of(std::uint64_t total, std::uint64_t shard = 1,
         total,     shards > 1};
 }
 
+/// Appends one block.
+/// stream    the stream
+/// format    format of its rows
+/// identity  identity of the stream
+/// count     number of units in the block
 inline void append_units(RecordStream& stream, const RecordFormat& format,
                          const StreamIdentity& identity, std::uint64_t count) {
     const std::uint64_t first = identity.begin + stream.units_done();
@@ -68,6 +73,11 @@ inline std::string whole(const RecordFormat& format, std::uint64_t total) {
     return read_file(folder / "whole");
 }
 
+/// Opens a file for sample rows.
+/// path      the file
+/// format    format of the rows
+/// identity  identity of the stream
+/// resume    continue an unfinished part
 inline std::unique_ptr<RecordStream> open_stream(const std::string& path,
                                                  const RecordFormat& format,
                                                  const StreamIdentity& identity,
