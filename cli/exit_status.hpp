@@ -2,8 +2,8 @@
 
 namespace irido::cli {
 
-/// Exit statuses besides 0; a run that a signal ends has 128 and the signal's number.
-inline constexpr int kCheckFailed = 1;  ///< computed, but a tolerance or a check is not met
+/// Non-zero exit statuses; a run ended by a signal has 128 plus the signal's number.
+inline constexpr int kCheckFailed = 1;  ///< computed, but a tolerance was not met or a check failed
 inline constexpr int kBadInput = 2;     ///< the command line, an input or an output was refused
 
 }  // namespace irido::cli

@@ -2,12 +2,12 @@
 
 namespace irido::cli {
 
-/// SIGINT, SIGTERM and SIGHUP end the program with 128 + the signal's number and leave no temporary
-/// file; a closed pipe and a file that grows too large are errors of write().
+/// Makes SIGINT, SIGTERM and SIGHUP end the program with 128 + the signal's number, without leaving
+/// a temporary file; a closed pipe and exceeding the file size limit become errors of write().
 void handle_signals();
 
-/// While it lives, such a signal only asks the program to end; another one, a second later or more,
-/// ends it at once. (Some send a signal to a process and to its group.)
+/// While an object exists, such a signal only requests an orderly end; another one, a second or
+/// more later, ends the program at once. (Some senders signal both a process and its group.)
 class OrderlyEnd {
 public:
     OrderlyEnd();
@@ -15,7 +15,7 @@ public:
     OrderlyEnd(const OrderlyEnd&) = delete;
     OrderlyEnd& operator=(const OrderlyEnd&) = delete;
 
-    /// The signal that asked for the end; 0 if there was none.
+    /// The signal that requested the end; 0 if there was none.
     int signal() const;
 };
 

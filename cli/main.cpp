@@ -30,8 +30,8 @@ int fail(const std::string& text, int status = kBadInput) {
     return status;
 }
 
-/// Adds the command that was typed, or all of them where none was: to build all of them takes half
-/// of a short run.
+/// Adds the command given on the command line, or all commands if there is none: building all of
+/// them takes half of a short run.
 void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
     struct Command {
         std::string_view name;
@@ -67,7 +67,7 @@ void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
         words.size() < 2 ? commands.end() : std::ranges::find(commands, words[1], &Command::name);
     if (typed != commands.end()) return typed->add();
     for (const Command& command : commands) command.add();
-    add_manual_command(program, run);  // of all the others
+    add_manual_command(program, run);  // describes all the others
     add_completion_command(program, run);
 }
 

@@ -15,7 +15,7 @@ bool continues(char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-/// A code point at the start of a text and its bytes; 0 bytes where there is none.
+/// The code point at the start of a text and its length in bytes, 0 if there is none.
 struct CodePoint {
     std::uint32_t value = 0;
     std::size_t bytes = 0;
@@ -36,7 +36,7 @@ CodePoint first_of(std::string_view text) {
     return {value, bytes};
 }
 
-/// Controls, separators of lines, marks of direction.
+/// Whether a character is a control, a line separator or a direction mark.
 bool is_hidden(std::uint32_t c) {
     const auto in = [c](std::uint32_t first, std::uint32_t last) {
         return c >= first && c <= last;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kPatience = std::chrono::seconds(1);
 constexpr auto kInterval = std::chrono::milliseconds(100);
-/// The short bar leaves room for a text in 80 columns.
+/// The short bar leaves room for text in 80 columns.
 constexpr int kWidth = 40, kShortWidth = 20;
 
 }  // namespace

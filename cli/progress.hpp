@@ -16,7 +16,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// done  a fraction of the work, [0, 1]; from any thread
+    /// done  fraction of the work, [0, 1]; may be called from any thread
     /// text  shown after the bar
     void set(double done, const std::string& text = "");
     /// Removes the bar.

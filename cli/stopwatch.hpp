@@ -11,8 +11,8 @@ inline double seconds_of(const auto& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Seconds of the fastest of repeated runs: at least two, for `budget` seconds in all; the first
-/// one warms up.
+/// Time in seconds of the fastest of repeated runs: at least two, `budget` seconds in total; the
+/// first is a warm-up.
 double best_seconds(double budget, const auto& work) {
     double best = seconds_of(work);
     for (double spent = 0; spent < budget;) {

@@ -18,7 +18,7 @@ struct Include {
     std::string target;
 };
 
-/// Every #include of every source below a folder of the project.
+/// Every #include in every source below a folder of the project.
 std::vector<Include> includes_below(const std::string& room) {
     static const std::regex pattern(R"re(^\s*#\s*include\s*[<"]([^>"]+)[>"])re");
     std::vector<Include> found;
@@ -39,7 +39,7 @@ std::string room_of(const std::string& target) {
     return target.substr(0, target.find('/'));
 }
 
-/// The room inside a room, "coherent" of core/coherent/layer.hpp, "" of core/error.hpp.
+/// The subfolder of a folder: "coherent" for core/coherent/layer.hpp, "" for core/error.hpp.
 std::string inner_room_of(const std::string& target) {
     const std::size_t begin = target.find('/') + 1, end = target.find('/', begin);
     return end == std::string::npos ? "" : target.substr(begin, end - begin);
@@ -101,7 +101,7 @@ TEST_CASE("each room has its namespace", "[architecture]") {
         }
 }
 
-// Each may include those that stand before it, and itself. Only the main program includes all.
+// Each may include those listed before it, and itself. Only the main program includes all.
 TEST_CASE("includes run one way between the rooms inside a room", "[architecture]") {
     const std::map<std::string, std::vector<std::string>> order{
         {"core",

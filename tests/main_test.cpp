@@ -19,12 +19,12 @@ void allocate() {
     std::vector<std::string> texts;
     for (const auto end = Clock::now() + 2 * kLongest; Clock::now() < end;)
         for (std::size_t i = 0; i < 10000; ++i) {
-            texts.emplace_back(2000 + i, 'x');  // a size that threads share memory for
+            texts.emplace_back(2000 + i, 'x');  // a size for which threads share memory
             if (texts.size() > 100) texts.clear();
         }
 }
 
-/// The test program with one test of its own.
+/// Starts the test program with a single test.
 pid_t start_test(const char* name) {
     const pid_t child = fork();
     if (child == 0) {
@@ -34,7 +34,7 @@ pid_t start_test(const char* name) {
     return child;
 }
 
-/// Its status once it ended; kills it if it does not.
+/// The exit status of a process; kills it if it does not end.
 int status_of(pid_t child) {
     int status = 0;
     for (const auto end = Clock::now() + kLongest; Clock::now() < end;) {

@@ -28,8 +28,8 @@ std::vector<std::string> case_names(std::span<const Case> all) {
     return names;
 }
 
-/// The cases of "a,b", in that order, or of "all". Throws UsageError, which refers to the help of
-/// the subcommand `bench`.
+/// The cases named in "a,b", in that order, or all of them for "all". Throws UsageError, which
+/// refers to the help of the subcommand `bench`.
 template <class Case>
 std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> all,
                                const std::string& bench) {
@@ -57,7 +57,11 @@ std::string cases_help(std::span<const Case> all) {
     return text;
 }
 
-/// Appends a column with value(row) for every row.
+/// Appends a column of numbers.
+/// records  receives the column
+/// name     name of the column
+/// rows     one per record
+/// value    value(row) gives the number
 template <class Row, class Value>
 void add_numbers(tables::Records& records, std::string name, const std::vector<Row>& rows,
                  const Value& value) {

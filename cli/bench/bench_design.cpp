@@ -29,7 +29,7 @@ struct DesignRow {
     std::size_t within = 0, runs = 0;
 };
 
-/// Gradients per second on one thread, at the start.
+/// Gradients per second on one thread, at the starting point.
 double gradient_rate(const DesignProblem& problem) {
     constexpr double kEnough_s = 0.02;
     DesignModel model(problem);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostStacks = 1e5;
 
-/// To which the average of Bloch waves is integrated: it is further off itself.
+/// Tolerance for integrating the average of Bloch waves: its own error is larger.
 constexpr double kAverageTolerance = 1e-4;
 
 struct ParetoOptions {
@@ -27,12 +27,12 @@ struct ParetoOptions {
     OutputOptions output;
 };
 
-/// Tolerances 10^-2 to 10^-last, or counts of something, of one method.
+/// One method with tolerances 10^-2 to 10^-last_power, or with counts of something.
 struct Candidate {
     ColorMethod::Kind kind;
-    int last_power;  ///< 0 for no tolerances
+    int last_power;  ///< 0 if it has no tolerances
     std::vector<std::size_t> counts;
-    bool is_exact;  ///< as exact as asked: compared with equal wavelengths
+    bool is_exact;  ///< meets any tolerance: compared with equally spaced wavelengths
 
     std::string name() const { return name_of(ColorMethod{kind}); }
 };
@@ -122,7 +122,7 @@ tables::Records to_records(const std::vector<ParetoRow>& rows) {
     return records;
 }
 
-/// Smaller errors are rounding errors, or those of the reference.
+/// Smaller errors are due to rounding or to the reference.
 constexpr double kSmallestError = 1e-13;
 
 tables::Point point_of(const ParetoRow& row) {

@@ -42,7 +42,7 @@ struct MeasuredPicture {
     double seconds = 0, mean = 0, worst = 0;
 };
 
-/// A case made ready.
+/// A prepared case.
 class BenchPicture {
 public:
     BenchPicture(const PictureCase& of, std::size_t size, const Execution& execution)
@@ -65,7 +65,8 @@ public:
 
     bool has_other_methods() const { return is_simple(case_.shape); }
 
-    /// Seconds of all that decides the pixels; what processes share is made anew.
+    /// Seconds for everything that determines the pixels; data shared within a process are
+    /// recomputed.
     double draw(bool exact, const ColorMethod& method, Picture& picture) const {
         return seconds_of([&] {
             const ColorTables tables(tables_.sensitivity());
@@ -106,7 +107,7 @@ private:
     PictureScene scene_;
 };
 
-/// CIEDE2000 of the pixels that show the shape.
+/// CIEDE2000 over the pixels that show the shape.
 void compare(const Picture& exact, const Picture& picture, MeasuredPicture& row) {
     double sum = 0;
     std::size_t count = 0;

@@ -34,7 +34,7 @@ struct ScratchBenchOptions {
     OutputOptions output;
 };
 
-/// A light that covers u = W q from one end to the other, on a scratch of a depth.
+/// A light that covers u = W q from one end to the other, on a scratch of given depth.
 struct SlitLight {
     double from_um, to_um, depth_um;
 };
@@ -52,7 +52,7 @@ std::vector<SlitLight> random_lights(double least, double most, std::uint64_t co
     return lights;
 }
 
-/// By nodes, and with F or what stands for it.
+/// Colour from spectral nodes, with F or an approximation of it.
 template <class Slit>
 Triple color_by_nodes(const SpectralNodes& nodes, const SlitLight& light, const Slit& slit) {
     Triple sum{};
@@ -72,7 +72,8 @@ double published_lobe(double from, double to) {
     return published_slit_integral(to) - published_slit_integral(from);
 }
 
-/// A texture of Q or of its derivative by x = u/(u + 2 um), read as a shader reads it.
+/// A texture of Q, or of its derivative with respect to x = u/(u + 2 um), sampled like a shader
+/// does.
 class SlitTexture {
 public:
     SlitTexture(const Sensitivity& sensitivity, bool is_slope, bool is_half)

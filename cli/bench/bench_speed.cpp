@@ -46,7 +46,7 @@ Material constant(double n, double k = 0) {
     return {"", RefractiveIndex{Constant{n}, Constant{k}}};
 }
 
-/// `layers` different films; index(i) is the material of film i.
+/// `layers` distinct films; index(i) is the material of film i.
 template <class Index>
 Stack films(int layers, const Index& index) {
     Stack stack;
@@ -85,7 +85,7 @@ Stack periods(int layers) {
     return stack;
 }
 
-/// Periods between half-spaces of the index of one of the two films.
+/// Periods between half-spaces with the index of one of the two films.
 Stack hosted_periods(int layers) {
     Stack stack = periods(layers);
     stack.incident = stack.substrate =
@@ -138,7 +138,7 @@ constexpr std::array kCases{
 
 using Clock = std::chrono::steady_clock;
 
-/// Fused multiply-adds of doubles per second.
+/// Fused multiply-adds of doubles per second on this machine.
 double machine_limit(SimdLevel level, unsigned threads) {
     constexpr std::uint64_t kCount = 4'000'000;
     volatile double sink = 0;
@@ -267,7 +267,7 @@ private:
     std::vector<double> angles_deg_;
     std::vector<IncidentAngle> incidences_;
     std::vector<Sample> samples_;
-    std::vector<double> exact_;  ///< R of every sample, s and p
+    std::vector<double> exact_;  ///< R of every sample, for s and p
     mutable Spectra out_;
 };
 
@@ -293,8 +293,8 @@ SpeedRow sine_row(SimdLevel level, double budget) {
     return row;
 }
 
-/// The point of [low, high] where a function that changes sign there is zero, by halving until
-/// there is no double between.
+/// The zero of a function that changes sign in [low, high], by bisection until there is no double
+/// in between.
 template <class Function>
 double halved(double low, double high, const Function& f) {
     const bool rises = f(high) > 0;
@@ -313,9 +313,9 @@ ThreeLandmarks landmarks_by_newton(const BraggPeriod& period, double order) {
     return {omega_of_airy(period, order - 1), gap.low_per_nm, gap.high_per_nm};
 }
 
-/// By dichotomy of cos KL: Airy points between modes, edges between Airy points and the mode. A gap
-/// that is closed is not found. `above` is the Airy point above the gap, which the next gap needs.
-/// Source: FPB24 (CGF 43(2), 2024), section 3.
+/// Finds landmarks by bisection of cos KL: Airy points between modes, edges between Airy points and
+/// the mode. Closed gaps are not found. `above` is the Airy point above the gap, which the next gap
+/// needs. Source: FPB24 (CGF 43(2), 2024), section 3.
 ThreeLandmarks landmarks_by_dichotomy(const BraggPeriod& period, double order, double& above) {
     const double q = period.admittance_ratio, mean = (q + 1 / q) / 2;
     const double side = std::fmod(order, 2) == 0 ? 1 : -1;
@@ -330,7 +330,7 @@ ThreeLandmarks landmarks_by_dichotomy(const BraggPeriod& period, double order, d
     return {below, halved(below, mode, past_edge), halved(mode, above, past_edge)};
 }
 
-/// Edges and Airy points of the first 8 gaps of 64 mirrors, one thread and one at a time.
+/// Edges and Airy points of the first 8 gaps of 64 mirrors, on one thread, one at a time.
 SpeedRow landmarks_row(bool by_newton, double budget) {
     constexpr int kMirrors = 64, kOrders = 8;
     std::array<BraggPeriod, kMirrors> mirrors;
@@ -394,7 +394,7 @@ int run_speed(const SpeedOptions& options) {
         options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
     const SimdLevel widest = execution_of(all_threads).simd;
     std::vector<SpeedRow> rows;
-    // clocks change: the limit is measured on both sides of the rate
+    // clock rates change: the limit is measured before and after the rate
     const auto add = [&](SimdLevel level, unsigned threads, const auto& measure) {
         const double before = machine_limit(level, threads);
         SpeedRow row = measure();

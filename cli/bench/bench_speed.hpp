@@ -9,7 +9,7 @@
 namespace irido::cli {
 
 /// A case of `irido bench speed`: spectra of a stack at 380:780:1 nm and the angles 0.5:89.5:1 or 0
-/// degrees; or the transmission filter of a roughness alpha; or a colour table over 64 cos(theta)
+/// degrees; or the transmission filter for a roughness alpha; or a colour table over 64 cos(theta)
 /// and 512 values of a varied quantity.
 struct SpeedCase {
     std::string_view name;
@@ -19,7 +19,7 @@ struct SpeedCase {
     bool normal = false;
     bool only_R = false;
     double alpha = 0;
-    std::string_view expression{}, path{};  ///< of a table: its stack, and the varied path
+    std::string_view expression{}, path{};  ///< of a table: its stack and the varied path
     double first = 0, last = 0;
 };
 
@@ -30,7 +30,7 @@ struct SpeedRow {
     double worst_F = 0;
 };
 
-/// Times F_alpha at 360 x 360 angles in closed form, and by FPB24's sum; `budget` in seconds.
+/// Times F_alpha at 360 x 360 angles in closed form and by FPB24's sum; `budget` in seconds.
 SpeedRow filter_row(const SpeedCase& of, SimdLevel level, double budget);
 SpeedRow filter_sum_row(const SpeedCase& of, double budget);
 

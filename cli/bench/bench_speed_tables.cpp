@@ -39,7 +39,7 @@ public:
     FilterMeasurement(const SpeedCase& of, double budget)
         : case_(of), budget_(budget), filter_(of.alpha), axis_(angles(), "theta_d_deg") {
         for (std::size_t i = 0; i < kSamples; ++i) {
-            // every second one in the peak, the others anywhere
+            // every second one in the peak, the rest anywhere
             const std::size_t theta_i = 1 + (i * 37 + 5) % (kAngles - 1);
             const auto width = static_cast<std::size_t>(of.alpha * 180 / std::numbers::pi * 4);
             const std::size_t theta_d = i % 2 == 0 ? theta_i + i % (width + 2) : i * 89;
@@ -81,7 +81,7 @@ private:
         return all;
     }
 
-    /// row_of(theta_i) gives F at all theta_d; a slow way gets fewer theta_i.
+    /// row_of(theta_i) gives F at all theta_d; slow methods get fewer theta_i.
     template <class RowOf>
     SpeedRow measured(std::string method, const RowOf& row_of) const {
         volatile double sink = 0;

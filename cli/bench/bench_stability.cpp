@@ -28,7 +28,7 @@ const Regime& regime_named(std::string_view name) {
                      schemas::did_you_mean(name, names) + " (see irido bench stability --help)");
 }
 
-/// The regimes of "a,b" in that order.
+/// Parses "a,b" into regimes, in that order.
 std::vector<Regime> parse_regimes(const std::string& text) {
     if (text == "all") return {regimes().begin(), regimes().end()};
     std::vector<Regime> chosen;
@@ -66,7 +66,7 @@ tables::Records to_records(const std::vector<RegimeReport>& reports) {
     return records;
 }
 
-/// The violated bounds, regime by regime; "" if there are none.
+/// The violated bounds, by regime; "" if there are none.
 std::string violations(const std::vector<RegimeReport>& reports) {
     std::string text;
     for (const RegimeReport& report : reports)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kReferenceTolerance = 1e-11;
 
-/// A first run that takes this many times the time budget is the only one.
+/// A first run that takes this many times the time budget is not repeated.
 constexpr double kSlow = 10;
 
 std::size_t colors_of(const ColorFamily& family) {

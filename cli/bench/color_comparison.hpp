@@ -23,14 +23,14 @@ struct MethodReport {
     std::string worst_hex, exact_hex;
 };
 
-/// Equally spaced wavelengths as accurate as another method; all 0 if none are.
+/// Equally spaced wavelengths that match another method's error; all 0 if none do.
 struct EqualMatch {
     double wavelengths = 0, ns_per_color = 0;
 };
 
 /// Compares methods on the colours of one case: reflected unpolarized light, one thread, as in a
-/// run of very many colours. The exact colours are those of quadrature at 1e-11. Times are the
-/// fastest of repeated runs; in a set they include making each stack's algorithm.
+/// run over very many colours. The exact colours are those of quadrature at 1e-11. Times are the
+/// fastest of repeated runs; for a set they include preparing each stack's algorithm.
 class ColorComparison {
 public:
     /// tables    of the observer and the illuminant
@@ -41,11 +41,11 @@ public:
     ColorComparison(const ColorTables& tables, std::vector<ColorFamily> families, bool is_set,
                     double seconds, SimdLevel simd);
 
-    /// Nothing if the method cannot compute the stacks.
+    /// Empty if the method cannot compute the stacks.
     std::optional<MethodReport> measure(const ColorMethod& method, double tolerance) const;
 
     /// The fewest equally spaced wavelengths, up to kMostEqual, with at most this error of X, Y, Z:
-    /// by doubling, then bisection to within 3 % (the error is not monotonic).
+    /// found by doubling, then bisection to within 3 % (the error is not monotonic).
     EqualMatch equal_match(double max_error);
 
     static constexpr std::size_t kMostEqual = 1U << 16;

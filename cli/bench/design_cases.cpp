@@ -6,9 +6,9 @@ namespace irido::cli {
 
 namespace {
 
-// A dielectric pair and a crown glass that many of the problems share: n = A + B/L^2, and the
-// catalogue's Sellmeier terms of N-BK7. Stacks are expressions of these names, whose thicknesses
-// are only where a search begins.
+// A dielectric pair and a crown glass shared by many of the problems: n = A + B/L^2, and the
+// catalogue's Sellmeier terms of N-BK7. Stacks are expressions of these names; their thicknesses
+// are only the starting point of a search.
 #define IRIDO_PAIR                                                                           \
     R"("incident": 1, "substrate": "G", "materials": { "L": { "cauchy": [1.445, 0.0035] },)" \
     R"( "H": { "cauchy": [2.25, 0.03] }, "G": { "sellmeier": [[1.03961212, 0.00600069867],)" \

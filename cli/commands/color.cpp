@@ -21,7 +21,7 @@ struct ColorCommand {
     bool quiet = false;
 };
 
-/// The path of the colours through the chromaticity diagrams.
+/// Draws the path of the colours through the chromaticity diagrams.
 tables::Figure chromaticity(const ColorCommand& command, const ColorQuery& query,
                             const StackColors& stack, const std::string& title) {
     const auto& typed = static_cast<const ColorQueryOptions&>(*command.typed);

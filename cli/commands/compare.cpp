@@ -30,7 +30,7 @@ struct CompareCommand {
 
 constexpr double kMostFilms = 1e6, kMostRows = 2e7;
 
-/// Rows of all combinations of varied values.
+/// Rows for all combinations of varied values.
 tables::Records varied_rows(const CompareCommand& command, const SweepSpace& space,
                             const ComparisonQuery& query, SweptStacks& stacks) {
     SweepEngine engine(stacks, space, query, false);

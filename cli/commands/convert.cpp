@@ -27,7 +27,7 @@ struct ConvertCommand {
     bool quiet = false;
 };
 
-/// What is written: JSON, an expression, or a format of another program.
+/// The output: JSON, an expression, or a format of another program.
 struct Target {
     bool is_expression = false;
     const schemas::StackFormat* other = nullptr;
@@ -70,7 +70,7 @@ std::string as_expression(const schemas::StackDocument& document, bool quiet) {
     return expression.text + "\n";
 }
 
-/// The layers from the other side. Throws InputError for layers that are not the same from there.
+/// Reverses the layers. Throws InputError for layers whose reverse cannot be expressed.
 void reverse_layers(nlohmann::json& layers, const std::string& file) {
     if (!layers.is_array()) return;
     std::reverse(layers.begin(), layers.end());
@@ -84,7 +84,7 @@ void reverse_layers(nlohmann::json& layers, const std::string& file) {
     }
 }
 
-/// The document with its stack from the other side.
+/// Reverses the document's stack.
 void reverse(schemas::StackSource& source) {
     nlohmann::json& document = source.document;
     if (document.contains("substrate_roughness_nm"))
@@ -94,7 +94,7 @@ void reverse(schemas::StackSource& source) {
     if (document.contains("layers")) reverse_layers(document["layers"], source.file);
 }
 
-/// The stack of a file of another program, or one as every command reads it.
+/// The stack from a file of another program, or from any source that other commands accept.
 schemas::StackSource load(const ConvertCommand& command) {
     const std::string& path = command.stack.stack;
     const auto* const format =

@@ -34,7 +34,7 @@ struct DesignCommand {
     bool quiet = false;
 };
 
-/// Layers come and go: `task` becomes that of the stack which they leave.
+/// Searches with needles; `task` becomes that of the resulting stack.
 SearchResult synthesized(schemas::DesignTask& task, const SearchSettings& search,
                          const SearchEnd& end) {
     NeedleSettings settings;
@@ -81,7 +81,7 @@ SearchResult searched(schemas::DesignTask& task, const SearchEnd& end,
     }
 }
 
-/// By how much the merit changes where one value is 1 % off, for every value.
+/// For each value, the change of the merit when it is 1 % off.
 json sensitivity_of(const schemas::DesignTask& task, const std::vector<double>& x) {
     DesignModel model(task.problem);
     model.adapt_colors(x, 1e-4);
@@ -102,7 +102,7 @@ json sensitivity_of(const schemas::DesignTask& task, const std::vector<double>& 
     return all;
 }
 
-/// What the result says about how it came about. `merit` is exact.
+/// The record of how the result was obtained. `merit` is exact.
 json design_member(const schemas::DesignTask& task, const SearchResult& result, double start_merit,
                    double merit, const MetTargets& met) {
     json design{{"merit", merit},
@@ -147,7 +147,7 @@ void check_outputs(const DesignCommand& command) {
     check_report(command.report);
 }
 
-/// The best of the results of shards, with the runs of all.
+/// Merges the results of shards: the best one, with the runs of all.
 int merge_designs(const DesignCommand& command) {
     if (!command.task.task.empty() || !command.task.refine.empty() || !command.shard.empty())
         throw UsageError("--merge: cannot be combined with TASK, --refine and --shard");

@@ -32,10 +32,10 @@ struct FitCommand {
     bool quiet = false;
 };
 
-/// A correlation from which values are no longer told apart.
+/// Correlation above which values count as indistinguishable.
 constexpr double kClose = 0.99;
 
-/// Empty in a table where the data do not tell.
+/// NaN, empty in a table, where the data do not determine the error.
 double shown(double error) {
     return std::isfinite(error) ? error : std::nan("");
 }
@@ -69,7 +69,7 @@ tables::Records parameter_table(const schemas::DesignTask& task, const FitResult
     return records;
 }
 
-/// What a table of numbers does not tell.
+/// Notes what the table of numbers does not show.
 void note_fit(const schemas::DesignTask& task, const FitResult& result, bool quiet) {
     const std::size_t size = result.x.size();
     const auto& free = task.problem.free;

@@ -26,12 +26,12 @@ namespace {
 constexpr double kMostSamples = 8192;
 constexpr std::size_t kMostVaried = 2;
 
-/// Options of one kind of table, as typed.
+/// Options of one kind of table, as given on the command line.
 struct LutCommand {
     schemas::StackRequest stack;
     ColorOptions color;
     std::vector<std::string> vary;
-    std::map<std::string, std::string, std::less<>> options;  ///< of the kind
+    std::map<std::string, std::string, std::less<>> options;  ///< those of the kind
     std::map<std::string, bool, std::less<>> flags;
     OutputOptions output;
     PictureOptions picture;
@@ -68,7 +68,7 @@ tables::LutType parse_type(std::string_view text) {
     throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + std::string(text) + "')");
 }
 
-/// "64x512": one number for each axis; one number alone is for all.
+/// Parses "64x512", one number per axis; a single number applies to all axes.
 std::vector<std::size_t> parse_size(std::string text, std::size_t axes) {
     std::vector<std::size_t> counts;
     if (text.empty()) return counts;

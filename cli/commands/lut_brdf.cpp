@@ -17,7 +17,7 @@ namespace irido::cli {
 
 namespace {
 
-/// Wavelengths 2 nm apart, for colours of MERL tables.
+/// Number of wavelengths, 2 nm apart, for colours in MERL tables.
 constexpr std::size_t kMerlWavelengths = 236;
 
 struct LutBrdfCommand {

@@ -4,7 +4,7 @@
 
 namespace irido::cli {
 
-/// irido lut brdf and irido lut layered, whose tables are of surfaces.
+/// irido lut brdf and irido lut layered, whose tables describe surfaces rather than stacks.
 void add_lut_brdf(CLI::App& lut, Run& run);
 void add_lut_layered(CLI::App& lut, Run& run);
 

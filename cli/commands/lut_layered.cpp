@@ -18,7 +18,7 @@ namespace irido::cli {
 
 namespace {
 
-/// Wavelengths 2 nm apart that bands are means over.
+/// Number of wavelengths, 2 nm apart, over which bands are averaged.
 constexpr std::size_t kBandWavelengths = 236;
 constexpr std::size_t kMostBands = 60, kMostAngles = 8192;
 
@@ -31,7 +31,7 @@ struct LutLayeredCommand {
     bool quiet = false;
 };
 
-/// CIEDE2000 of pi times two BRDFs, brighter ones than white brought down together.
+/// CIEDE2000 between pi times two BRDFs; both are scaled down together if brighter than white.
 double difference_of(const Triple& a, const Triple& b, const Triple& white) {
     const double scale = kPi / std::max({1.0, kPi * a[1], kPi * b[1]});
     const auto lab_of = [&](const Triple& xyz) {
@@ -46,7 +46,7 @@ struct BandErrors {
     double bands = 0, colors = 0;  ///< largest CIEDE2000
 };
 
-/// Of the bands, and of three, as many as a colour has, at random pairs.
+/// Errors of the bands, and of only three, like an RGB colour, at random pairs of directions.
 BandErrors band_errors(const LayeredScattering& scattering, const LayeredBands& bands,
                        const LayeredBands& three, const TabulatedScattering& exact,
                        const Triple& white) {
@@ -55,7 +55,7 @@ BandErrors band_errors(const LayeredScattering& scattering, const LayeredBands& 
     BandErrors errors;
     for (int k = 0; k < kPairs; ++k) {
         const double theta = random.uniform(0, 80);
-        const bool is_near = k % 2 == 0;  // to the mirror direction
+        const bool is_near = k % 2 == 0;  // to the mirror reflection
         const ScatterPair pair{theta,
                                is_near ? std::clamp(theta + random.uniform(-10, 10), 0.0, 85.0)
                                        : random.uniform(0, 80),
@@ -71,8 +71,8 @@ BandErrors band_errors(const LayeredScattering& scattering, const LayeredBands& 
     return errors;
 }
 
-/// Rows of the table: for every three bands R and f_t cos / G1 of each layer, the base, and what
-/// the bands weigh in r, g and b.
+/// Rows of the table: for every three bands, R and f_t cos / G1 of each layer, the base, and the
+/// weights of the bands in r, g and b.
 tables::Lut table_of(const LayeredBands& bands, const Illumination& illumination) {
     tables::Lut lut;
     lut.kind = "layered";

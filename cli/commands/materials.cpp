@@ -20,7 +20,7 @@ constexpr WavelengthRange kVisible{380, 780};
 
 struct MaterialsOptions {
     std::string name;
-    std::string text;  ///< of find
+    std::string text;  ///< search text of find
     std::string wavelengths;
     OutputOptions output;
     bool quiet = false;
@@ -65,7 +65,7 @@ int run_list(const MaterialsOptions& options) {
     return 0;
 }
 
-/// The wavelengths typed; by default every nm from 380 to 780 within the material's range or, if
+/// The wavelengths given; by default every nm from 380 to 780 within the material's range or, if
 /// there are none, a hundred steps over that range.
 std::vector<double> wavelengths_of(const MaterialsOptions& options, WavelengthRange range) {
     if (!options.wavelengths.empty())
@@ -80,7 +80,7 @@ std::vector<double> wavelengths_of(const MaterialsOptions& options, WavelengthRa
     return values;
 }
 
-/// A built-in material, a page of the database, or one read from a file.
+/// A built-in material, a page of the database, or the material in a file.
 schemas::MaterialFile shown_material(const std::string& name) {
     if (name.starts_with(schemas::kDatabaseMark)) {
         const std::string path = schemas::database_file(name);
@@ -130,7 +130,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-/// The words of a text, in lower case: what is between marks and blanks.
+/// The words of a text, in lower case, split at punctuation and blanks.
 std::vector<std::string> search_words(const std::string& text) {
     std::vector<std::string> words(1);
     for (const char c : lower_case(text)) {
@@ -145,7 +145,8 @@ std::vector<std::string> search_words(const std::string& text) {
     return words;
 }
 
-/// Whether each wanted word begins a word of the text, or is one if it has one or two letters.
+/// Whether each wanted word begins a word of the text, or equals one if it has only one or two
+/// letters.
 bool matches(const std::vector<std::string>& wanted, const std::string& text) {
     const std::vector<std::string> words = search_words(text);
     return std::ranges::all_of(wanted, [&](const std::string& word) {
@@ -155,7 +156,7 @@ bool matches(const std::vector<std::string>& wanted, const std::string& text) {
     });
 }
 
-/// A material that was found.
+/// A search result.
 struct FoundMaterial {
     std::string name;
     Material material;
@@ -164,7 +165,7 @@ struct FoundMaterial {
     bool is_film = false;
 };
 
-/// The last year that a reference has in parentheses, as in (1972), else the last one.
+/// The last year given in parentheses in a reference, as in (1972); otherwise the last year.
 int year_in(const std::string& reference) {
     int year = 0, in_parentheses = 0;
     for (std::size_t i = 0; i + 4 <= reference.size(); ++i) {
@@ -181,7 +182,7 @@ int year_in(const std::string& reference) {
     return in_parentheses > 0 ? in_parentheses : year;
 }
 
-/// The aliases of a name and of the part before its first dash: silver of Ag-LD.
+/// The aliases of a name and of the part before its first dash: silver for Ag-LD.
 std::string aliases_of(const LibraryMaterial& entry) {
     std::string words = joined(entry.aliases, " ");
     const std::string& name = entry.material.name;
@@ -202,7 +203,7 @@ std::vector<FoundMaterial> found_built_in(const std::vector<std::string>& wanted
     return found;
 }
 
-/// Names in plain words of the books that are called as built-in materials are: Ag silver.
+/// Common names of database books that share their name with built-in materials: silver for Ag.
 std::string plain_words_of(const schemas::DatabasePage& page) {
     std::string words = page.words;
     for (const std::string& word : search_words(page.name)) {
@@ -225,7 +226,7 @@ void add_found_pages(const std::vector<std::string>& wanted, std::vector<FoundMa
             const bool is_film = lower_case(text).find("film") != std::string::npos;
             found.push_back(
                 {page.name, std::move(read.material), read.source, year_in(read.source), is_film});
-        } catch (const schemas::InputError&) {  // no index that irido could use
+        } catch (const schemas::InputError&) {  // no index usable by irido
         }
     }
 }

@@ -19,7 +19,7 @@ struct ProfileCommand {
     bool quiet = false;
 };
 
-/// A layer in a picture, nm.
+/// A layer in a picture; positions in nm.
 struct DrawnLayer {
     double begin, end;
     std::size_t material;

@@ -24,7 +24,7 @@ namespace irido::cli {
 namespace {
 
 constexpr std::size_t kMostSheetPictures = 1024;
-constexpr std::string_view kRoughness = "alpha";  ///< the one varied value outside the stack
+constexpr std::string_view kRoughness = "alpha";  ///< varied, but not in the stack
 
 struct RenderCommand {
     schemas::StackRequest stack;
@@ -52,7 +52,7 @@ RenderFormat render_format(const RenderCommand& command) {
     return name == "png" ? RenderFormat::png : RenderFormat::exr;
 }
 
-/// Fractions of several pictures as one, with the time that is left.
+/// Combines the progress of several pictures, with the remaining time.
 class RenderProgress {
 public:
     RenderProgress(bool quiet, std::size_t pictures)
@@ -115,8 +115,8 @@ int render_one(const RenderCommand& command, const PictureQuery& query,
 
 // --- contact sheets ---------------------------------------------------------------------------
 
-/// Where the pictures of a sheet stand: the last varied value along rows, or as square as can be
-/// where there is only one.
+/// Positions of the pictures on a sheet: the last varied value along rows, or as square as possible
+/// if there is only one value.
 struct SheetLayout {
     static constexpr std::size_t kGap = 8, kLabel = 22;
 
@@ -137,7 +137,7 @@ struct SheetLayout {
     std::size_t width, height, columns = 1, rows = 1;
 };
 
-/// "thickness_nm=100" of "layers.0.thickness_nm=100", as much as the room for it has.
+/// "thickness_nm=100" for "layers.0.thickness_nm=100", as much of it as fits.
 std::string sheet_label(const SweepSpace& space, std::size_t i, double room) {
     constexpr double kSmallest = 11;
     const auto text_of = [&](bool with_names) {
@@ -154,7 +154,7 @@ std::string sheet_label(const SweepSpace& space, std::size_t i, double room) {
     return tables::text_width(whole, kSmallest) <= room ? whole : text_of(false);
 }
 
-/// The sheet's ground with the labels of all pictures.
+/// The sheet's background with the labels of all pictures.
 tables::Pixels labelled_ground(const SweepSpace& space, const SheetLayout& layout) {
     constexpr double kSize = 11, kBaseline = 15;
     tables::Drawing drawing;
@@ -227,7 +227,7 @@ int render_sheet(const RenderCommand& command, const PictureQuery& query,
     return 0;
 }
 
-/// Throws UsageError for values that pictures cannot vary.
+/// Throws UsageError for values that cannot be varied between pictures.
 void check_column(const SweptColumn& column, ShapeKind shape) {
     if (column.is_light())
         throw UsageError("--vary: " + column.path + " is not a value of the stack");

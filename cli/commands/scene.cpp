@@ -42,7 +42,7 @@ std::string size_text(const json& axes) {
     return text;
 }
 
-/// Samples of a table, mip levels included.
+/// Number of samples of a table, including mip levels.
 std::size_t samples_of_entry(const json& entry) {
     const json& axes = entry["axes"];
     const bool mips = entry.value("mips", false);
@@ -151,7 +151,7 @@ PlannedScene planned(const schemas::Scene& scene, const SceneCommand& command) {
         progress.set(static_cast<double>(t) / static_cast<double>(count), table.materials.front());
         try {
             plan_table(scene, result, t, before, command);
-        } catch (const std::exception& error) {  // of any type: it concerns these materials only
+        } catch (const std::exception& error) {  // of any type: affects only these materials
             tables::add_faults(result.faults, scene, table, error);
         }
     }
@@ -176,7 +176,7 @@ std::vector<tables::Omission> all_omissions(const PlannedScene& scene) {
     return all;
 }
 
-/// Two significant digits, enough for a sampled maximum.
+/// Rounded to two significant digits, enough for a sampled maximum.
 std::string two_digits(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g", value);
@@ -383,7 +383,7 @@ void note_long_bake(const schemas::Scene& scene, const tables::ScenePlan& plan,
             tables::LutMaking making = table.making;
             making.threads = command.threads;
             seconds += least_seconds(table.kind->plan(table.request), making, share);
-        } catch (const std::exception&) {  // for the bake to find
+        } catch (const std::exception&) {  // the bake will report it
         }
     }
     note_long_work(seconds, true, say);
@@ -415,7 +415,7 @@ int run_bake(const SceneCommand& command) {
     return report_faults(scene, result.faults);
 }
 
-/// The manifest's file name, with .json added where it is missing.
+/// The manifest's file name, with .json appended if missing.
 std::string manifest_name(std::string typed) {
     if (!typed.ends_with(".json")) typed += ".json";
     const bool is_name = typed.front() != '.' && std::ranges::all_of(typed, [](unsigned char c) {

@@ -39,7 +39,7 @@ struct SweepCommand {
     std::string shard;
     std::vector<std::string> merge;
     bool resume = false, keep_going = false, stats = false, quiet = false;
-    bool has_angles = false, has_wavelengths = false;  ///< typed as options of the kind
+    bool has_angles = false, has_wavelengths = false;  ///< given as options of the kind
     unsigned threads = 0;
 };
 
@@ -48,7 +48,7 @@ bool is_shared(const SweptColumn& column) {
     return !column.is_of_stack() || schemas::VariedStack::is_thickness(column.path);
 }
 
-/// Number of stacks per structure, as far as known in advance.
+/// Number of stacks per structure, as far as it is known in advance.
 double stacks_of_structure(const SweepSpace& space) {
     double stacks = 1, points = 1, samples = 1;
     bool points_share = true, samples_share = true;
@@ -82,7 +82,7 @@ std::vector<LayerPlace> varied_layers(const SweepSpace& space) {
     return places;
 }
 
-/// Refuses angles or wavelengths that are given twice.
+/// Rejects angles or wavelengths that are given twice.
 void require_once(const SweepCommand& command, const SweepSpace& space) {
     for (const SweptColumn& column : space.columns()) {
         if (column.path == kSweptAngle && command.has_angles)
@@ -97,7 +97,7 @@ bool varies_wavelength(const SweepSpace& space) {
            space.columns().end();
 }
 
-/// Hash of all that the rows depend on, except the machine.
+/// Hash of everything that the rows depend on, except the machine.
 std::string request_hash(const SweepCommand& command, const Query& query,
                          const schemas::StackSource& source, const schemas::StackDocument& first,
                          const SweepSpace& space) {
@@ -201,14 +201,14 @@ std::unique_ptr<tables::RecordStream> open_stream(const SweepCommand& command,
     return tables::record_output(format, engine.layout(), rows);
 }
 
-/// What --resume and shards need is a file of rows.
+/// --resume and shards require a file of rows.
 void require_no_parts(const SweepCommand& command) {
     if (command.resume) throw UsageError("--resume: a picture is drawn in one go");
     if (!command.shard.empty())
         throw UsageError("--shard: a picture needs all rows: merge shards of them first");
 }
 
-/// Rows that are drawn once all are there.
+/// A stream whose rows are drawn when all are there.
 std::unique_ptr<tables::RecordStream> open_picture(const SweepCommand& command,
                                                    const tables::PictureFormat& picture,
                                                    const SweepEngine& engine,
@@ -233,7 +233,7 @@ std::unique_ptr<tables::RecordStream> open_picture(const SweepCommand& command,
     return tables::collected_rows(engine.layout(), draw);
 }
 
-/// Statistics of the samples, written once all are there.
+/// A stream that writes statistics of the samples when all rows are there.
 std::unique_ptr<tables::RecordStream> open_summary(const SweepCommand& command,
                                                    const SweepEngine& engine,
                                                    const SweepSpace& space, const Query& query) {
@@ -242,7 +242,7 @@ std::unique_ptr<tables::RecordStream> open_summary(const SweepCommand& command,
         [&command](const tables::Records& records) { write_records(records, command.output); });
 }
 
-/// A summary is of all samples, and no file of rows.
+/// A summary needs all samples and is not a file of rows.
 void require_whole(const SweepCommand& command) {
     if (!command.scatter.limits.empty() && !command.scatter.summary)
         throw UsageError("--limit: requires --summary");
@@ -338,7 +338,7 @@ int run_sweep(const SweepCommand& command) {
         !command.shard.empty()};
     std::optional<OrderlyEnd> orderly;
     if (!command.output.file.empty() && !picture && !is_summary)
-        orderly.emplace();  // before there is a part
+        orderly.emplace();  // before a part exists
     std::error_code ignored;
     if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
         note("discarding " + command.output.file +
@@ -359,7 +359,7 @@ int run_sweep(const SweepCommand& command) {
         return write_rows(command, engine, stacks, format, identity, *stream,
                           orderly ? &*orderly : nullptr);
     } catch (...) {
-        // with --resume, finished rows survive any error
+        // with --resume, finished rows are kept after any error
         if (command.resume) {
             stream->suspend();
         } else {
@@ -472,7 +472,7 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
             const CLI::Option* const option = command->get_option_no_throw(name);
             return option && option->count() > 0;
         };
-        options->stats = is_given("--stats");  // of color, perhaps
+        options->stats = is_given("--stats");  // possibly that of color
         options->has_angles = is_given("--angles");
         options->has_wavelengths = is_given("--wavelengths");
         run = [options] { return run_sweep(*options); };

@@ -37,7 +37,7 @@ constexpr std::array<SchemaText, 6> kSchemas{{{"stack", schemas::stack_schema_te
                                               {"manifest", tables::manifest_schema_text},
                                               {"lut", tables::lut_schema_text}}};
 
-/// A document with keys of a stack is one, whatever else it contains by mistake.
+/// A document with keys of a stack counts as a stack, whatever else it contains by mistake.
 bool is_stack(const json& document) {
     return !document.is_object() || !document.contains("materials") ||
            document.contains("layers") || document.contains("incident") ||

@@ -14,10 +14,10 @@ namespace irido::cli {
 
 namespace {
 
-/// Whose real index, 9998, is one that irido computes with.
+/// Its real index, 9998, is within irido's range.
 constexpr double kLargestF0 = 0.9996;
 
-/// The material's film with one thickness, over the real index that has its F0.
+/// The material's film with one thickness, over the real index with its F0.
 EngineFilm asset_film(const schemas::GltfIridescence& material, double thickness_nm) {
     EngineFilm film;
     film.film_n = material.film_n;
@@ -27,7 +27,7 @@ EngineFilm asset_film(const schemas::GltfIridescence& material, double thickness
     return film;
 }
 
-/// The extension's factor, which mixes the film with its bare base.
+/// Applies the extension's factor, which blends between the bare base and the film.
 void apply_factor(double factor, const ComparedFilm& film, const Triple& white,
                   const EngineDifference& difference, const ComparedEngine& engine,
                   EngineColor& color) {

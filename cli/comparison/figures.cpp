@@ -45,7 +45,7 @@ struct EngineGrid {
     std::vector<std::string> names;
     std::vector<double> angles, delta_e;
     std::array<std::vector<double>, 3> rgb, exact;
-    std::vector<std::size_t> order;  ///< of ascending angles
+    std::vector<std::size_t> order;  ///< sorts by ascending angle
 };
 
 tables::Figure strips(const EngineGrid& grid, tables::InkMixer& mixer) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array kChannels{"_r", "_g", "_b"};
 
-/// The columns of a table of films by their names.
+/// Access to the columns of a table of films by name.
 class FilmColumns {
 public:
     FilmColumns(std::string file, std::vector<schemas::PointsColumn> columns)
@@ -63,7 +63,7 @@ public:
         return found->second.numbers[row];
     }
 
-    /// n or k of the base's channels; `missing` where there is no such column.
+    /// n or k of the base's channels; `missing` if there is no such column.
     Triple channels(const std::string& name, std::size_t row, std::optional<double> missing) const {
         Triple values{};
         const bool is_split = std::ranges::any_of(
@@ -84,7 +84,7 @@ private:
     std::size_t rows_ = 0;
 };
 
-/// Columns of statistics.
+/// Columns of the statistics.
 struct StatisticsRows {
     tables::Column::Texts engine, base, worst;
     tables::Column::Numbers count, mean, median, p95, max;

@@ -24,7 +24,7 @@ const std::vector<MaterialFormat>& material_formats() {
     return all;
 }
 
-/// "r, g, b" of parameters that end in _r, _g, _b.
+/// "r, g, b" from parameters that end in _r, _g, _b.
 std::string channels_of(const EngineFit& fit, const std::string& stem) {
     std::string text;
     for (const char* const channel : {"_r", "_g", "_b"})
@@ -64,7 +64,7 @@ std::string gltf_text(const NamedFit& named, const std::string& name) {
     return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-/// A name of letters, digits and underscores.
+/// Turns a name into letters, digits and underscores.
 std::string identifier(const std::string& name) {
     std::string result;
     for (const char c : name) {

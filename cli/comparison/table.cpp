@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kTableTolerance = 1e-7;
 
-/// Value of a table between its samples, linear along every axis.
+/// Value of a table between its samples, interpolated linearly along every axis.
 Triple interpolated(const tables::Lut& lut, const std::vector<double>& point) {
     std::vector<std::size_t> cell(point.size());
     std::vector<double> part(point.size());
@@ -53,7 +53,7 @@ Triple interpolated(const tables::Lut& lut, const std::vector<double>& point) {
     return sum;
 }
 
-/// How a table's values become Lab, and exact colours its values.
+/// Converts a table's values to Lab, and exact colours to its values.
 class TableColors {
 public:
     explicit TableColors(const tables::Lut& lut)

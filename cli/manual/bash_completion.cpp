@@ -16,7 +16,7 @@ std::vector<std::string> spellings_of(const std::vector<OptionPage>& options) {
     return all;
 }
 
-/// How a value is completed, and from which words.
+/// Shell code that sets how a value is completed, and from which words.
 std::string assignments(const OptionPage& option) {
     const std::string words = " words='" + joined(option.words, " ") + "'";
     switch (option.value) {
@@ -49,7 +49,7 @@ std::string argument_of(const CommandPage& page) {
 
 std::string bash_case(const CommandPage& page) {
     const std::vector<OptionPage> options = all_options(page);
-    std::map<std::string, std::vector<std::string>> spellings;  ///< by what completes their values
+    std::map<std::string, std::vector<std::string>> spellings;  ///< by completion of values
     for (const OptionPage& option : options)
         if (option.value != Value::none)
             for (const std::string& spelling : option.spellings)

@@ -53,7 +53,7 @@ std::vector<OptionPage> option_pages(const CLI::App& command, bool positional) {
 std::vector<OptionGroup> groups_of(const CLI::App& command) {
     std::vector<OptionGroup> groups;
     if (!command.get_option_no_throw("--compute")) return groups;
-    std::vector<std::unique_ptr<CLI::App>> commands;  // none of them at another's address
+    std::vector<std::unique_ptr<CLI::App>> commands;  // kept, so that no two share an address
     for (const QueryKind& kind : query_kinds()) {
         commands.push_back(std::make_unique<CLI::App>());
         commands.back()->set_help_flag();
@@ -69,7 +69,7 @@ std::string one_line(std::string text) {
     return text.ends_with('.') || text.empty() ? text : text + ".";
 }
 
-/// Sorts the lines below a help page's options: notes, and examples after their heading.
+/// Parses the lines below a help page's options: notes, and examples after their heading.
 void read_footer(const std::string& footer, CommandPage& page) {
     std::istringstream lines(footer);
     bool in_examples = false;

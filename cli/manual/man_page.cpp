@@ -10,7 +10,7 @@ namespace irido::cli {
 
 namespace {
 
-/// Text that troff prints as it is.
+/// Text escaped so that troff prints it verbatim.
 std::string plain(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -62,7 +62,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// Paragraphs; indented lines stay lines.
+/// Paragraphs; indented lines are kept as lines.
 std::string paragraphs(const std::string& text) {
     std::string out = ".PP\n";
     bool is_kept = false;
@@ -75,7 +75,7 @@ std::string paragraphs(const std::string& text) {
     return out + (is_kept ? ".fi\n" : "");
 }
 
-/// An option's text: "word: meaning" and "word  meaning" begin lines, all else is filled.
+/// An option's text: "word: meaning" and "word  meaning" begin new lines, all other text is filled.
 std::string option_text(const std::string& text) {
     static const std::regex entry(R"(^(\w[\w/()-]*: |\S.*  ).*)");
     std::string out;

@@ -7,7 +7,7 @@ namespace {
 
 using Value = OptionPage::Value;
 
-/// In single quotes, inside of a specification of _arguments.
+/// In single quotes, for use inside a specification of _arguments.
 std::string escaped_text(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -48,7 +48,7 @@ std::string zsh_value(const OptionPage& option) {
            action_of(option);
 }
 
-/// One for each spelling; those of an option that does not repeat exclude each other.
+/// One specification per spelling; those of an option that cannot be repeated exclude each other.
 std::string option_specifications(const OptionPage& option) {
     const std::string excluded = option.repeats ? "*" : "(" + joined(option.spellings, " ") + ")";
     std::string out;

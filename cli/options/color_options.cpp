@@ -19,9 +19,9 @@ namespace {
 struct NamedMethod {
     std::string_view name;
     ColorMethod::Kind kind;
-    double fewest, most;    ///< range of the number after a slash; 0, 0: takes none
-    std::size_t by_itself;  ///< the count without a number
-    std::size_t more = 0;   ///< the count minus the number
+    double fewest, most;    ///< range of the number after a slash; 0, 0: takes no number
+    std::size_t by_itself;  ///< the count if no number is given
+    std::size_t more = 0;   ///< what to add to the number for the count
 };
 
 constexpr double kMostHarmonics = 1000, kMostSubdivisions = 1000;

@@ -13,7 +13,7 @@
 
 namespace irido::cli {
 
-/// Options of a colour, as typed.
+/// Options of a colour, as given on the command line.
 struct ColorOptions {
     std::string sides = "R";
     std::string polarization = "u";
@@ -22,25 +22,25 @@ struct ColorOptions {
     std::string space = "srgb";
     std::string adaptation = "bradford";
     std::string method = "auto";
-    std::string subdivide;   ///< "" if not typed
-    std::string harmonics;   ///< "" if not typed
-    std::string base_color;  ///< "" if not typed
+    std::string subdivide;   ///< "" if not given
+    std::string harmonics;   ///< "" if not given
+    std::string base_color;  ///< "" if not given
     std::string tolerance;   ///< "" for the default
 };
 
-/// Adds --side and -p; `sides` is the help text of --side.
+/// Adds --side and -p; `sides` is the help text for --side.
 void add_side_options(CLI::App& command, ColorOptions& options, const std::string& sides);
 
 /// Adds --illuminant and --observer.
 void add_light_options(CLI::App& command, ColorOptions& options);
 
-/// Adds --space, whose default is the one that `options` has, and --adaptation.
+/// Adds --space, with the default from `options`, and --adaptation.
 void add_space_options(CLI::App& command, ColorOptions& options);
 
 /// Adds all options of a colour.
 void add_color_options(CLI::App& command, ColorOptions& options);
 
-// Values of typed texts; each throws UsageError.
+// Parsers of option values; each throws UsageError.
 std::vector<Side> parse_sides(const std::string& text);
 Light parse_light(const std::string& text);
 const RgbSpace& parse_space(const std::string& text);
@@ -54,22 +54,22 @@ ColorMethod parse_method(const std::string& text);
 /// The method, with --subdivide and --harmonics applied.
 ColorMethod parse_method(const ColorOptions& options);
 
-/// The base colour for --method gltf, linear sRGB, if it was typed.
+/// The base colour for --method gltf, linear sRGB, if given.
 std::optional<Triple> parse_base_color(const ColorOptions& options);
 
 /// A named illuminant, or one read from a file. Throws InputError for errors of the file.
 Table parse_illuminant(const std::string& text);
 
-/// The method as typed after --method.
+/// The method as written after --method.
 std::string name_of(const ColorMethod& method);
 
 std::string_view letter(Side side);
 
-/// Notes every material that colours clamp to its end values, because its data do not cover 360 to
+/// Notes every material that colours clamp to its end values because its data do not cover 360 to
 /// 830 nm. Throws InputError if they do not cover 400 to 700 nm.
-/// document     the stack, and the file that messages name
-/// sensitivity  gives the fraction of X, Y, Z that is concerned
-/// strict       throws InputError instead of a note
+/// document     the stack, and the file to name in messages
+/// sensitivity  determines the fraction of X, Y, Z affected
+/// strict       throw InputError instead of noting
 /// say          receives the text of a note
 void report_held_ranges(const schemas::StackDocument& document, const Sensitivity& sensitivity,
                         bool strict, const std::function<void(const std::string&)>& say);

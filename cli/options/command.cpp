@@ -72,7 +72,7 @@ std::string title_of(const schemas::StackDocument& document, const schemas::Stac
 
 namespace {
 
-/// The names in "csv, json or svg: a strip of the colours [csv]".
+/// Extracts the names from "csv, json or svg: a strip of the colours [csv]".
 std::vector<std::string> names_before_notes(std::string formats) {
     formats.resize(std::min(formats.size(), formats.find_first_of(":([")));
     std::ranges::replace(formats, ',', ' ');

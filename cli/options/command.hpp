@@ -16,10 +16,10 @@
 
 namespace irido::cli {
 
-/// What main runs once the command line is parsed; returns the exit status.
+/// Runs a parsed command; returns the exit status.
 using Run = std::function<int()>;
 
-/// Each command adds itself to the program and sets `run` when it is the one that was typed.
+/// Each command adds itself to the program and sets `run` if it is selected on the command line.
 void add_spectrum_command(CLI::App& program, Run& run);
 void add_color_command(CLI::App& program, Run& run);
 void add_cm_command(CLI::App& program, Run& run);
@@ -28,7 +28,7 @@ void add_profile_command(CLI::App& program, Run& run);
 void add_brdf_command(CLI::App& program, Run& run);
 void add_scratches_command(CLI::App& program, Run& run);
 void add_compare_command(CLI::App& program, Run& run);
-/// `arguments` of the program: --compute decides which options there are. Throws UsageError.
+/// `arguments` of the program: --compute determines the available options. Throws UsageError.
 void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> arguments);
 void add_lut_command(CLI::App& program, Run& run);
 void add_render_command(CLI::App& program, Run& run);
@@ -44,10 +44,10 @@ void add_bench_command(CLI::App& program, Run& run);
 void add_manual_command(CLI::App& program, Run& run);
 void add_completion_command(CLI::App& program, Run& run);
 
-/// Where a command's answer goes, as typed.
+/// Destination of a command's output, as given on the command line.
 struct OutputOptions {
-    std::string file;    ///< "" for standard output, typed as - or not at all
-    std::string format;  ///< "" to follow the file's extension
+    std::string file;    ///< "" for standard output, given as - or by default
+    std::string format;  ///< "" to use the file's extension
 };
 
 /// --database
@@ -56,21 +56,21 @@ void add_database_option(CLI::App& command);
 /// STACK, --set, --material, --reverse and --database.
 void add_stack_options(CLI::App& command, schemas::StackRequest& request);
 
-/// Reads the stack and says what is to be noted. Throws InputError.
+/// Reads the stack and prints its notes. Throws InputError.
 schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bool quiet);
 
-/// What a stack is called in a picture: its name, or what was typed.
+/// The title of a stack in a picture: its name, or the command-line argument.
 std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request);
 
-/// -o and -f; `formats` as the help shows them, first their names with commas or "or" in between.
+/// Adds -o and -f; `formats` for the help begins with their names, separated by commas or "or".
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
-/// -f alone.
+/// Adds -f alone.
 void add_format_option(CLI::App& command, std::string& format, const std::string& formats);
 
-/// Where records may go: any format, or those that standard output takes; or a picture of them.
+/// Where records may go: any format, or those possible on standard output; or a picture of them.
 enum class RecordTarget { any, stream, any_or_picture, stream_or_picture };
 
-/// "csv, json or npy [csv]": what --format may be, for --help.
+/// "csv, json or npy [csv]": the values of --format, for --help.
 std::string record_formats_text(RecordTarget target = RecordTarget::stream);
 
 /// -a
@@ -78,26 +78,26 @@ void add_angles_option(CLI::App& command, std::string& angles);
 
 inline constexpr unsigned kMostThreads = 4096;
 
-/// The number of threads of -j: a whole number from 1 on, of which kMostThreads are used. Throws
-/// UsageError.
+/// Parses the number of threads of -j: a whole number of at least 1, limited to kMostThreads.
+/// Throws UsageError.
 unsigned parse_threads(const std::string& text);
 
-/// -j, and -j of a command that has no use for it.
+/// Adds -j, or a -j that is ignored, for commands without threads.
 void add_threads_option(CLI::App& command, unsigned& threads);
 void add_threads_option(CLI::App& command);
 
-/// The instruction set that the environment variable IRIDO_SIMD names: plain, baseline, avx2 or
+/// The instruction set named by the environment variable IRIDO_SIMD: plain, baseline, avx2 or
 /// avx512. Throws UsageError for any other name.
 std::optional<SimdLevel> asked_simd_level();
 
-/// The level itself, or the widest below it that this machine runs.
+/// The level itself, or the highest one below it that this machine supports.
 SimdLevel available_or_less(SimdLevel level);
 
-/// How to run: with that instruction set, or the next lesser one that the machine has, or its best
-/// one if none is named. Throws UsageError.
+/// Threads and instruction set: the one requested or the next lower one that the machine supports;
+/// its best one by default. Throws UsageError.
 Execution execution_of(unsigned threads = 0);
 
-/// What a LIST of the command line is.
+/// Explanation of LIST on help pages.
 inline constexpr std::string_view kListHelp =
     "v | start:stop:step | start:stop/count, or several of them with commas. The stop of\n"
     "start:stop:step is included where it lies on the grid, both ends of start:stop/count are.";
@@ -105,31 +105,32 @@ inline constexpr std::string_view kListHelp =
 /// Whether an option of the command is a LIST.
 bool takes_list(const CLI::App& command);
 
-/// How the program's help pages look, and those of the commands that are added afterwards.
+/// Sets the style of help pages for the program and for commands added later.
 void set_help_pages(CLI::App& program);
 
-/// The last lines of a help page, after `notes` if there are any.
+/// Sets the last lines of a help page, after `notes` if there are any.
 void set_examples(CLI::App& command, const std::vector<std::string>& examples,
                   const std::string& notes = "");
 
-/// The format's name as typed or as the file's extension says, "csv" if by neither. UsageError.
+/// The format given or implied by the file's extension, else "csv". Throws UsageError.
 std::string resolved_format(const OutputOptions& output);
 
-/// The record format of that name. Throws UsageError that names those which there are.
+/// The record format of that name. Throws UsageError, which lists the available ones.
 const tables::RecordFormat& resolved_record_format(const OutputOptions& output,
                                                    RecordTarget target = RecordTarget::stream);
 
-/// Throws UsageError or OutputError if a file could not be written there: before a long
-/// computation, and after the inputs are read, of which it must not be one.
+/// Throws UsageError or OutputError if the output could not be written. Call it before a long
+/// computation, but after reading the inputs, since the output must not be one of them.
 void check_writable(const OutputOptions& output);
 
-/// Throws UsageError or OutputError if a picture cannot be drawn into `plot` beside that output.
+/// Throws UsageError or OutputError if a picture cannot be drawn into `plot` in addition to that
+/// output.
 void check_plot(const std::optional<std::string>& plot, const OutputOptions& output);
 
 /// Writes records to the file or to standard output.
 void write_records(const tables::Records& records, const OutputOptions& output);
 
-/// Writes bytes of a text or binary format to the file or to standard output.
+/// Writes the bytes of a text or binary format to the file or to standard output.
 void write_bytes(const std::string& bytes, const OutputOptions& output, bool is_binary);
 
 }  // namespace irido::cli

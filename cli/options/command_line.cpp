@@ -21,7 +21,7 @@ bool takes_nothing(const CLI::Option& option) {
     return option.get_items_expected_max() == 0;
 }
 
-/// Takes all words up to the next option.
+/// Whether an option takes all words up to the next option.
 bool takes_many(const CLI::Option& option) {
     return option.get_items_expected_max() >= expected_max_vector_size &&
            option.get_allow_extra_args();
@@ -137,7 +137,7 @@ private:
             for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
         const std::string guess =
             typed.starts_with("--") ? schemas::did_you_mean(typed, names) : "";
-        // options that --compute adds
+        // options added by --compute
         const CLI::Option* const compute = command_.get_option_no_throw("--compute");
         const bool is_computing = std::ranges::any_of(words_, [](std::string_view other) {
             return other == "--compute" || other.starts_with("--compute=");
@@ -171,7 +171,7 @@ private:
     bool is_end_of_options_ = false;
     int positionals_ = 0;
     std::map<const CLI::Option*, int> counts_;
-    std::vector<const CLI::Option*> typed_;  ///< each once, in the order of the words
+    std::vector<const CLI::Option*> typed_;  ///< each once, in command-line order
 };
 
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
@@ -200,7 +200,7 @@ void check(const CLI::App& parent, const std::string& path, std::span<char* cons
                      " (see " + help + ")");
 }
 
-/// The command that was typed, below all groups of commands.
+/// The command given, below all groups of commands.
 const CLI::App& typed_command(const CLI::App& program) {
     const std::vector<CLI::App*> parsed = program.get_subcommands();
     return parsed.empty() ? program : typed_command(*parsed.front());

@@ -10,10 +10,10 @@
 
 namespace irido::cli {
 
-/// Options that every comparison of engines has, as typed.
+/// Options common to all comparisons of engines, as given on the command line.
 struct ComparisonOptions {
     std::string engines = "all";
-    ColorOptions color;  ///< of which illuminant and observer count
+    ColorOptions color;  ///< only illuminant and observer are used
     std::string white = "own";
     bool as_cie_rgb = false;
     bool strict = false;
@@ -21,22 +21,22 @@ struct ComparisonOptions {
 
 void add_comparison_options(CLI::App& command, ComparisonOptions& options);
 
-/// Every engine by its name, equal/16 standing for equal/N.
+/// The names of all engines, with equal/16 as an example of equal/N.
 std::vector<std::string> engine_names();
 
-/// The names of all that are formulas, with commas.
+/// The names of all engines that are formulas, separated by commas.
 std::string formula_names();
 
-/// --engine: names with commas, or all. Throws UsageError.
+/// Parses --engine: names separated by commas, or all. Throws UsageError.
 std::vector<ComparedEngine> parse_engines(const std::string& text);
 
-/// --illuminant and --observer. Throws UsageError or InputError.
+/// Evaluates --illuminant and --observer. Throws UsageError or InputError.
 Sensitivity parse_sensitivity(const ComparisonOptions& options);
 
-/// --white and --as-cie-rgb, under the illuminant's white. Throws UsageError.
+/// Evaluates --white and --as-cie-rgb for the illuminant's white. Throws UsageError.
 EngineDifference parse_difference(const ComparisonOptions& options, const Triple& white);
 
-/// "r 1.2, g 1.3, b 1.4", or the number if all are the same.
+/// "r 1.2, g 1.3, b 1.4", or a single number if all are equal.
 std::string channels_text(const Triple& values);
 
 }  // namespace irido::cli

@@ -11,14 +11,15 @@ class App;
 
 namespace irido::cli {
 
-/// --cone and --f-number, as typed; "" if not typed.
+/// --cone and --f-number, as given on the command line; "" if not given.
 struct ConeOptions {
     std::string half_angle, f_number;
 };
 
 void add_cone_options(CLI::App& command, ConeOptions& options);
 
-/// The cone, or none. Throws UsageError, also where it passes 90 degrees about one of the angles.
+/// The cone, or none. Throws UsageError, also if it extends past 90 degrees about one of the
+/// angles.
 ConeSize parse_cone(const ConeOptions& options, std::span<const double> angles_deg);
 
 }  // namespace irido::cli

@@ -25,7 +25,7 @@ double number_of(const std::string& option, const std::string& text, std::string
     return *value;
 }
 
-/// Words between blanks.
+/// The words of a text, separated by blanks.
 std::vector<std::string> words_between_blanks(std::string_view text) {
     std::vector<std::string> words{""};
     for (const char c : text) {

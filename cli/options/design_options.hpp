@@ -10,28 +10,29 @@
 
 namespace irido::cli {
 
-/// A task as typed: a document, and what is typed besides takes its place there.
+/// A task on the command line: a document, and options that replace parts of it.
 struct TaskOptions {
     std::string task;    ///< a task, or a stack
-    std::string refine;  ///< a stack, to be refined
+    std::string refine;  ///< a stack to refine
     std::vector<std::string> free, targets;
-    std::string method, merit, seed, time, evaluations;  ///< "" if not typed
-    std::string materials, max_layers, min_thickness;    ///< of needles; "" if not typed
+    std::string method, merit, seed, time, evaluations;  ///< "" if not given
+    std::string materials, max_layers, min_thickness;    ///< for needles; "" if not given
 };
 
-/// TASK and the options that design and fit share.
+/// Adds TASK and the options common to design and fit.
 void add_task_options(CLI::App& command, TaskOptions& options);
 
-/// Options of needles.
+/// Adds the options of needles.
 void add_needle_options(CLI::App& command, TaskOptions& options);
 
-/// PATH or PATH=LOW:HIGH as a free value. Throws UsageError.
+/// Parses PATH or PATH=LOW:HIGH as a free value. Throws UsageError.
 nlohmann::json parse_free(const std::string& text);
 
-/// QUANTITY [WAVELENGTHS] [@ANGLES] [POLARIZATION] (=|>=|<=) VALUE as a target. Throws UsageError.
+/// Parses QUANTITY [WAVELENGTHS] [@ANGLES] [POLARIZATION] (=|>=|<=) VALUE as a target. Throws
+/// UsageError.
 nlohmann::json parse_target(const std::string& text);
 
-/// Reads the task. Throws UsageError or InputError.
+/// Reads the task, with the options applied. Throws UsageError or InputError.
 schemas::DesignTask read_task(const TaskOptions& options);
 
 /// Checks the name of the file for a report, if there is one. Throws UsageError.

@@ -6,7 +6,7 @@ namespace irido::cli {
 
 namespace {
 
-/// CLI11's pages, and what a LIST is below the options that take one.
+/// CLI11's pages, with an explanation of LIST below the options that take one.
 class HelpPages : public CLI::Formatter {
 public:
     std::string make_footer(const CLI::App* command) const override {

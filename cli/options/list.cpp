@@ -12,7 +12,7 @@ namespace irido::cli {
 
 namespace {
 
-/// A wavelength out of range is often one in um.
+/// A hint for a wavelength out of range, which is often in um.
 std::string unit_hint(std::string_view option, double value, double lowest) {
     if (option != "--wavelengths" && option != "--at") return "";
     const std::string hint = "; wavelengths are in nm";
@@ -20,7 +20,7 @@ std::string unit_hint(std::string_view option, double value, double lowest) {
     return hint + ", " + to_text(value) + " um is " + to_text(std::round(value * 1e9) / 1e6);
 }
 
-/// Of a range, to six digits where it has many.
+/// A bound of a range, to at most six digits.
 std::string bound(double value) {
     constexpr std::size_t kMany = 10;
     std::string exact = to_text(value);

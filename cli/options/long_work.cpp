@@ -13,7 +13,7 @@ namespace irido::cli {
 
 namespace {
 
-/// `count` of the samples, evenly distributed.
+/// `count` of the samples, evenly spread.
 std::vector<double> some_of(const std::vector<double>& samples, std::size_t count) {
     std::vector<double> some;
     for (std::size_t i = 0; i < count; ++i)
@@ -21,7 +21,7 @@ std::vector<double> some_of(const std::vector<double>& samples, std::size_t coun
     return some;
 }
 
-/// A part of the plan's grid with at least that many samples, or all of it.
+/// A part of the plan's grid with at least that many samples, or the whole grid.
 std::vector<tables::LutAxis> part_of_grid(const tables::LutPlan& plan, double samples) {
     std::vector<std::size_t> counts(plan.axes.size(), 1);
     double product = 1;
@@ -74,7 +74,7 @@ bool is_slow(const tables::LutKind& kind, const tables::LutRequest& request) {
     try {
         return kind.color && StackPower(request.document.stack).spread_layers() ==
                                  StackPower::kLargestSpreadLayers;
-    } catch (const DomainError&) {  // for the plan to find
+    } catch (const DomainError&) {  // the plan will report it
         return false;
     }
 }

@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 3> kScratchEnergies{"balanced", "blend", 
 constexpr int kMostLightPoints = 64;
 constexpr std::string_view kGauss = "gauss/";
 
-/// "v1,v2,..." as so many numbers.
+/// Parses "v1,v2,..." into `count` numbers.
 std::vector<double> parse_parts(const char* option, const std::string& text, std::size_t count,
                                 const std::string& form) {
     const std::vector<std::string_view> parts = comma_separated(text);

@@ -9,20 +9,20 @@
 
 namespace irido::cli {
 
-/// Options of scratched surfaces, as typed; "" if not.
+/// Options of scratched surfaces, as given on the command line; "" if not given.
 struct ScratchOptions {
     std::string at, footprint, footprint_shape, area_light, light_integral, energy;
     bool coherent = false, ensemble = false;
 
-    /// The first that was typed, "" if none was.
+    /// The first option that was given, "" if none was.
     std::string typed() const;
 };
 
-/// --at, --footprint, --footprint-shape, --coherent, --ensemble, --area-light, --light-integral and
-/// --energy
+/// Adds --at, --footprint, --footprint-shape, --coherent, --ensemble, --area-light,
+/// --light-integral and --energy.
 void add_scratch_options(CLI::App& command, ScratchOptions& options);
 
-// Values of typed texts; each throws UsageError.
+// Parsers of option values; each throws UsageError.
 SurfacePoint parse_at(const ScratchOptions& options);
 std::optional<Footprint> parse_footprint(const ScratchOptions& options);
 ScratchSum parse_scratch_sum(const ScratchOptions& options);

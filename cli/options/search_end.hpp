@@ -10,7 +10,7 @@
 
 namespace irido::cli {
 
-/// When a search has to end: by a signal, or by its time.
+/// When a search must end: at a signal or after its time.
 class SearchEnd {
 public:
     explicit SearchEnd(std::optional<double> time_s) : time_s_(time_s) {}
@@ -26,7 +26,12 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Settings of a task's search, which ends as `end` says and tells `progress`; refers to both.
+/// Settings of a task's search, which ends according to `end` and reports to `progress`; keeps
+/// references to both.
+/// task      the design task
+/// end       when to end
+/// progress  receives the progress
+/// threads   number of threads
 SearchSettings search_settings(const schemas::DesignTask& task, const SearchEnd& end,
                                Progress& progress, unsigned threads);
 

@@ -8,47 +8,47 @@
 
 namespace irido::cli {
 
-/// The surface, as typed.
+/// The surface, as given on the command line.
 struct SurfaceOptions {
     schemas::StackRequest source;
-    std::string alpha;  ///< "" if not typed
+    std::string alpha;  ///< "" if not given
 };
 
-/// SURFACE, --alpha, --set and --material.
+/// Adds SURFACE, --alpha, --set and --material.
 void add_surface_options(CLI::App& command, SurfaceOptions& options);
 
-/// --paths and --transmission of tables of layered surfaces.
+/// Adds --paths and --transmission for tables of layered surfaces.
 void add_table_paths_options(CLI::App& command, std::string& paths, std::string& transmission);
 
-/// Reads the surface and says what is to be noted. Throws InputError and UsageError.
+/// Reads the surface and prints its notes. Throws InputError and UsageError.
 schemas::SurfaceDocument read_noted_surface(const SurfaceOptions& options, bool quiet);
 
-/// What a surface is called in a picture: its name, or what was typed.
+/// The title of a surface in a picture: its name, or the command-line argument.
 std::string title_of(const schemas::SurfaceDocument& document, const SurfaceOptions& options);
 
-/// Directions of light and view, as typed.
+/// Directions of light and view, as given on the command line.
 struct DirectionOptions {
     std::string light_theta = "0", light_phi = "0", view_theta = "0", view_phi = "180";
-    std::string file;  ///< "" if not typed
+    std::string file;  ///< "" if not given
 };
 
-/// Where the light comes from and where it is seen: directions that point away from the surface.
+/// Directions of light and view, both pointing away from the surface.
 struct Directions {
     double light_theta_deg = 0, light_phi_deg = 0;  ///< theta in [0, 90]
     double view_theta_deg = 0, view_phi_deg = 180;
 
-    /// The azimuth between them, folded into [0, 180].
+    /// The azimuth between light and view, folded into [0, 180].
     double azimuth_deg() const;
 };
 
-/// --light-theta, --light-phi, --view-theta, --view-phi and --directions
+/// Adds --light-theta, --light-phi, --view-theta, --view-phi and --directions.
 void add_direction_options(CLI::App& command, DirectionOptions& options);
 
-/// Every combination, view_phi fastest, or the rows of the file. Throws UsageError and InputError,
-/// among others for more than 1e7 of them.
+/// All combinations, with view_phi varying fastest, or the rows of the file. Throws UsageError and
+/// InputError, including for more than 1e7 directions.
 std::vector<Directions> parse_directions(const DirectionOptions& options);
 
-/// The light's polar angles alone. Throws UsageError if a file of directions was typed.
+/// Only the light's polar angles. Throws UsageError if a file of directions was given.
 std::vector<double> parse_light_thetas(const DirectionOptions& options);
 
 }  // namespace irido::cli

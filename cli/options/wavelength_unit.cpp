@@ -22,7 +22,7 @@ constexpr std::array kUnits{
     WavelengthUnit{"cm-1", "wavenumber_per_cm", 0, 1e7},
 };
 
-/// 0.38 um is 380 nm and not the double next to it, which a material might not be known at.
+/// Makes 0.38 um exactly 380 nm, not an adjacent double that may lie outside a material's range.
 double without_rounding(double nm) {
     constexpr double kDigits = 1e9, kRounding = 1e-15;
     const double rounded = std::round(nm * kDigits) / kDigits;

@@ -8,7 +8,7 @@ namespace irido::cli {
 
 namespace {
 
-/// Of all commands: CLI11 has no place for it in its options.
+/// The words of all commands; kept here because CLI11's options have no place for them.
 std::vector<OfferedWords>& all_words() {
     static std::vector<OfferedWords> all;
     return all;

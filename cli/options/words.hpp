@@ -11,9 +11,9 @@ class App;
 
 namespace irido::cli {
 
-/// Words that an option or an argument takes, for completions; nothing is checked by them.
+/// Words that an option or argument takes, for completions only; they are not checked.
 struct OfferedWords {
-    enum class Use { one, one_or_file, several };  ///< several: with commas between them
+    enum class Use { one, one_or_file, several };  ///< several: separated by commas
 
     const CLI::App* command;
     std::string_view option;  ///< without dashes
@@ -23,8 +23,11 @@ struct OfferedWords {
 
 void offer(OfferedWords words);
 
-/// Offers the words that `make` returns, which is called only where they are needed. `option`, its
-/// name without dashes, must live as long as the program.
+/// Offers the words that a function returns.
+/// command  the command
+/// option   the option's name without dashes; must live as long as the program
+/// make     returns the words; called only if they are needed
+/// use      what a value is: one word, a word or a file, or several words
 template <class Make>
 void offer(const CLI::App& command, std::string_view option, Make make,
            OfferedWords::Use use = OfferedWords::Use::one) {
@@ -36,11 +39,15 @@ void offer(const CLI::App& command, std::string_view option, Make make,
            use});
 }
 
-/// Offers the words of a text, with blanks between them, which must live as long as the program.
+/// Offers the words of a text.
+/// command  the command
+/// option   the option's name without dashes; must live as long as the program
+/// words    separated by blanks; must live as long as the program
+/// use      what a value is: one word, a word or a file, or several words
 void offer(const CLI::App& command, std::string_view option, const char* words,
            OfferedWords::Use use = OfferedWords::Use::one);
 
-/// What was offered last for an option, nullptr if nothing was.
+/// The words last offered for an option; nullptr if there are none.
 const OfferedWords* words_offered(const CLI::App& command, std::string_view option);
 
 }  // namespace irido::cli

@@ -25,7 +25,7 @@ std::vector<Polarization> band_polarizations(const std::string& text) {
     return polarizations;
 }
 
-/// Both ends of a range of wavelengths, which is not empty.
+/// Parses a non-empty range of wavelengths into its ends.
 std::pair<double, double> parse_wavelengths(const std::string& text) {
     const auto range =
         parse_range("--range", text, kAllWavelengths.first_nm, kAllWavelengths.last_nm);
@@ -54,7 +54,7 @@ std::string name_of(LandmarkKind kind) {
 
 }  // namespace
 
-/// Collects rows; a stack that fails adds none.
+/// Collects rows; a stack that fails contributes none.
 template <class Rows>
 class BandsResult : public QueryResult {
 public:

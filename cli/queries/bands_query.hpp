@@ -8,7 +8,7 @@
 
 namespace irido::cli {
 
-/// Options of irido bands, as typed.
+/// Options of irido bands, as given on the command line.
 struct BandsOptions : QueryOptions {
     std::string angles = "0";
     std::string polarization = "s,p";
@@ -28,7 +28,7 @@ public:
     std::span<const double> angles_deg() const override { return angles_deg_; }
     bool splits_angles() const override {
         return !gaps_;
-    }  // omnidirectional gaps concern all angles
+    }  // omnidirectional gaps depend on all angles
     std::size_t rows_per_angle() const override { return 0; }
     tables::RecordLayout layout(const schemas::StackDocument& document) const override;
     tables::RowPlot plot(const tables::Records& rows, tables::GamutMapping gamut) const override;
@@ -39,7 +39,7 @@ public:
 
     double first_nm() const { return first_nm_; }
     double last_nm() const { return last_nm_; }
-    /// The range, widened slightly against rounding errors of 2 pi / wavelength.
+    /// The range, slightly widened to allow for rounding errors of 2 pi / wavelength.
     OmegaRange omega() const;
     /// The stack as a Bragg mirror. Throws InputError.
     BraggMirror mirror(const schemas::StackDocument& document, const Stack& stack) const;

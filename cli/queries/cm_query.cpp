@@ -37,7 +37,7 @@ std::vector<double> parse_orders(const std::string& text) {
     return orders;
 }
 
-/// The film's media at the wavelength asked for.
+/// The film's media at the requested wavelength.
 Film film_of(const schemas::StackDocument& document, double at_nm) {
     const Stack& stack = document.stack;
     const std::string fault = stack.elements.empty() ? "no layer" : film_fault(stack);

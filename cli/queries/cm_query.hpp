@@ -7,7 +7,7 @@
 
 namespace irido::cli {
 
-/// Options of irido cm, as typed.
+/// Options of irido cm, as given on the command line.
 struct CmOptions : QueryOptions {
     std::string angles = "0";
     std::string polarization = "s,p";

@@ -14,7 +14,7 @@ namespace irido::cli {
 
 namespace {
 
-/// As typed, in the order of ColorColumn.
+/// Names on the command line, in the order of ColorColumn.
 constexpr std::array<std::string_view, 17> kColorNames{"L",
                                                        "a",
                                                        "b",

@@ -38,20 +38,20 @@ inline constexpr double kColorColumnError = 1e-4;
 /// The names of all columns.
 std::span<const std::string_view> color_column_names();
 
-/// The columns of "L,a,b", in the order typed, none for "". With a target, all differences follow
-/// if none of them was named. Throws UsageError for unknown or repeated names, and for differences
-/// without a target.
+/// Parses "L,a,b" into columns, in that order; none for "". With a target, all differences are
+/// added unless some are named. Throws UsageError for unknown or repeated names, and for
+/// differences without a target.
 std::vector<ColorColumn> parse_color_columns(std::string_view text, bool has_target);
 
 std::string name_of(ColorColumn column);
 
-/// A colour to compare with, as typed: "#rrggbb" or "L,a,b". Throws UsageError.
+/// A reference colour, as given: "#rrggbb" or "L,a,b". Throws UsageError.
 class ColorTarget {
 public:
-    /// space  whose encoding "#rrggbb" has
+    /// space  the space in whose encoding "#rrggbb" is given
     ColorTarget(const std::string& text, const RgbSpace& space);
 
-    /// CIELAB under the white to which `transform` belongs; a "#rrggbb" is the colour of that rgb.
+    /// CIELAB relative to the white of `transform`; "#rrggbb" means the colour with that rgb.
     Triple lab(const RgbTransform& transform, const Triple& white) const;
 
 private:
@@ -68,8 +68,8 @@ struct ColorView {
     std::optional<Triple> target;  ///< CIELAB
 };
 
-/// The number of a column for a colour; NaN where it is undefined: hues of greys, the dominant
-/// wavelength of the white, whiteness under other illuminants than D65.
+/// The value of a column for a colour; NaN where it is undefined: the hue of greys, the dominant
+/// wavelength of white, whiteness under illuminants other than D65.
 double color_column_value(ColorColumn column, const Triple& xyz, const ColorView& view);
 
 }  // namespace irido::cli

@@ -8,17 +8,21 @@
 
 namespace irido::cli {
 
-/// The largest error of a cone's X, Y and Z, if no smaller tolerance is asked for.
+/// The largest error of a cone's X, Y and Z, unless a smaller tolerance is requested.
 inline constexpr double kColorConeError = 1e-8;
 
-/// The requests whose colours a cone takes: as it is if the light is unpolarized, else s and p;
-/// their tolerance is a tenth of the cone's.
+/// The requests whose colours a cone needs: the request itself for unpolarized light, otherwise s
+/// and p; their tolerance is a tenth of the cone's.
 std::vector<ColorRequest> cone_requests(const ColorRequest& request);
 
-/// Colours over cones about the angles, [angle][side], as stack_color(). An f-number is that for
-/// the incident index at 550 nm. Throws DomainError as ConeLight does, ToleranceError.
-///   algorithms  of cone_requests(), for stacks like this one
-///   request     whose tolerance is that of the cone's colours
+/// Colours over cones about the angles, [angle][side], as from stack_color(). An f-number applies
+/// to the incident index at 550 nm. Throws ToleranceError, and DomainError like ConeLight.
+///   algorithms  for cone_requests(), prepared for stacks like this one
+///   stack       the stack
+///   request     the colours, with the tolerance of the cone's
+///   angles_deg  axes of the cones, degrees, [0, 90]
+///   size        the cones
+///   threads     number of threads
 std::vector<StackColor> cone_colors(std::span<const ColorAlgorithm* const> algorithms,
                                     const Stack& stack, const ColorRequest& request,
                                     std::span<const double> angles_deg, const ConeSize& size,

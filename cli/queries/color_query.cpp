@@ -24,10 +24,10 @@ namespace irido::cli {
 
 namespace {
 
-/// Cache of all structures: 256 MB.
+/// Size of the cache of all structures, in numbers: 256 MB.
 constexpr std::size_t kKeptNumbers = 1U << 25;
 
-/// x, y of the colour, or of the white where there is no light.
+/// x, y of a colour, or of the white if there is no light.
 std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
     const Triple& shown = xyz[0] + xyz[1] + xyz[2] > 0 ? xyz : white;
     const double sum = shown[0] + shown[1] + shown[2];
@@ -37,7 +37,7 @@ std::array<double, 2> chromaticity(const Triple& xyz, const Triple& white) {
 struct ColorStack : PreparedStack {
     using PreparedStack::PreparedStack;
 
-    std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one per illumination, or, for a
+    std::vector<std::unique_ptr<ColorAlgorithm>> algorithms;  ///< one per illumination, or for a
                                                               ///< cone, per cone_requests()
 
     std::vector<const ColorAlgorithm*> of_illumination(std::size_t i, std::size_t count) const {
@@ -77,13 +77,13 @@ struct ColorRows {
     }
 };
 
-/// Whether a method's colours have an error that it knows.
+/// Whether a method estimates the error of its colours.
 bool is_exact(ColorMethod::Kind kind) {
     using enum ColorMethod::Kind;
     return kind == automatic || kind == quadrature || kind == fourier || kind == bloch;
 }
 
-/// Whether a method's colours are as good as they are asked to be.
+/// Whether a method's colours meet any tolerance requested.
 bool is_untruncated(const ColorMethod& method) {
     return is_exact(method.kind) && method.count == 0;
 }
@@ -155,7 +155,7 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
         std::min(request_.kept_numbers, kKeptNumbers / std::max<std::size_t>(1, run.structures));
     request_.simd = run.execution.simd;
     const Observer& eye = parse_observer(typed.color.observer);
-    const std::string first = schemas::well_formed(typed.color.illuminant);  // perhaps a file's
+    const std::string first = schemas::well_formed(typed.color.illuminant);  // may be a file name
     illuminations_.push_back(
         std::make_unique<Illumination>(first, Sensitivity(eye, illuminant_), *space_, adaptation));
     if (typed.compare)
@@ -166,7 +166,7 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
     prepare_columns(typed);
 }
 
-/// Exact methods compute X, Y, Z as well as Lab and the differences need them.
+/// Exact methods compute X, Y, Z to the accuracy that Lab and the differences need.
 void ColorQuery::prepare_columns(const ColorQueryOptions& typed) {
     const bool has_target = !typed.target.empty();
     if (has_target && typed.compare)
@@ -298,7 +298,7 @@ double ColorQuery::cost_us(const PreparedStack& prepared, const Stack& stack, do
 
 double ColorQuery::try_share(const schemas::StackDocument& document, const Incidence& incidence,
                              double share) const {
-    constexpr double kUsualWavelengths = 1000;  // of a colour, as --stats says
+    constexpr double kUsualWavelengths = 1000;  // per colour; --stats prints the number
     const ColorTables& tables = illuminations_.front()->tables;
     const auto illuminations = static_cast<double>(illuminations_.size());
     const StackPower power(document.stack);
@@ -352,8 +352,8 @@ StackColors ColorQuery::colors(const PreparedStack& prepared, const Stack& stack
     return result;
 }
 
-/// Approximate methods have no tolerance unless one is given: a note reports an error above the
-/// default one.
+/// Approximate methods have no tolerance unless one is given: a note reports errors above the
+/// default tolerance.
 void ColorQuery::check_errors(const schemas::StackDocument& document, const StackColors& colors,
                               bool approximate) const {
     for (const std::vector<StackColor>& lit : colors.colors) {
@@ -378,7 +378,7 @@ void ColorQuery::check_errors(const schemas::StackDocument& document, const Stac
     }
 }
 
-/// Colours that miss the tolerance which the darkest ones need may be good enough.
+/// Colours that miss the tolerance needed for the darkest ones may still be accurate enough.
 void ColorQuery::check_columns(const schemas::StackDocument& document,
                                const StackColors& colors) const {
     if (!is_untruncated(method_)) return;

@@ -13,7 +13,7 @@
 
 namespace irido::cli {
 
-/// Options of irido color, as typed.
+/// Options of irido color, as given on the command line.
 struct ColorQueryOptions : QueryOptions {
     std::string angles = "0";
     ColorOptions color;
@@ -32,7 +32,7 @@ struct ColorQueryOptions : QueryOptions {
 /// The transform from XYZ. Throws UsageError, which names --illuminant.
 RgbTransform rgb_transform(const RgbSpace& space, const Triple& white, Adaptation adaptation);
 
-/// An illuminant, with all that is shared by the colours under it.
+/// An illuminant and everything shared by the colours under it.
 struct Illumination {
     Illumination(std::string name, Sensitivity sensitivity, const RgbSpace& space,
                  Adaptation adaptation);
@@ -44,13 +44,13 @@ struct Illumination {
     RgbTransform transform;
 };
 
-/// Colours of one stack: for each illumination, [angle][side].
+/// Colours of one stack, per illumination as [angle][side].
 struct StackColors {
     std::vector<double> angles_deg;
     std::vector<std::vector<StackColor>> colors;
 };
 
-/// X, Y, Z and RGB of what a stack reflects or transmits.
+/// X, Y, Z and RGB of the light that a stack reflects or transmits.
 class ColorQuery : public Query {
 public:
     ColorQuery(const ColorQueryOptions& typed, const QueryRun& run);
@@ -69,7 +69,7 @@ public:
                      double share) const override;
 
     std::span<const Side> sides() const { return request_.sides; }
-    /// The one requested, followed by those to compare with it.
+    /// The requested illumination, followed by those to compare with it.
     std::span<const std::unique_ptr<Illumination>> illuminations() const { return illuminations_; }
     /// Throws InputError, or ToleranceError if a colour misses the tolerance.
     StackColors colors(const PreparedStack& prepared, const Stack& stack,
@@ -83,14 +83,14 @@ private:
                       bool approximate) const;
 
     std::vector<double> angles_deg_;
-    Table illuminant_;  ///< the one requested
+    Table illuminant_;  ///< the requested one
     std::vector<std::unique_ptr<Illumination>> illuminations_;
     ColorMethod method_;
     std::optional<Triple> base_color_;  ///< for --method gltf
     ColorRequest request_;
     ConeSize cone_;
     bool held_to_tolerance_;  ///< a tolerance was given
-    double tolerance_;        ///< of X, Y, Z; that of request_ may be smaller for the columns
+    double tolerance_;        ///< for X, Y, Z; that of request_ may be smaller to suit the columns
     const RgbSpace* space_;
     std::vector<ColorColumn> columns_;
     std::vector<ColorView> views_;  ///< one per illumination

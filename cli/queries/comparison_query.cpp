@@ -23,13 +23,13 @@ struct ComparedStack : PreparedStack {
     std::unique_ptr<const StackComparison> comparison;
 };
 
-/// Whether an engine is given a film instead of the stack.
+/// Whether an engine receives a film instead of the stack.
 bool takes_film(const ComparedEngine& engine) {
     using enum ColorMethod::Kind;
     return engine.engine || engine.method.kind == gaussian || engine.method.kind == smits;
 }
 
-/// The film that engines are given, for a note.
+/// The film passed to engines, for a note.
 std::string given_text(const GivenFilm& given) {
     const EngineFilm& film = given.film;
     std::string text = "engines are given a film of index " +

@@ -10,7 +10,7 @@
 
 namespace irido::cli {
 
-/// Options of irido compare for a stack, as typed.
+/// Options of irido compare for a stack, as given on the command line.
 struct ComparisonQueryOptions : QueryOptions {
     std::string angles;  ///< "" for the default
     ComparisonOptions comparison;
@@ -19,15 +19,15 @@ struct ComparisonQueryOptions : QueryOptions {
     nlohmann::json typed() const override;
 };
 
-/// Rows of engines' colours beside exact ones: linear sRGB, hex, CIEDE2000.
+/// Rows of engines' colours next to exact ones: linear sRGB, hex, CIEDE2000.
 class EngineRows {
 public:
-    /// White of the illuminant of exact colours.
+    /// `white` of the illuminant of the exact colours.
     explicit EngineRows(const Triple& white);
 
     void add(const std::string& engine, double angle_deg, const EngineColor& color);
     std::size_t size() const { return engine_.size(); }
-    /// The columns, and an empty start.
+    /// Returns the columns and starts again with empty ones.
     std::vector<tables::Column> take();
     /// `longest` is the length of the longest name of an engine.
     static tables::RecordLayout layout(std::size_t longest);
@@ -39,10 +39,10 @@ private:
     std::array<tables::Column::Numbers, 3> rgb_, exact_;
 };
 
-/// Throws ToleranceError unless an exact colour of `name` is exact enough to be compared with.
+/// Throws ToleranceError unless an exact colour of `name` is accurate enough for comparison.
 void require_exact(const std::string& name, double error);
 
-/// Engines against the exact colours of a stack.
+/// Compares engines with the exact colours of a stack.
 class ComparisonQuery : public Query {
 public:
     ComparisonQuery(const ComparisonQueryOptions& typed, const QueryRun& run);

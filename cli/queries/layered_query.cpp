@@ -45,7 +45,7 @@ void report_held_layers(const LayeredSurface& surface, const schemas::SurfaceDoc
 
 namespace {
 
-/// Relative, of all paths where there is no closed form.
+/// Relative tolerance of all paths without a closed form.
 constexpr double kDefaultAddingTolerance = 1e-3;
 
 std::string two_digits(double value) {
@@ -63,8 +63,8 @@ std::vector<ScatterPair> pairs_of(const std::vector<Directions>& directions) {
     return pairs;
 }
 
-/// Throws ToleranceError for the first colour that misses it; says so where adding is all that is
-/// missing and no tolerance was typed.
+/// Throws ToleranceError for the first colour that misses the tolerance; only notes it if the miss
+/// is due to adding alone and no tolerance was given.
 void check_tolerance(const schemas::SurfaceDocument& document, const SurfaceQuery& query,
                      bool is_added, const std::vector<SurfaceColor>& colors) {
     double tolerance = parse_tolerance(query.color.tolerance);
@@ -283,12 +283,12 @@ public:
 private:
     const std::vector<double>& wavelengths() const { return query_.wavelengths_nm; }
 
-    /// Whether all paths are asked for and have no closed form.
+    /// Whether all paths are requested and have no closed form.
     bool is_added() const { return paths_ == Paths::all && !scattering_.is_closed(); }
     Paths closed_paths() const { return is_added() ? Paths::single : paths_; }
 
-    /// Adds the rest of all paths to single reflections. A tolerance that was typed is one that is
-    /// held; else a note says what is not met.
+    /// Adds the remaining paths to single reflections. A given tolerance is enforced; otherwise a
+    /// note says what is not met.
     template <class Rest>
     void add(Numbers& once, const Rest& rest_by) const {
         const bool is_held = !query_.color.tolerance.empty();

@@ -14,17 +14,17 @@ namespace irido::cli {
 
 namespace {
 
-/// Wavelengths 4 nm apart: colours to 1e-4 where the layers have no sharp resonances.
+/// Number of wavelengths, 4 nm apart: colours to 1e-4 unless the layers have sharp resonances.
 constexpr std::size_t kScatterogramWavelengths = 118;
 constexpr double kScatterogramTolerance = 1e-2;
 
-/// Polar angles and azimuths of a disc, degrees: the same on both sides of the plane of incidence.
+/// Polar angles and azimuths on a disc: symmetric about the plane of incidence.
 constexpr std::size_t kPolarSteps = 90, kAzimuthSteps = 60;
 constexpr double kAzimuthStep_deg = 3;
 
 constexpr std::size_t kDiscPixels = 360;
 
-/// Colours of both discs: of each polar angle, and of each polar angle and azimuth.
+/// Colours of both discs: per polar angle, and per polar angle and azimuth.
 struct DiscColors {
     std::vector<Triple> white, beam;
 };

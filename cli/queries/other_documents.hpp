@@ -6,8 +6,8 @@
 
 namespace irido::cli {
 
-/// Throws InputError if the source is a surface or a scene document, which cannot be `done`
-/// ("drawn") yet, rather than a stack.
+/// Throws InputError if the source is not a stack but a surface or scene document, which cannot be
+/// `done` ("drawn") yet.
 void refuse_other_documents(const schemas::StackSource& source, const std::string& done);
 
 }  // namespace irido::cli

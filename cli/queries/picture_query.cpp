@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kRoughSamples = 64;
 constexpr double kMostSide = 8192, kMostExposure = 40, kMostSeed = 1e15;
 
-/// W,H or one number for both.
+/// Parses W,H or one number for both.
 std::array<std::size_t, 2> parse_picture_size(const std::string& text) {
     const std::vector<std::string_view> parts = comma_separated(text);
     if (parts.size() > 2) throw UsageError("--size: must be W,H (got '" + text + "')");
@@ -29,7 +29,7 @@ std::array<std::size_t, 2> parse_picture_size(const std::string& text) {
     return size;
 }
 
-/// LO:HI,SCALE,SEED; scale and seed may be left out.
+/// Parses LO:HI,SCALE,SEED; scale and seed may be omitted.
 ThicknessNoise parse_noise(const std::string& text, const std::string& octaves) {
     constexpr const char* kOption = "--thickness-noise";
     const std::vector<std::string_view> parts = comma_separated(text);
@@ -81,7 +81,7 @@ Environment parse_environment(const std::string& text, std::string& hash) {
     }
 }
 
-/// Of the substrate over the incident medium, in the middle of the spectrum. Throws DomainError.
+/// Index of the substrate relative to the incident medium, mid-spectrum. Throws DomainError.
 double index_of_gem(const Stack& stack) {
     constexpr double kMiddle_nm = 550;
     const IndexTable indices(stack, {kMiddle_nm});

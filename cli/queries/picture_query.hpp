@@ -13,7 +13,7 @@
 
 namespace irido::cli {
 
-/// Options of a rendered picture, as typed.
+/// Options of a rendered picture, as given on the command line.
 struct PictureQueryOptions {
     std::string size;  ///< "" for the default
     std::string shape = "sphere";
@@ -45,24 +45,23 @@ struct DrawnPicture {
 /// Pictures of a smooth stack on a shape.
 class PictureQuery {
 public:
-    /// usual_size: where none is typed. Throws UsageError, or InputError for what is wrong with a
-    /// file.
+    /// usual_size: the default size. Throws UsageError, or InputError for errors in a file.
     PictureQuery(const PictureQueryOptions& typed, const Execution& execution,
                  std::size_t usual_size = 512);
 
-    /// `progress` gets a growing fraction, from any thread; `alpha`, if any, replaces the roughness
-    /// typed. Throws InputError for a stack that cannot be drawn.
+    /// `progress` receives an increasing fraction, from any thread; `alpha`, if present, replaces
+    /// the given roughness. Throws InputError for a stack that cannot be drawn.
     DrawnPicture draw(const schemas::StackDocument& document,
                       const std::function<void(double)>& progress,
                       std::optional<double> alpha = {}) const;
 
     const PictureScene& scene() const { return scene_; }
     const Sensitivity& sensitivity() const { return light_->tables.sensitivity(); }
-    /// What decides the pixels besides the stack, without paths.
+    /// Everything but the stack that determines the pixels, without paths.
     nlohmann::json request() const;
-    /// One line for each thing worth knowing of a picture.
+    /// Lines of statistics about a picture.
     std::vector<std::string> stats(const DrawnPicture& drawn) const;
-    /// What is to be noted of it; "" if nothing.
+    /// A warning about the picture; "" if there is none.
     static std::string caution(const DrawnPicture& drawn);
 
 private:

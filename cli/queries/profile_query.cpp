@@ -33,7 +33,7 @@ void require_fields(const schemas::StackDocument& document, const StackPower& po
                                   "incoherent or averaged stacks have no fields");
 }
 
-/// The columns behind polarization.
+/// The columns after polarization.
 std::vector<std::string> profile_names(bool summary) {
     if (summary) return {"medium", "absorbed", "penetration_nm", "largest_E2", "largest_at_nm"};
     return {"z_nm", "medium", "E2", "Ex2", "Ey2", "Ez2", "absorbed_per_nm", "flux"};

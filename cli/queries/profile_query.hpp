@@ -8,14 +8,14 @@
 
 namespace irido::cli {
 
-/// Options of irido profile, as typed.
+/// Options of irido profile, as given on the command line.
 struct ProfileOptions : QueryOptions {
     std::string wavelengths;  ///< "" for 550 nm
     std::string angles = "0";
     std::string polarization = "u";
     std::string unit = "nm";
-    std::string points;  ///< "" if not typed
-    std::string z;       ///< "" if not typed
+    std::string points;  ///< "" if not given
+    std::string z;       ///< "" if not given
     bool summary = false;
 
     static std::unique_ptr<QueryOptions> add(CLI::App& command);
@@ -23,7 +23,7 @@ struct ProfileOptions : QueryOptions {
     nlohmann::json typed() const override;
 };
 
-/// The fields in a stack over its depth, or what each of its layers does.
+/// The fields in a stack as functions of depth, or a summary of each layer.
 class ProfileQuery : public Query {
 public:
     ProfileQuery(const ProfileOptions& typed, const QueryRun& run);
@@ -38,7 +38,7 @@ public:
                    std::optional<double> wavelength_nm) const override;
 
     bool is_summary() const { return summary_; }
-    /// The depths of the rows, nm, of a stack whose substrate begins at `last_face_nm`.
+    /// The depths of the rows, nm, for a stack whose substrate begins at `last_face_nm`.
     std::vector<double> depths_nm(double last_face_nm) const;
 
 private:
@@ -47,7 +47,7 @@ private:
     std::vector<double> angles_deg_;
     std::string polarizations_;  ///< letters of "spu"
     TypedWavelengths wavelengths_;
-    std::vector<double> z_nm_;  ///< none if `points_` of them are to be found
+    std::vector<double> z_nm_;  ///< if empty, `points_` depths are chosen
     std::size_t points_ = 0;
     bool summary_;
     std::function<void(const std::string&)> note_;

@@ -35,7 +35,7 @@ double Query::try_share(const schemas::StackDocument& document, const Incidence&
 void note_incident(const schemas::StackDocument& document, const IndexTable& table,
                    const std::function<void(const std::string&)>& say) {
     const std::size_t incident = document.stack.incident;
-    if (is_constant(document.stack.materials[incident])) return;  // said when read
+    if (is_constant(document.stack.materials[incident])) return;  // reported when read
     double largest = 0;
     for (const double k : table.k(table.incident())) largest = std::max(largest, std::abs(k));
     if (largest > 0)
@@ -56,7 +56,7 @@ tables::Figure figure_of_rows(const Query& query, const tables::Records& rows,
     tables::RowPlot plot = query.plot(rows, gamut);
     plot.title = title;
     auto place = plot.keys.begin();
-    if (is_wavelength_column(place->column)) ++place;  // along x, whatever else varies
+    if (is_wavelength_column(place->column)) ++place;  // always along x
     for (const std::string& path : varied)
         place = plot.keys.insert(place, {path, tables::axis_of_column(path)}) + 1;
     for (const std::string& text : plot.notes) say(text);

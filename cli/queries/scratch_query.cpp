@@ -33,7 +33,7 @@ ScratchSight sight_of(const ScratchOptions& options) {
     return parse_at(options);
 }
 
-/// Answers of a scratched surface.
+/// Evaluates a scratched surface.
 class ScratchAnswers {
 public:
     ScratchAnswers(const ScratchedSurface& surface, const SurfaceQuery& query)
@@ -118,7 +118,7 @@ private:
         return cones;
     }
 
-    /// Angles of all views, each as often as it has rows.
+    /// Angles of all views, each repeated for its rows.
     NumberColumns view_columns(std::vector<UnitVector>& views, std::size_t times) const {
         NumberColumns columns{{"view_theta_deg", {}}, {"view_phi_deg", {}}};
         for (const Directions& one : parse_directions(query_.directions)) {

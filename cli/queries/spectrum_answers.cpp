@@ -8,7 +8,7 @@ namespace irido::cli {
 
 namespace {
 
-/// Wavelengths that one thread takes at a time.
+/// Wavelengths that one thread processes at a time.
 constexpr std::size_t kDelaysTogether = 16;
 
 void find_ellipsometry(const StackPower& power, const IndexTable& table,

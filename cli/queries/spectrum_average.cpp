@@ -23,7 +23,7 @@ namespace {
 /// Angles that are averaged together.
 constexpr std::size_t kAnglesOfAverage = 16;
 
-/// Between its rows, linearly, and 0 outside.
+/// Linear between rows, 0 outside.
 double weight_of(const Table& table, double nm) {
     const bool inside = nm >= table.wavelength_nm.front() && nm <= table.wavelength_nm.back();
     return inside ? linear_value(table, nm) : 0;
@@ -39,7 +39,7 @@ Table luminosity() {
     return table;
 }
 
-/// Optical path there and back, nm, at one wavelength.
+/// Round-trip optical path, nm, at one wavelength.
 double path_of(std::span<const Element> elements, const IndexTable& at) {
     double path = 0;
     for (const Element& element : elements) {
@@ -54,8 +54,8 @@ double path_of(std::span<const Element> elements, const IndexTable& at) {
     return path;
 }
 
-/// Panels between which neither the weight nor the stack has a corner, and of half a fringe or
-/// less.
+/// Ends of panels on which the weight and the stack are smooth, each spanning at most half a
+/// fringe.
 std::vector<double> panel_ends(const Stack& stack, const IndexTable& first, WavelengthRange range,
                                const AverageWeight& weight) {
     std::vector<double> ends{range.first_nm, range.last_nm};

@@ -12,7 +12,7 @@ namespace irido::cli {
 
 namespace {
 
-/// As typed, in the order of SpectrumColumn.
+/// Names on the command line, in the order of SpectrumColumn.
 constexpr std::array<std::string_view, 20> kNames{
     "r_re",        "r_im",        "t_re",      "t_im",
     "psi_deg",     "delta_deg",   "A_layers",  "delta_nebraska_deg",
@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 20> kNames{
     "phase_r_deg", "phase_t_deg", "gd_r_fs",   "gd_t_fs",
     "gdd_r_fs2",   "gdd_t_fs2",   "tod_r_fs3", "tod_t_fs3"};
 
-/// What a column is made of.
+/// The quantity from which a column is computed.
 enum class Source { amplitude, ellipsometric_angle, layers, ellipsometry, delay };
 
 Source source_of(SpectrumColumn column) {
@@ -49,7 +49,7 @@ public:
               tables::Column::Numbers& to)
         : shape_(shape), answers_(answers), spectra_(answers.spectra), to_(to) {}
 
-    /// value(polarization, point), points being [angle][wavelength].
+    /// value(polarization, point), with points ordered [angle][wavelength].
     template <class Value>
     void append(const Value& value) const {
         to_.reserve(to_.size() + shape_.rows());
@@ -59,7 +59,7 @@ public:
                     to_.push_back(value(polarization, a * shape_.wavelengths + w));
     }
 
-    /// Appends a power; `offset` is the place of its first point.
+    /// Appends a power; `offset` is the index of its first point.
     void power(std::vector<double> Spectrum::*quantity, std::size_t offset = 0) const {
         const double* s = (spectra_.s.*quantity).data() + offset;
         const double* p = (spectra_.p.*quantity).data() + offset;
@@ -77,7 +77,7 @@ public:
         });
     }
 
-    /// Values that s and p have together, in the rows of the first polarization only.
+    /// Values shared by s and p, in the rows of the first polarization only.
     template <class Value>
     void append_once(const Value& value) const {
         constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -112,7 +112,7 @@ private:
 };
 
 double real_part(const Complex& z) {
-    return z.real() + 0.0;  // -0 is 0
+    return z.real() + 0.0;  // turns -0 into 0
 }
 double imaginary_part(const Complex& z) {
     return z.imag() + 0.0;

@@ -37,11 +37,11 @@ enum class SpectrumColumn {
 /// The names of all columns.
 std::span<const std::string_view> spectrum_column_names();
 
-/// The columns of "r_re,psi_deg", in the order typed; none for "". Throws UsageError for unknown or
+/// Parses "r_re,psi_deg" into columns, in that order; none for "". Throws UsageError for unknown or
 /// repeated names.
 std::vector<SpectrumColumn> parse_spectrum_columns(std::string_view text);
 
-/// The quantities required for rows of these polarizations (letters of "spu") and columns. Throws
+/// The quantities required for rows with these polarizations (letters of "spu") and columns. Throws
 /// UsageError if a column is undefined for one of the polarizations or for the stack.
 SpectrumNeeds spectrum_needs(const std::string& polarizations,
                              const std::vector<SpectrumColumn>& columns, const StackPower& stack);
@@ -50,13 +50,13 @@ SpectrumNeeds spectrum_needs(const std::string& polarizations,
 std::vector<std::string> spectrum_number_names(const std::vector<SpectrumColumn>& columns,
                                                std::size_t layers);
 
-/// Rows by angle, then polarization, then wavelength.
+/// Dimensions of rows sorted by angle, then polarization, then wavelength.
 struct SpectrumShape {
     std::size_t angles;
     std::string_view polarizations;  ///< letters of "spu"
     std::size_t wavelengths;
-    bool has_ellipsometry = true;  ///< whether the first polarization's rows have the columns that
-                                   ///< belong to s and p together; no others do
+    bool has_ellipsometry = true;  ///< whether the first polarization's rows, and only they, have
+                                   ///< the columns that describe s and p together
 
     std::size_t rows() const { return angles * polarizations.size() * wavelengths; }
 };
@@ -65,7 +65,7 @@ struct SpectrumShape {
 /// shape    numbers of angles, polarizations and wavelengths
 /// columns  the optional columns
 /// layers   number of layers listed by A_layers
-/// answers  values in the order [angle][wavelength]
+/// answers  the values, [angle][wavelength]
 /// to       one column per name of spectrum_number_names()
 void append_spectrum_numbers(const SpectrumShape& shape, const std::vector<SpectrumColumn>& columns,
                              std::size_t layers, const SpectrumAnswers& answers,

@@ -29,7 +29,7 @@ std::string count_of(std::size_t part, std::size_t all, const std::string& what)
     return std::to_string(part) + " of " + std::to_string(all) + " " + what;
 }
 
-/// Why a request is left to the plain kernel.
+/// Why a request is left to the plain kernel; see --stats.
 std::string why_plain(const StackPower& stack, const Needs& needs, SimdLevel simd) {
     if (simd == SimdLevel::plain) return "IRIDO_SIMD=plain";
     if (needs.layers) return "A_layers";
@@ -74,9 +74,9 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
     return lines;
 }
 
-/// Approximate count of numbers that are computed and written at a time.
+/// Approximate count of numbers computed and written at a time.
 constexpr std::size_t kBlockNumbers = 1U << 20U;
-/// Cache of index tables: 64 MB.
+/// Size of the cache of index tables, in numbers: 64 MB.
 constexpr std::size_t kKeptIndices = 1U << 23U;
 
 template <class Value>
@@ -137,7 +137,7 @@ private:
     std::optional<double> shortest_;
 };
 
-/// Cuts every column after its first `rows` rows.
+/// Truncates every column to its first `rows` rows.
 void cut(tables::Records& records, std::size_t rows) {
     for (tables::Column& column : records.columns)
         std::visit(
@@ -244,11 +244,11 @@ private:
     std::vector<tables::Column::Numbers> numbers_;
     tables::Column::CodedNumbers wavelength_, angle_;
     tables::Column::CodedTexts polarization_;
-    bool shared_wavelengths_ = false;  ///< the last values are those of the query
+    bool shared_wavelengths_ = false;  ///< the last values are for the query's wavelengths
     std::uint32_t first_wavelength_ = 0;
 };
 
-/// Rows of averages: one for each angle and polarization.
+/// Rows of averages: one per angle and polarization.
 class AverageResult : public QueryResult {
 public:
     explicit AverageResult(const SpectrumQuery& query) : query_(query) {}
@@ -365,7 +365,7 @@ tables::RowPlot SpectrumQuery::plot(const tables::Records& rows, tables::GamutMa
         if (column.name == "A_" + std::to_string(layers + 1)) ++layers;
     for (std::string& name : spectrum_number_names(columns_, layers)) {
         tables::FigureAxis axis = tables::axis_of_column(name);
-        if (name == "C") axis.quantity = name;  // of ellipsometry, not of a series
+        if (name == "C") axis.quantity = name;  // of ellipsometry, not the Fourier coefficient
         plot.values.push_back({name, axis, name.starts_with("A_") ? "absorbed in layers" : ""});
     }
     return plot;
@@ -443,7 +443,7 @@ double SpectrumQuery::try_share(const schemas::StackDocument& document, const In
 
 void SpectrumQuery::each_block(const schemas::StackDocument& document,
                                const std::function<void(const tables::Records&)>& take) const {
-    constexpr std::size_t kOfCone = 64;  // points of a cone are many
+    constexpr std::size_t kOfCone = 64;  // a cone has many points
     const std::size_t numbers = cone_.is_none() ? kBlockNumbers : kBlockNumbers / kOfCone;
     const std::size_t most = std::max<std::size_t>(1, numbers / layout(document).size());
     if (!average_ && rows_per_angle() > most) return each_part_of_angle(document, most, take);

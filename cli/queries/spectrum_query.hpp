@@ -11,14 +11,14 @@
 
 namespace irido::cli {
 
-/// Options of irido spectrum, as typed.
+/// Options of irido spectrum, as given on the command line.
 struct SpectrumOptions : QueryOptions {
     std::string wavelengths;  ///< "" for kUsualWavelengths_nm
     std::string angles = "0";
     std::string polarization = "u";
     std::string columns;
     std::string unit = "nm";
-    std::string average;  ///< "" if not typed
+    std::string average;  ///< "" if not given
     ConeOptions cone;
 
     static std::unique_ptr<QueryOptions> add(CLI::App& command);
@@ -26,7 +26,7 @@ struct SpectrumOptions : QueryOptions {
     nlohmann::json typed() const override;
 };
 
-/// R, T, A and optional columns over wavelengths and angles, or averages over the wavelengths.
+/// R, T, A and optional columns over wavelengths and angles, or averages over wavelength.
 class SpectrumQuery : public Query {
 public:
     SpectrumQuery(const SpectrumOptions& typed, const QueryRun& run);
@@ -47,21 +47,21 @@ public:
     double try_share(const schemas::StackDocument& document, const Incidence& incidence,
                      double share) const override;
 
-    /// Rows of all wavelengths, angles and polarizations.
+    /// Number of rows over all wavelengths, angles and polarizations.
     std::uint64_t rows() const;
-    /// Passes all rows of a stack to `take`, in order, block by block and in constant memory; the
-    /// values are those of new_result(). Throws InputError or UsageError.
+    /// Passes all rows of a stack to `take`, in order, in blocks and in constant memory; the values
+    /// equal those of new_result(). Throws InputError or UsageError.
     void each_block(const schemas::StackDocument& document,
                     const std::function<void(const tables::Records&)>& take) const;
 
-    /// Lines about how a stack was computed and which work its physics saved.
+    /// Lines about how a stack was computed and what work its physics saved.
     std::vector<std::string> stats(const PreparedStack& prepared) const;
 
 private:
     friend class SpectrumResult;
     friend class AverageResult;
 
-    /// The notes of a stack that is about to be evaluated.
+    /// Reports the notes of a stack that is about to be evaluated.
     void note_stack(const schemas::StackDocument& document, const IndexTable& table) const;
 
     void each_part_of_angle(const schemas::StackDocument& document, std::size_t most,
@@ -69,7 +69,7 @@ private:
 
     bool varies_wavelength_;
     TypedWavelengths typed_;
-    std::vector<double> wavelengths_nm_;  ///< none if they vary, both ends of an average
+    std::vector<double> wavelengths_nm_;  ///< empty if they vary; both ends for an average
     std::vector<double> angles_deg_;
     std::string polarizations_;  ///< letters of "spu"
     std::vector<SpectrumColumn> columns_;

@@ -8,8 +8,8 @@ namespace irido::cli {
 
 namespace {
 
-/// Throws the error of the first material without an index at one of the wavelengths, with its
-/// JSON pointer.
+/// Throws the error of the first material without an index at one of the wavelengths, with its JSON
+/// pointer.
 [[noreturn]] void throw_material_error(const schemas::StackDocument& document,
                                        const std::vector<double>& wavelengths_nm,
                                        const DomainError& fallback) {

@@ -10,10 +10,10 @@
 
 namespace irido::cli {
 
-/// The letters of "s,p,u" in the order typed. Throws UsageError.
+/// Parses "s,p,u" into letters, in that order. Throws UsageError.
 std::string parse_polarizations(std::string_view text);
 
-/// The indices of a document's materials. Throws InputError, with the JSON pointer of the first
+/// The indices of a document's materials. Throws InputError with the JSON pointer of the first
 /// material that has no index at one of the wavelengths.
 IndexTable index_table(const schemas::StackDocument& document,
                        const std::vector<double>& wavelengths_nm);

@@ -9,16 +9,16 @@
 
 namespace irido::cli {
 
-/// Columns of numbers by name.
+/// Named columns of numbers.
 using NumberColumns = std::vector<std::pair<std::string, tables::Column::Numbers>>;
 
-/// Rows whose first columns are keys, the others values.
+/// Rows whose first `keys` columns are keys and whose others are values.
 SurfaceRows rows_of(NumberColumns columns, std::size_t keys);
 
-/// Angles of directions, each as often as it has rows.
+/// Angles of directions, each repeated for its rows.
 NumberColumns direction_columns(const std::vector<Directions>& directions, std::size_t times);
 
-/// Throws UsageError for more rows than a table of surfaces may have, 1e8.
+/// Throws UsageError if there would be more rows than the limit for surfaces, 1e8.
 void require_few_rows(double rows);
 
 /// Colours under one illuminant, as columns.
@@ -27,7 +27,7 @@ public:
     explicit ColorColumns(const ColorOptions& typed);
 
     const Illumination& illumination() const { return illumination_; }
-    /// Linear sRGB, for pictures.
+    /// Linear sRGB, for use in pictures.
     Triple drawn(const Triple& xyz) const { return drawn_(xyz); }
 
     /// Rows of keys and colours.

@@ -15,8 +15,8 @@
 
 namespace irido::cli {
 
-/// What is asked of a surface, parsed. Each kind of surface takes what it knows and refuses the
-/// rest by name.
+/// A parsed query about a surface. Each kind of surface uses what it supports and refuses the rest
+/// by name.
 struct SurfaceQuery {
     std::string quantity = "brdf";  ///< brdf, albedo, transmissivity, sampling, density
     DirectionOptions directions;
@@ -33,32 +33,36 @@ struct SurfaceQuery {
     std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
-/// Rows, and what their columns are in a picture.
+/// Rows, and the meaning of their columns in a picture.
 struct SurfaceRows {
     tables::Records records;
     tables::RowPlot plot;
-    std::optional<tables::Pixels> pixels = {};  ///< a picture that is no plot of the rows
+    std::optional<tables::Pixels> pixels = {};  ///< a picture other than a plot of the rows
 };
 
-// Values of typed texts; each throws UsageError.
+// Parsers of option values; each throws UsageError.
 Paths parse_paths(const std::string& text);
 Crossings parse_crossings(const std::string& text);
 
 /// Notes materials of the layers that colours clamp to their end values; see report_held_ranges().
+/// surface      the surface
+/// document     its document, to name in messages
+/// sensitivity  determines the fraction of X, Y, Z affected
+/// query        the query
 void report_held_layers(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                         const Sensitivity& sensitivity, const SurfaceQuery& query);
 
-/// Two discs of directions: in a white environment, where a pixel is the albedo, and in a beam from
-/// the light's direction, pi times the BRDF. Throws as rows_of_surface() does.
+/// Two discs of directions: a white environment, where a pixel is the albedo, and a beam from the
+/// light's direction, where it is pi times the BRDF. Throws like rows_of_surface().
 SurfaceRows layered_scatterogram(const LayeredSurface& surface,
                                  const schemas::SurfaceDocument& document,
                                  const SurfaceQuery& query);
 
-/// Answers of a layered surface. Throws UsageError and InputError.
+/// Evaluates a layered surface. Throws UsageError and InputError.
 SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                             const SurfaceQuery& query);
 
-/// Answers of a scratched surface. Throws UsageError and InputError.
+/// Evaluates a scratched surface. Throws UsageError and InputError.
 SurfaceRows rows_of_surface(const ScratchedSurface& surface,
                             const schemas::SurfaceDocument& document, const SurfaceQuery& query);
 

@@ -19,12 +19,12 @@ namespace irido::cli {
 
 namespace {
 
-/// Target run time of a block, unless it has too many rows.
+/// Target run time of a block, if the number of rows allows it.
 constexpr double kShortBlock_s = 0.02, kLongBlock_s = 0.1;
 constexpr std::uint64_t kMostBlockRows = 8192, kFirstUnits = 16;
-/// Blocks per thread that may wait to be written.
+/// Blocks per thread that may be waiting to be written.
 constexpr std::size_t kBlocksAhead = 4;
-/// Units sampled for the cost of shards.
+/// Units sampled to estimate the cost of shards.
 constexpr std::uint64_t kCostSamples = 4096;
 constexpr double kMostUnits = 1e18;
 
@@ -78,7 +78,7 @@ private:
     tables::Records records_;
 };
 
-/// Bytes of the longest value of a column.
+/// Length in bytes of the longest value of a column.
 std::size_t width_of(const SweptColumn& column) {
     std::size_t width = 1;
     for (const std::string& text : column.texts) width = std::max(width, text.size());
@@ -94,7 +94,7 @@ bool has_field(std::span<const tables::RecordField> layout, const std::string& n
     return std::ranges::find(layout, name, &tables::RecordField::name) != layout.end();
 }
 
-/// Runs `work`; its errors begin with "at PLACE: ".
+/// Runs `work`; prefixes its errors with "at PLACE: ".
 template <class Place, class Work>
 auto at_place(const Place& place, const Work& work) {
     try {
@@ -108,7 +108,7 @@ auto at_place(const Place& place, const Work& work) {
 
 }  // namespace
 
-/// Units that one thread computes.
+/// Units computed by one thread.
 struct SweepEngine::Block {
     std::uint64_t begin, end;
     std::string bytes = {};
@@ -117,13 +117,13 @@ struct SweepEngine::Block {
     bool is_done = false;
 };
 
-/// Hands out blocks to threads and takes them back in order.
+/// Hands out blocks to threads and returns them in order.
 class SweepEngine::Blocks {
 public:
     Blocks(std::uint64_t begin, std::uint64_t end, std::uint64_t most_units, std::size_t ahead)
         : next_(begin), end_(end), most_units_(most_units), ahead_(ahead) {}
 
-    /// The next block to be computed; nullptr when there is none.
+    /// The next block to compute; nullptr if there is none.
     std::shared_ptr<Block> take() {
         std::unique_lock guard(lock_);
         changed_.wait(guard, [&] { return stopped || next_ == end_ || waiting_.size() < ahead_; });
@@ -144,7 +144,7 @@ public:
         changed_.notify_all();
     }
 
-    /// The first unwritten block once it is done; nullptr after a short wait.
+    /// The first unwritten block when it is done; nullptr after a short wait.
     std::shared_ptr<Block> first_done() {
         std::unique_lock guard(lock_);
         const auto is_done = [&] { return !waiting_.empty() && waiting_.front()->is_done; };
@@ -225,7 +225,7 @@ double SweepEngine::cost_us(std::uint64_t unit, SweptStacks::Walk& walk) const {
 }
 
 std::vector<std::uint64_t> SweepEngine::shard_ends(std::uint64_t shards) {
-    constexpr double kRounded = 64;  // sums of whole numbers are the same everywhere
+    constexpr double kRounded = 64;  // sums of whole numbers are the same on every machine
     const std::uint64_t cells = std::min(units_, kCostSamples);
     const auto cell_begin = [&](std::uint64_t cell) {
         return static_cast<std::uint64_t>(static_cast<long double>(units_) *
@@ -328,7 +328,7 @@ void SweepEngine::compute(Block& block, SweptStacks::Walk& walk, const tables::R
         const std::uint64_t count = std::min(of_combination, block.end - unit);
         try {
             take(unit, count);
-        } catch (const Error&) {  // one of them
+        } catch (const Error&) {  // one of its units
             for (std::uint64_t i = 0; i < count; ++i)
                 take_alone(unit + i, [&] { take(unit + i, 1); });
         }

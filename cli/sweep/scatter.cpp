@@ -27,7 +27,7 @@ constexpr std::size_t kMostScattered = 10'000;
 
 constexpr std::array<std::string_view, 4> kLinks{"none", "repeat", "material", "all"};
 
-/// A standard deviation as typed.
+/// A standard deviation as given on the command line.
 struct Sigma {
     double size = 0;
     bool is_relative = false;
@@ -70,7 +70,7 @@ std::string joined_path(const std::string& path, const std::string& step) {
     return path.empty() ? step : path + "." + step;
 }
 
-/// The values of a document that a pattern names, with their paths.
+/// The values of a document that match a pattern, with their paths.
 class Matches {
 public:
     Matches(const ScatteredPath& scattered, SigmaOfPath& found)
@@ -99,7 +99,7 @@ private:
         }
     }
 
-    /// Every element and, of layers, those of groups, too.
+    /// Every element; for layers, also those of groups.
     void match_all(const json& array, const std::string& path, std::string_view rest,
                    std::string_view behind, std::string_view parent) {
         for (std::size_t i = 0; i < array.size(); ++i) {
@@ -125,24 +125,24 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A scattered value in the document that is swept.
+/// A scattered value in the document being swept.
 struct WrittenValue {
     std::string path;
-    std::string original;  ///< its path before groups were written out
+    std::string original;  ///< its path before groups were expanded
 };
 
-/// Writes out the groups of layers that have errors of their own.
+/// Expands the groups of layers that have independent errors.
 class WrittenOut {
 public:
     WrittenOut(const SigmaOfPath& sigmas, bool repetitions_differ)
         : sigmas_(sigmas), repetitions_differ_(repetitions_differ) {}
 
-    std::vector<std::string> groups;  ///< paths of those written out
+    std::vector<std::string> groups;  ///< paths of expanded groups
 
     /// layers    of the document or of a group
     /// original  their path
-    /// path      the path of the array that they become a part of
-    /// shift     the index of the first one there
+    /// path      path of the array that they become part of
+    /// shift     index of the first one there
     json layers(const json& layers, const std::string& original, const std::string& path,
                 std::size_t shift) {
         json result = json::array();
@@ -178,7 +178,7 @@ private:
         return group;
     }
 
-    /// How often a group is written: once unless its repetitions differ.
+    /// How many times a group is written: once unless its repetitions differ.
     std::uint64_t repetitions(const json& group, const std::string& original) const {
         const auto scattered = sigmas_.lower_bound(original + ".layers.");
         const bool has_scattered =
@@ -187,7 +187,7 @@ private:
         if (!repetitions_differ_ || !has_scattered || repeat == group.end() || !repeat->is_number())
             return 1;
         const double times = repeat->get<double>();
-        if (!(times >= 1 && times <= static_cast<double>(kMostRepeats))) return 1;  // said later
+        if (!(times >= 1 && times <= static_cast<double>(kMostRepeats))) return 1;  // told later
         if (times > static_cast<double>(kMostScattered)) throw_too_many();
         return static_cast<std::uint64_t>(times);
     }
@@ -215,7 +215,7 @@ std::uint64_t stream_of(std::string_view name) {
     return hash;
 }
 
-/// The value at a path that leads somewhere.
+/// The value at a path that exists.
 const json& value_at(const json& document, std::string_view path) {
     const json* place = &document;
     while (!path.empty()) {
@@ -227,7 +227,7 @@ const json& value_at(const json& document, std::string_view path) {
     return *place;
 }
 
-/// What gives a value its deviates: thicknesses may be linked, other values are not.
+/// The stream of deviates of a value; only thicknesses can be linked.
 std::uint64_t stream_of(const WrittenValue& value, const json& document, std::string_view link) {
     if (!schemas::VariedStack::is_thickness(value.path) || link == "none" || link == "repeat")
         return stream_of(value.path);
@@ -259,7 +259,7 @@ void require_scatter(const ScatterOptions& options) {
         if (is_typed) throw UsageError(std::string(name) + ": requires --scatter PATH=SIGMA");
 }
 
-/// Paths that vary may not lead into groups whose layers are counted anew.
+/// Refuses varied paths into groups whose layers are renumbered.
 void require_outside(const std::vector<std::string>& vary, const std::vector<std::string>& groups) {
     for (const std::string& text : vary) {
         const std::string path = text.substr(0, text.find('='));

@@ -157,7 +157,7 @@ void SweepSpace::check_light(std::size_t column) const {
     if (!of.is_light()) return;
     const auto [lowest, highest] = range_of(of.path);
     for (std::size_t i = 0; i < of.size(); ++i) {
-        // one non-number makes a column of strings
+        // one value that is not a number makes a column of strings
         const double value =
             of.is_text() ? schemas::parse_number(of.texts[i]).value_or(lowest - 1) : of.numbers[i];
         if (!(value >= lowest && value <= highest))

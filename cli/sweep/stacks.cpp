@@ -12,7 +12,7 @@ namespace {
 
 /// Structures cached per thread.
 constexpr std::size_t kMostPlaces = 16;
-/// Values per column that are checked before the sweep begins.
+/// Values per column that are checked before the sweep starts.
 constexpr std::size_t kMostChecked = 1000;
 
 std::vector<std::size_t> columns_where(const SweepSpace& space, const nlohmann::json& document,
@@ -35,7 +35,7 @@ std::vector<std::string> paths_of(const SweepSpace& space,
     return paths;
 }
 
-/// Runs `work`; its errors begin with the origin of the value.
+/// Runs `work`; prefixes its errors with the origin of the value.
 template <class Work>
 void from_origin(const SweepSpace& space, std::size_t column, std::size_t index, const Work& work) {
     try {
@@ -45,7 +45,7 @@ void from_origin(const SweepSpace& space, std::size_t column, std::size_t index,
     }
 }
 
-/// The source with each varied thickness at the middle of its values, as structures are prepared.
+/// The source with each varied thickness in the middle of its range, as used to prepare structures.
 schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSpace& space,
                                       const std::vector<std::size_t>& thicknesses) {
     for (const std::size_t c : thicknesses) {

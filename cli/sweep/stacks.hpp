@@ -12,12 +12,12 @@
 
 namespace irido::cli {
 
-/// The stacks of a sweep. Stacks that differ in thicknesses only share one structure, which is read
+/// The stacks of a sweep. Stacks that differ only in thicknesses share one structure, which is read
 /// and prepared once unless more than kMostStructures others are used in between. Thread-safe.
 class SweptStacks {
 public:
     /// `space` and `query` must outlive it. Throws InputError for the first value that is invalid
-    /// whatever the other values are.
+    /// regardless of the other values.
     SweptStacks(schemas::StackSource source, const SweepSpace& space, const Query& query);
 
     static constexpr std::size_t kMostStructures = 32;
@@ -33,8 +33,8 @@ public:
         struct Place {
             std::shared_ptr<const PreparedStack> prepared;
             Stack stack;
-            Stack written;               ///< the same as it is written, if that is reversed
-            std::vector<Layer*> varied;  ///< layers of it, one for each varied thickness
+            Stack written;               ///< the same in document order, if that is reversed
+            std::vector<Layer*> varied;  ///< its layers, one for each varied thickness
         };
         /// The prepared structure of a combination and its stack, valid until the next call.
         /// Throws InputError.
@@ -48,7 +48,7 @@ public:
         std::map<std::vector<std::size_t>, Place> places_;
     };
 
-    /// Number of preparations, repeated ones included.
+    /// Number of preparations, including repeated ones.
     std::uint64_t prepared() const { return prepared_count_; }
 
 private:

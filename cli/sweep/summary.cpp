@@ -31,7 +31,7 @@ struct PackedColumns {
         fields.push_back(field);
         offsets.push_back(offset);
     }
-    /// Their bytes in one row, one after another.
+    /// Their bytes in one row, concatenated.
     std::string of(std::string_view row) const {
         std::string bytes;
         for (std::size_t c = 0; c < fields.size(); ++c)
@@ -52,7 +52,7 @@ struct Statistics {
     double mean = 0, sd = 0, p5 = 0, p50 = 0, p95 = 0;
 };
 
-/// The value below which that share of sorted values lies.
+/// The quantile of sorted values for a given share.
 double quantile(const std::vector<double>& sorted, double share) {
     const double place = share * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(place);
@@ -76,7 +76,7 @@ Statistics statistics_of(std::vector<double> values) {
     return result;
 }
 
-/// Samples that keep the limits, or not, or have no rows.
+/// For each sample, whether it satisfies the limits, or that it has no rows.
 using Kept = std::vector<std::uint8_t>;
 constexpr std::uint8_t kNoRows = 0, kKeeps = 1, kFails = 2;
 
@@ -94,21 +94,21 @@ Kept all_kept(const std::vector<Kept>& limits) {
     return all;
 }
 
-/// The rows that samples have in common: at one angle, wavelength, ...
+/// A row that all samples share: at one angle, wavelength, ...
 struct RowOfSamples {
     std::string key;
     std::vector<std::vector<double>> numbers;  ///< of each quantity
 };
 
-/// What is computed for one combination of varied values.
+/// Data for one combination of varied values.
 struct Combination {
     std::string key;
     std::vector<RowOfSamples> rows;
     std::map<std::string, std::size_t, std::less<>> row_of_key;
-    std::vector<Kept> kept;  ///< of each limit
+    std::vector<Kept> kept;  ///< per limit
 };
 
-/// A row of the answer.
+/// A row of the result.
 struct SummaryLine {
     const std::string* combination;  ///< key of the varied values
     const std::string* row;          ///< key of the row, nullptr for limits
@@ -116,7 +116,7 @@ struct SummaryLine {
     Statistics statistics;
 };
 
-/// Adds those columns of a key in which lines differ; lines without the key have none there.
+/// Adds the columns of a key in which lines differ; lines without the key get no value there.
 void add_key_columns(tables::Records& to, const PackedColumns& columns,
                      const std::vector<SummaryLine>& lines, const std::string* SummaryLine::*key) {
     std::size_t offset = 0;
@@ -187,7 +187,7 @@ private:
                              schemas::did_you_mean(limit.column, names));
     }
 
-    /// Tells by the first rows which columns tell rows apart and which are quantities.
+    /// Determines from the first rows which columns distinguish rows and which are quantities.
     void sort_columns(const std::string& bytes) {
         std::set<std::string> keys{"order"};
         for (const tables::RowKey& key :
@@ -219,7 +219,7 @@ private:
                 numbers_.fields.begin()));
     }
 
-    /// Of columns of one name the last counts, which was asked for.
+    /// Of columns with the same name the last counts, since it was requested explicitly.
     bool is_named_again(std::size_t field) const {
         return std::any_of(
             layout_.begin() + static_cast<std::ptrdiff_t>(field) + 1, layout_.end(),
@@ -315,7 +315,7 @@ private:
     std::vector<SampleLimit> limits_;
     std::function<void(const tables::Records&)> take_;
     PackedColumns sample_, varied_, keys_, quantities_, numbers_;
-    std::vector<std::size_t> limited_;  ///< columns of numbers_ that the limits are about
+    std::vector<std::size_t> limited_;  ///< columns of numbers_ to which the limits apply
     std::vector<Combination> combinations_;
     std::map<std::string, std::size_t, std::less<>> combination_of_key_;
     std::size_t numbers_kept_ = 0;

@@ -15,32 +15,31 @@ namespace irido::cli {
 struct SampleLimit {
     enum class Side { at_most, at_least, below, above };
 
-    std::string text;  ///< as typed, without blanks
+    std::string text;  ///< as given, without blanks
     std::string column;
     Side side = Side::at_most;
     double value = 0;
 
-    /// Whether a number keeps it; NaN does not.
+    /// Whether a number satisfies it; NaN does not.
     bool holds(double number) const;
 };
 
 /// Throws UsageError.
 std::vector<SampleLimit> parse_limits(const std::vector<std::string>& texts);
 
-/// A stream that keeps, instead of rows, what their statistics need: the numbers of every quantity,
-/// and which samples keep the limits. Its blocks are in packed_format().
+/// A stream that keeps, instead of rows, the data for their statistics: the numbers of every
+/// quantity, and which samples satisfy the limits. Its blocks are in packed_format().
 ///
-/// finish() hands over the records quantity, mean, sd, p5, p50, p95, preceded by those columns that
-/// tell rows of one sample apart (angles, wavelengths, varied values) and have more than one value.
-/// sd is that of a population, the square root of the mean squared deviation; percentiles are
-/// interpolated linearly between order statistics, as by NumPy. Of a limit the quantity is 1 for a
-/// sample whose rows all keep it, else 0, and so the mean is the yield; `yield` is that of all
-/// limits together.
+/// finish() passes on records with the columns quantity, mean, sd, p5, p50, p95, preceded by the
+/// columns (angles, wavelengths, varied values) that distinguish the rows of a sample and have more
+/// than one value. sd is the population standard deviation, the square root of the mean squared
+/// deviation; percentiles are interpolated linearly between order statistics, as in NumPy. The
+/// quantity of a limit is 1 for a sample whose rows all satisfy it, else 0, so its mean is the
+/// yield; `yield` is that of all limits together. Throws UsageError for a limit on an unknown
+/// column, and in append() if the samples have more than 2^27 numbers.
 /// layout, space, query  of the sweep, which must have samples and outlive the stream
-/// limits                of columns of the layout
-/// take                  gets the records
-/// Throws UsageError for a limit of a column that is none, and in append() if the samples have more
-/// than 2^27 numbers.
+/// limits                on columns of the layout
+/// take                  receives the records
 std::unique_ptr<tables::RecordStream> sample_summary(
     const tables::RecordLayout& layout, const SweepSpace& space, const Query& query,
     std::vector<SampleLimit> limits, std::function<void(const tables::Records&)> take);

@@ -37,7 +37,7 @@ struct DispersionJson {
     }
 };
 
-/// n and k as one table of a stack document, where they have the same wavelengths or k is 0.
+/// n and k as one table of a stack document, if they have the same wavelengths or k is 0.
 json table_json(const Table& n, const Dispersion& k) {
     const auto* const k_table = std::get_if<Table>(&k);
     const bool is_real = k == Dispersion(Constant{0});
@@ -51,7 +51,7 @@ json table_json(const Table& n, const Dispersion& k) {
     return {{"table", std::move(rows)}};
 }
 
-/// A formula as the document's cauchy or sellmeier, where it is one known everywhere.
+/// A formula as the document's cauchy or sellmeier, if it is one of these and valid everywhere.
 json formula_json(const Formula& formula, const Dispersion& k) {
     const std::vector<double>& c = formula.coefficients;
     if (k != Dispersion(Constant{0}) || formula.range != kAllWavelengths || c.empty() ||
@@ -107,7 +107,7 @@ json mixture_json(const Mixture& mixture) {
               {"model", name_of(mixture.rule)}}}};
 }
 
-/// Not a form of documents: only for what tells one stack from another.
+/// Not a valid document, only a key to tell stacks apart.
 json graded_part_json(const GradedPart& part) {
     return {{"graded_part",
              {{"from", material_json((*part.ends)[0])},

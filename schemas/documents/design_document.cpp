@@ -29,7 +29,8 @@ std::vector<Problem> broken_design_rules(const json& document) {
     return check(schema, document);
 }
 
-/// The task's stack. With materials for needles, it is read with a layer of each, which then goes.
+/// The task's stack. Needle materials are registered by reading it with one extra layer of each;
+/// these layers are then removed.
 StackDocument read_stack_of(const json& document, const std::string& file, DesignTask& task) {
     StackSource source = task.source;
     if (document.contains("materials"))

@@ -11,51 +11,52 @@
 
 namespace irido::schemas {
 
-/// A design task as plain values, with what it needs to write its stack.
+/// A design task as plain values, with the data needed to write the resulting stack.
 struct DesignTask {
     DesignProblem problem;
     std::string file;  ///< its name in messages
     std::string name;
     std::string method = "refine";
-    bool has_method = false;  ///< whether the task names it
+    bool has_method = false;  ///< whether the task gives a method
     std::uint64_t seed = 1;
     std::optional<double> time_s;
     std::optional<std::size_t> evaluations;
-    bool has_merit = false;                       ///< whether the task names one
-    bool has_sigma = false;                       ///< whether any target states its noise
-    StackSource source;                           ///< of the stack
-    std::vector<std::vector<std::string>> paths;  ///< of each free value in that document
+    bool has_merit = false;                       ///< whether the task gives a merit
+    bool has_sigma = false;                       ///< whether any target states a sigma
+    StackSource source;                           ///< the stack's document
+    std::vector<std::vector<std::string>> paths;  ///< of each free value in the document
     std::vector<std::string> notes;
-    /// Materials that needles choose from: indices into the stack's, and as the document has them.
+    /// Materials that needles choose from: indices into the stack's materials, and as written in
+    /// the document.
     std::vector<std::size_t> materials;
     std::vector<nlohmann::json> material_documents;
     std::size_t max_layers = 20;
     double min_thickness_nm = 2;
-    /// Of each of problem.targets: its place among the document's.
+    /// Index of each of problem.targets among the document's targets.
     std::vector<std::size_t> target_numbers;
 };
 
 /// Whether a JSON document is a design task and not a stack.
 bool is_design_task(const nlohmann::json& document);
 
-/// Checks a document against design.schema.json and rules beyond it, reads its stack and the files
-/// that it names. Throws InputError for the first problem.
+/// Checks a document against design.schema.json and further rules, and reads its stack and the
+/// files that it names. Throws InputError for the first problem.
 /// file      its name in messages
-/// folder    where its relative paths start
+/// folder    base of its relative paths
 DesignTask read_design(const nlohmann::json& document, const std::string& file,
                        const std::string& folder);
 
-/// The stack's document with these values, one for each free one.
+/// The stack document with these values, one for each free value.
 nlohmann::json designed_stack(const DesignTask& task, const std::vector<double>& values);
 
-/// A layer of another stack of the task: one of the document's, or a new one.
+/// A layer of a modified stack of the task: one of the document's, or a new one.
 struct OtherLayer {
-    std::optional<std::size_t> origin;  ///< place among the document's layers
-    std::size_t material = 0;           ///< else index into the stack's materials
+    std::optional<std::size_t> origin;  ///< index among the document's layers
+    std::size_t material = 0;           ///< otherwise index into the stack's materials
     double thickness_nm = 0;
 };
 
-/// The task with these layers in its stack, those that are not fixed being free, and `problem`.
+/// The task with these layers in its stack (all but the fixed ones free) and with `problem`.
 DesignTask with_layers(const DesignTask& task, const std::vector<OtherLayer>& layers,
                        DesignProblem problem);
 

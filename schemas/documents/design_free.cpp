@@ -48,7 +48,7 @@ std::optional<std::size_t> index_of(const std::string& step) {
     return index;
 }
 
-/// Finds the values that a path with * means, in the order of the document.
+/// Finds the values that a path with * matches, in document order.
 class PathFinder {
 public:
     explicit PathFinder(json& document) : document_(document) {}
@@ -101,8 +101,8 @@ private:
     bool has_star_ = false;
 };
 
-/// Calls visit(layer of the document, layer of the stack) for all; false if they do not fit, as
-/// where a layer of the document is several of the stack.
+/// Calls visit(layer of the document, layer of the stack) for all; returns false if they do not
+/// correspond, for example where one layer of the document becomes several in the stack.
 bool for_each_layer(const json& layers, std::vector<Element>& elements,
                     const std::function<void(const json&, Layer&)>& visit) {
     if (layers.size() != elements.size()) return false;
@@ -119,7 +119,7 @@ bool for_each_layer(const json& layers, std::vector<Element>& elements,
     return true;
 }
 
-/// Finds where values stand in the stack.
+/// Finds the places of values in the stack.
 class PlaceFinder {
 public:
     explicit PlaceFinder(DesignTask& task) : task_(task), stack_(task.problem.stack) {
@@ -180,7 +180,7 @@ private:
         return *number;
     }
 
-    /// A number of a material by its path in there.
+    /// The number of a material that a path inside it names.
     static std::optional<MaterialNumber> part_of(const std::vector<std::string>& inside) {
         using Part = MaterialNumber::Part;
         const auto at = [&](std::size_t i) {
@@ -206,7 +206,8 @@ private:
         return std::nullopt;
     }
 
-    /// Gives a material to those alone that the path means; its place in the stack.
+    /// Gives the layers that the path names their own copy of the material; returns its index in
+    /// the stack.
     std::size_t own(const LayerPlace& place, const std::vector<std::string>& rest) {
         const std::size_t fresh = stack_.materials.size();
         const auto take = [&](std::size_t& material) {
@@ -247,7 +248,7 @@ const json& value_at(const json& document, const std::string& path) {
     return *value;
 }
 
-/// Bounds of a value that states none: its closed range.
+/// Default bounds of a value: its closed range.
 std::array<double, 2> natural_bounds(const std::string& path) {
     if (path.ends_with("thickness_nm") || path.ends_with("sigma_nm")) return {0, kInfinity};
     if (path.ends_with(".n")) return {1e-6, kInfinity};
@@ -356,7 +357,7 @@ private:
             try {
                 return read_source(source, document, *files).stack;
             } catch (const InputError& error) {
-                throw DomainError(error.what());  // a value that cannot be
+                throw DomainError(error.what());  // an impossible value
             }
         };
     }

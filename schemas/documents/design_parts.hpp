@@ -4,13 +4,13 @@
 
 namespace irido::schemas {
 
-/// The free values of a task. Internal to design documents.
+/// Reads the free values of a task; internal to design documents. Fills problem.free, paths and,
+/// where a value needs it, problem.rebuild, and gives each layer its own copy of a material whose
+/// numbers are free in it. Throws InputError.
 /// free  the document's array
-/// Fills problem.free, paths and, where a value needs it, problem.rebuild; gives materials whose
-/// numbers are free to the layers that they belong to. Throws InputError.
 void read_free(const nlohmann::json& free, DesignTask& task);
 
-/// The targets of a task. Throws InputError.
+/// Reads the targets of a task. Throws InputError.
 void read_targets(const nlohmann::json& targets, const std::string& folder, DesignTask& task);
 
 }  // namespace irido::schemas

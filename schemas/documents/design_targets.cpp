@@ -45,7 +45,7 @@ constexpr std::array<std::pair<std::string_view, Quantity>, 18> kQuantities{
      {"hex", Quantity::lab},
      {"total_thickness_nm", Quantity::total_thickness_nm}}};
 
-/// One target of the document, which is several where a file has several angles.
+/// Reads one target of the document, which becomes several if its file has several angles.
 class TargetReader {
 public:
     TargetReader(const json& target, std::size_t number, const std::string& folder,
@@ -129,7 +129,7 @@ private:
         return values;
     }
 
-    /// One number an entry.
+    /// One number per entry.
     std::vector<double> numbers(const char* key, const DesignTarget& target,
                                 double otherwise) const {
         const std::size_t count = entry_count(target);
@@ -280,7 +280,7 @@ private:
     std::string name_;
 };
 
-/// Says where two targets want different values of the same thing.
+/// Notes pairs of targets that demand different values of the same thing.
 void note_contradictions(DesignTask& task) {
     using Key = std::tuple<Quantity, double, Light, double>;
     std::map<Key, std::pair<std::size_t, double>> equal;

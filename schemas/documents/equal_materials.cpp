@@ -22,7 +22,7 @@ struct HashOf {
         for (const double c : formula.coefficients) mix(hash, c);
     }
     void operator()(const Table& table) {
-        constexpr std::size_t enough = 16;  // of long tables only some, as all are compared later
+        constexpr std::size_t enough = 16;  // rows of long tables: equality is checked later
         const std::size_t step = std::max<std::size_t>(table.value.size() / enough, 1);
         for (std::size_t i = 0; i < table.value.size(); i += step) mix(hash, table.value[i]);
     }

@@ -6,10 +6,10 @@
 
 namespace irido::schemas {
 
-/// The same for materials of same_physics().
+/// Hash that is equal for materials for which same_physics() is true.
 std::uint64_t hash_of(const Material& material);
 
-/// Whether two materials are one but for their names.
+/// Whether two materials differ at most in their names.
 bool same_physics(const Material& a, const Material& b);
 
 }  // namespace irido::schemas

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kBinaryMagic = "glTF";
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
-constexpr std::size_t kHeadBytes = 20;  ///< of the file and of its first chunk
+constexpr std::size_t kHeadBytes = 20;  ///< headers of the file and of its first chunk
 constexpr double kThickestFilm_nm = 1e9, kLargestIor = 1e4;
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
@@ -41,7 +41,7 @@ std::string_view document_text(std::string_view bytes, const std::string& file) 
     return bytes.substr(kHeadBytes, length);
 }
 
-/// A value of a document and where it is.
+/// A value of a document and its JSON pointer.
 class GltfValue {
 public:
     GltfValue(const nlohmann::json& value, std::string pointer, const std::string& file)
@@ -50,7 +50,7 @@ public:
     const nlohmann::json& json() const { return *value_; }
     std::size_t size() const { return value_->size(); }
 
-    /// A member that is an object, or an empty one.
+    /// An object member, or an empty object if it is missing.
     GltfValue object(const std::string& key) const {
         static const nlohmann::json empty = nlohmann::json::object();
         const GltfValue found = member(key, empty);
@@ -127,7 +127,7 @@ std::array<double, 3> gltf_base_f0(const GltfValue& material) {
     return f0;
 }
 
-/// Textures whose values are not looked at.
+/// Textures whose contents are ignored.
 std::vector<std::string> gltf_textures(const GltfValue& material, const GltfValue& film) {
     std::vector<std::string> names;
     const auto add = [&](const GltfValue& of, const std::string& name) {

@@ -18,13 +18,12 @@ struct GltfIridescence {
     double film_n = 1.3;
     /// Ends of the thickness; equal where there is no texture.
     double thinnest_nm = 400, thickest_nm = 400;
-    std::vector<std::string> textures;  ///< of which the factors count only
+    std::vector<std::string> textures;  ///< of which only the factors are used
 };
 
-/// Iridescent materials of a .gltf or .glb file, in their order. Only the document's materials are
-/// read: no buffers, no images. Throws InputError with the JSON pointer of a value that the
-/// specification does not allow, for a binary file that is truncated, and for a version other
-/// than 2.
+/// Iridescent materials of a .gltf or .glb file, in file order. Only the document's materials are
+/// read, no buffers or images. Throws InputError with the JSON pointer of a value that the
+/// specification does not allow, for a truncated binary file, and for a version other than 2.
 std::vector<GltfIridescence> read_gltf(std::string_view bytes, const std::string& file);
 
 }  // namespace irido::schemas

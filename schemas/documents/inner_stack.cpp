@@ -18,7 +18,7 @@ StackSource inner_stack(const nlohmann::json& stack, const std::string& pointer,
     try {
         StackSource loaded = load_stack({path, {}});
         if (!is_expression) loaded.file = text;
-        if (is_expression) loaded.folder = folder;  // of the material files that it names
+        if (is_expression) loaded.folder = folder;  // for the material files that it names
         return loaded;
     } catch (const InputError& error) {
         const std::string file = error.file == path ? text : error.file;

@@ -7,11 +7,12 @@
 
 namespace irido::schemas {
 
-/// A stack that another document holds, names or spells: an inline stack is called by its pointer,
-/// a file as the document calls it. Throws InputError whose place is the pointer.
+/// A stack inside another document: inline, a file name or an expression. In messages an inline
+/// stack is called by its JSON pointer, a file by its name in the document. Throws InputError whose
+/// place is the pointer.
 /// stack    a stack document, the path of one, or an expression
-/// pointer  of it in the document
-/// folder   where the document's relative paths start
+/// pointer  the stack's JSON pointer in the document
+/// folder   base of the document's relative paths
 StackSource inner_stack(const nlohmann::json& stack, const std::string& pointer,
                         const std::string& folder);
 

@@ -26,7 +26,7 @@ using nlohmann::json;
 
 constexpr std::size_t kDeepest = 64;
 
-/// Characters of a text that remember how far the parser has come.
+/// Iterates over the characters of a text and records how far the parser has got.
 struct Reading {
     using iterator_category = std::input_iterator_tag;
     using value_type = char;
@@ -59,15 +59,15 @@ public:
     Reading end() { return {text_.data() + text_.size(), &furthest_}; }
 
     json document;
-    std::string refusal;      ///< in words
-    std::size_t refused = 0;  ///< where, bytes from the start
+    std::string refusal;      ///< message of the error
+    std::size_t refused = 0;  ///< its position in bytes
 
     bool null() override { return add(nullptr); }
     bool boolean(bool value) override { return add(value); }
     bool number_integer(number_integer_t value) override { return add(value); }
     bool number_unsigned(number_unsigned_t value) override {
         if (value > std::uint64_t{std::numeric_limits<std::int64_t>::max()}) {
-            return add(static_cast<double>(value));  // no reader may see it wrapped to below zero
+            return add(static_cast<double>(value));  // must not wrap to a negative number anywhere
         }
         return add(value);
     }
@@ -125,10 +125,10 @@ private:
     std::string_view text_;
     const char* furthest_;
     std::vector<json*> open_;  ///< the containers around the next value
-    json* member_ = nullptr;   ///< where the value of the last key goes
+    json* member_ = nullptr;   ///< destination of the value of the last key
 };
 
-/// The word of letters and digits around a byte.
+/// The word of letters and digits around a byte offset.
 std::string word_at(std::string_view text, std::size_t byte) {
     const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
     std::size_t first = byte;
@@ -138,7 +138,7 @@ std::string word_at(std::string_view text, std::size_t byte) {
     return std::string(text.substr(first, end - first));
 }
 
-/// The parser's message without its name, place and excerpt.
+/// The parser's message without its prefix, position and excerpt.
 std::string plain_words(std::string words) {
     const std::size_t dash = words.find(" - ");
     if (dash != std::string::npos) words.erase(0, dash + 3);
@@ -167,7 +167,7 @@ bool DocumentBuilder::parse_error(std::size_t position, const std::string& token
     return refuse(words, has_token ? position - std::min(position, token.size()) : last);
 }
 
-/// The first step of a dotted path, taken off it.
+/// Removes and returns the first step of a dotted path.
 std::string take_step(std::string_view& path) {
     const std::size_t end = std::min(path.find('.'), path.size());
     std::string step(path.substr(0, end));
@@ -181,7 +181,7 @@ std::vector<std::string> keys_of(const json& object) {
     return keys;
 }
 
-/// The element of an array that a step of a path names.
+/// The array element that a step of a path names.
 json& element(json& array, const std::string& step, const std::string& path) {
     std::size_t index = 0;
     const char* const end = step.data() + step.size();
@@ -199,7 +199,7 @@ json& element(json& array, const std::string& step, const std::string& path) {
 
 json parse_json(std::string_view text, const std::string& file) {
     text = without_byte_order_mark(text);
-    const std::size_t nul = text.find('\0');  // to the parser this would be the end
+    const std::size_t nul = text.find('\0');  // the parser would take it for the end
     DocumentBuilder builder(text.substr(0, nul));
     if (!json::sax_parse(builder.begin(), builder.end(), &builder)) {
         throw InputError(file, line_and_column(text, builder.refused), builder.refusal);
@@ -251,7 +251,7 @@ bool has_value(const json& document, std::string_view path) {
 
 bool is_part_of(std::string_view path, std::string_view whole) {
     const auto step_of = [](std::string_view& rest) {
-        std::string step = take_step(rest);  // indices may begin with zeros
+        std::string step = take_step(rest);  // indices may have leading zeros
         const bool is_index = step.find_first_not_of("0123456789") == std::string::npos;
         if (is_index) step.erase(0, std::min(step.find_first_not_of('0'), step.size()));
         return step;
@@ -314,7 +314,7 @@ std::vector<std::string_view> split_values(std::string_view text) {
             values.push_back(trimmed(text.substr(start, i - start)));
             start = i + 1;
         } else if (in_quotes && c == '\\') {
-            ++i;  // whatever it escapes
+            ++i;  // skips the escaped character
         } else if (c == '"') {
             in_quotes = !in_quotes;
         } else if (!in_quotes) {

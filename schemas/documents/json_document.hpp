@@ -7,16 +7,16 @@
 
 namespace irido::schemas {
 
-/// JSON as irido reads it: UTF-8 (a byte order mark is skipped), no comments, no key twice in an
-/// object, at most 64 levels deep, every number a finite double.
-/// Throws InputError(file, "LINE:COLUMN", words), both counted from 1 in characters.
+/// Parses strict JSON: UTF-8 (a byte order mark is skipped), no comments, no duplicate keys, at
+/// most 64 levels deep, every number a finite double. Throws InputError(file, "LINE:COLUMN",
+/// words), both counted from 1 in characters.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
-/// Sets the value at a dotted path ("layers.0.thickness_nm"). All but the last step must exist, and
-/// so must an index; a last key that is missing is added. Throws InputError("PATH", "", words).
+/// Sets the value at a dotted path ("layers.0.thickness_nm"). All steps but the last must exist,
+/// and so must array indices; a missing last key is added. Throws InputError("PATH", "", words).
 void set_value(nlohmann::json& document, std::string_view path, nlohmann::json value);
 
-/// Sets the value given as "PATH=VALUE", as after --set. Throws InputError.
+/// Sets the value given as "PATH=VALUE", the argument of --set. Throws InputError.
 void set_value(nlohmann::json& document, std::string_view path_equals_value);
 
 /// Whether the document has a value at a dotted path.
@@ -25,16 +25,16 @@ bool has_value(const nlohmann::json& document, std::string_view path);
 /// Whether a dotted path names the same value as `whole`, or a part of it.
 bool is_part_of(std::string_view path, std::string_view whole);
 
-/// The value that a text stands for at a dotted path: JSON, or else the text itself; where a
+/// The value that `text` means at a dotted path: JSON if it parses, otherwise a string; where a
 /// material is expected, 1.9+1.5i is {"n": 1.9, "k": 1.5}. Throws InputError("PATH=TEXT", place,
-/// words) for a text that begins as JSON ({, [ or ") but is not valid.
+/// words) for text that begins like JSON ({, [ or ") but is not valid.
 nlohmann::json value_from_text(std::string_view path, std::string_view text);
 
-/// Turns whole numbers into integers, so that 100.0 is written as 100.
+/// Turns whole numbers into integers, so that 100.0 prints as 100.
 void shorten_numbers(nlohmann::json& value);
 
-/// The parts of `Ag,1.9+1.5i,{"n":1.5,"k":0.1}`: split at the commas outside of brackets, braces
-/// and double quotes, blanks at their ends left out, empty ones among them.
+/// The items of `Ag,1.9+1.5i,{"n":1.5,"k":0.1}`: split at commas outside brackets, braces and
+/// double quotes, trimmed; empty items are kept.
 std::vector<std::string_view> split_values(std::string_view text);
 
 }  // namespace irido::schemas

@@ -8,8 +8,8 @@
 
 namespace irido::schemas {
 
-/// Area lights: JSON text, which begins with { or [, or the path of a file. Checked against
-/// light.schema.json and to be lights that LightCone takes. Throws InputError.
+/// Reads area lights from JSON text, which begins with { or [, or from a file. Checks them against
+/// light.schema.json and the rules of LightCone. Throws InputError.
 std::vector<AreaLight> read_lights(const std::string& text_or_path);
 
 /// The text of light.schema.json.

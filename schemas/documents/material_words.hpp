@@ -7,11 +7,11 @@
 
 namespace irido::schemas {
 
-/// A rule by the name that documents have for it ("maxwell-garnett"), and the name of a rule.
+/// Mixing rules and their names in documents ("maxwell-garnett").
 MixingRule mixing_rule(std::string_view name);
 std::string_view name_of(MixingRule rule);
 
-/// The same for profiles of graded layers ("inverse-n").
+/// Profiles of graded layers and their names in documents ("inverse-n").
 GradedProfile graded_profile(std::string_view name);
 std::string_view name_of(GradedProfile profile);
 

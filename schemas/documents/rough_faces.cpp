@@ -11,13 +11,13 @@ namespace {
 
 using nlohmann::json;
 
-/// An upper face; `cut` is what it takes of the layer on either side.
+/// An upper face; `cut` is the thickness that it takes from the layers on either side.
 struct RoughFace {
     double rough_nm = 0, cut_nm = 0;
     bool centred = false;
 };
 
-/// Elements of one array of the document.
+/// The elements of one array of the document.
 struct WrittenElements {
     const json& array;
     const std::vector<Element>& elements;
@@ -43,7 +43,8 @@ public:
         return {rough_nm, centred ? rough_nm / 2 : 0, centred};
     }
 
-    /// The media above the elements, and the face below the last of them.
+    /// The elements with their interface layers, given the material above them and the face below
+    /// the last one.
     std::vector<Element> expanded(const WrittenElements& from, std::size_t above,
                                   const RoughFace& last) {
         std::vector<Element> result;

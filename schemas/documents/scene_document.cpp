@@ -36,7 +36,7 @@ ValueRange range_of(const json& value) {
     return {value[0].get<double>(), value[1].get<double>()};
 }
 
-/// Violations of the schema or, if there are none, repeated names.
+/// Schema violations or, if there are none, duplicate names.
 std::vector<Problem> broken_rules(const json& document) {
     static const Schema schema(json::parse(scene_schema_text()));
     std::vector<Problem> problems = check(schema, document);
@@ -115,7 +115,7 @@ private:
         }
         try {
             result.source = inner_stack(object["stack"], pointer + "/stack", folder_);
-            // the stack at both ends of what varies
+            // the stack at both ends of the varied ranges
             if (read_at(result, &ValueRange::last)) read_at(result, &ValueRange::first);
         } catch (const std::exception& error) {
             result.faults.push_back(fault_of(result, error));

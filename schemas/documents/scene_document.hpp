@@ -14,7 +14,7 @@ namespace irido::schemas {
 /// How an engine shades a material.
 enum class Shading {
     color,         ///< RGB from a table
-    fourier,       ///< Fourier series in the shader, with a table of the kind sensitivity
+    fourier,       ///< Fourier series in the shader, with a table of kind sensitivity
     bragg,         ///< Yeh's reflectance in the shader
     rough_layers,  ///< tables falpha and transmissivity
     albedo,        ///< table of the directional albedo
@@ -34,7 +34,7 @@ struct VariedRange {
     ValueRange range;
 };
 
-/// A fault of a scene.
+/// An error in a scene.
 struct SceneFault {
     std::string pointer;  ///< where in the scene: /materials/3/roughness
     std::string reason;   ///< in words
@@ -72,8 +72,8 @@ struct SceneMaterial {
     Shading shading = Shading::color;
 };
 
-/// A scene document as plain values. Names of spaces, illuminants, formats and types are known
-/// ones.
+/// A scene document as plain values. Names of spaces, illuminants, formats and types have been
+/// checked.
 struct Scene {
     std::string file;  ///< its name in messages
     std::string name;
@@ -83,25 +83,25 @@ struct Scene {
     std::string format = "ktx2", type = "f16";
     std::vector<SceneLight> lights;  ///< none: any may occur
     std::vector<SceneMaterial> materials;
-    std::vector<std::string> notes;  ///< notes of the readers of stacks
+    std::vector<std::string> notes;  ///< notes from reading the stacks
 };
 
-/// Reads a scene file ("-" for standard input). Throws InputError if it breaks the schema or two
-/// materials have one name. What else is wrong with a material is among its faults.
+/// Reads a scene file ("-" for standard input). Throws InputError if it violates the schema or two
+/// materials have the same name. Other errors of a material are listed in its faults.
 Scene read_scene(const std::string& path);
 
 /// Reads a scene from a JSON document. Throws InputError.
 /// document  the scene
 /// file      its name in messages
-/// folder    where its relative paths start
+/// folder    base of its relative paths
 Scene read_scene(const nlohmann::json& document, const std::string& file,
                  const std::string& folder);
 
 /// The problems for which read_scene() throws, one line each.
 std::vector<std::string> scene_problems(const nlohmann::json& document, const std::string& file);
 
-/// The fault that corresponds to an error of reading or computing a material; errors inside an
-/// inline stack get a pointer into the scene.
+/// Converts an error from reading or computing a material; for errors inside an inline stack the
+/// pointer is relative to the scene.
 SceneFault fault_of(const SceneMaterial& material, const std::exception& error);
 
 /// "FILE: POINTER: material NAME: reason".

@@ -16,9 +16,10 @@
 #include "core/error.hpp"
 #include "schemas/readers/nearest.hpp"
 
-// valijson decides what is valid, and where it is not. Its own phrases only tell the kinds of
-// errors apart. The words come from two keywords that it lets us add to its own: while it
-// validates, they look at the errors just recorded for the same value and add a line to them.
+// valijson decides whether and where a document is invalid. Its own messages only serve to tell the
+// kinds of errors apart. The messages for users come from two keywords registered in addition to
+// its own: during validation they look at the errors just recorded for the same value and append a
+// line to them.
 
 namespace irido::schemas {
 namespace {
@@ -27,10 +28,10 @@ using nlohmann::json;
 using valijson::ValidationResults;
 using valijson::adapters::Adapter;
 
-/// Where a value is: valijson's "<root>", "[key]", "[3]", ...
+/// Location of a value: valijson's "<root>", "[key]", "[3]", ...
 using Place = std::vector<std::string>;
 
-constexpr std::string_view kRule = "rule: ";               // ours: words of a broken rule
+constexpr std::string_view kRule = "rule: ";               // ours: message of a violated rule
 constexpr std::string_view kUnknownKey = "unknown key: ";  // ours: nearest known key
 constexpr std::string_view kMissingKey = "Missing required property '";
 constexpr std::string_view kStrayKey = "Object contains a property";
@@ -41,7 +42,7 @@ bool is_plain(std::string_view error) {
            !error.starts_with(kStrayKey) && !error.starts_with(kUnknownKey);
 }
 
-/// True if the errors of the value at `place`, which are the last ones, have one of this kind.
+/// True if any of the errors of the value at `place`, which are the last ones, is of this kind.
 template <class Kind>
 bool has_error(const ValidationResults& results, const Place& place, Kind is_kind) {
     for (auto error = results.end(); error != results.begin();) {
@@ -55,7 +56,7 @@ bool has_error(const ValidationResults& results, const Place& place, Kind is_kin
     return false;
 }
 
-/// A keyword that adds words to errors and never decides.
+/// A keyword that adds messages to errors and never affects validity.
 template <class Keyword>
 class Annotation : public valijson::constraints::PolyConstraint {
 public:
@@ -72,7 +73,7 @@ private:
     std::size_t sizeOf() const override { return sizeof(Keyword); }
 };
 
-/// "errorMessage": the words of the schema for a value that breaks one of its rules.
+/// "errorMessage": the schema's message for a value that violates one of its rules.
 class RuleInWords : public Annotation<RuleInWords> {
 public:
     explicit RuleInWords(const Adapter& words) : words_(words.asString()) {}
@@ -86,7 +87,7 @@ private:
     std::string words_;
 };
 
-/// "properties": names every key that is not one of them, where no others are allowed.
+/// "properties": reports every key that is not listed, where no others are allowed.
 class KnownKeys : public Annotation<KnownKeys> {
 public:
     explicit KnownKeys(const Adapter& properties) {
@@ -126,19 +127,19 @@ ValidationResults validate(const Schema& schema, const json& document) {
     return results;
 }
 
-/// An error on its way to a Problem.
+/// An error while it is being converted to a Problem.
 struct Finding {
     Place place;
     std::string words;
     bool shows_value = false;
-    bool is_placeholder = false;  ///< a broken rule whose words have not come yet
+    bool is_placeholder = false;  ///< a violated rule whose message is still to come
 };
 
 std::string_view after(std::string_view prefix, std::string_view text) {
     return text.substr(prefix.size());
 }
 
-/// Adds what one of valijson's errors means, if anything, to the findings.
+/// Converts one of valijson's errors, if it is relevant, and adds it to the findings.
 void add_finding(const Place& place, std::string_view error, std::vector<Finding>& findings) {
     if (error.starts_with(kUmbrella) || error.starts_with(kStrayKey)) return;
     if (error.starts_with(kMissingKey)) {
@@ -161,7 +162,7 @@ void add_finding(const Place& place, std::string_view error, std::vector<Finding
     }
 }
 
-/// A misspelt key explains what its object is said to miss: drops findings that name the right one.
+/// A misspelt key explains why its object lacks a key: drops findings about the correct key.
 void drop_consequences(std::vector<Finding>& findings) {
     std::multimap<Place, std::string> meant;
     constexpr std::string_view kMeant = "unknown key (did you mean ";
@@ -179,7 +180,7 @@ void drop_consequences(std::vector<Finding>& findings) {
     });
 }
 
-/// Order of two steps: "[10]" comes after "[9]", keys by the alphabet.
+/// Order of two steps: "[10]" after "[9]", keys alphabetically.
 bool step_before(const std::string& a, const std::string& b) {
     const auto is_index = [](const std::string& step) {
         return step.size() > 2 && std::isdigit(static_cast<unsigned char>(step[1])) != 0;
@@ -193,7 +194,7 @@ bool document_order(const Finding& a, const Finding& b) {
                                         b.place.end(), step_before);
 }
 
-/// The value at a place, whose pointer it writes.
+/// The value at a place; also writes its JSON pointer.
 const json& follow(const Place& place, const json& document, std::string& pointer) {
     const json* value = &document;
     for (auto step = place.begin() + 1; step != place.end(); ++step) {
@@ -204,7 +205,7 @@ const json& follow(const Place& place, const json& document, std::string& pointe
     return *value;
 }
 
-/// "must be in [...]" tells the type too where the value has another one.
+/// "must be in [...]" also states the type if the value has a different one.
 std::string with_value(std::string words, const json& value) {
     constexpr std::string_view kRange = "must be in [";
     if (words.starts_with(kRange) && !value.is_number()) {

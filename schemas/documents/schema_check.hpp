@@ -11,7 +11,7 @@ class Schema;
 
 namespace irido::schemas {
 
-/// One broken rule of a document.
+/// A violated rule of a document.
 struct Problem {
     std::string pointer;  ///< JSON pointer of the value, "" for the document itself
     std::string message;  ///< the rule in words, with the value: "must be in [0, 1e9] (got -5)"
@@ -33,8 +33,9 @@ private:
     std::unique_ptr<valijson::Schema> rules_;
 };
 
-/// All broken rules, each once, at the deepest place; arrays in their order, keys by the alphabet.
-/// The texts are those of the keyword `errorMessage` next to the rule in the schema (draft-07).
+/// All violations, each once, at the deepest place that violates the rule; arrays in order, keys
+/// alphabetically. Messages come from the keyword `errorMessage` next to the rule in the schema
+/// (draft-07).
 std::vector<Problem> check(const Schema& schema, const nlohmann::json& document);
 
 /// A value for use in a message: JSON in at most about 40 characters, on one line.

@@ -37,7 +37,7 @@ ScratchField field_from(const ScratchJson& object) {
     return field;
 }
 
-/// The most doubtful scratch of a field.
+/// The scratch of a field that is most likely outside the model's validity.
 Scratch extreme_of(const ScratchField& field, bool is_deep) {
     Scratch scratch;
     scratch.width_um = is_deep ? field.width_um.low : field.width_um.high;

@@ -43,7 +43,7 @@ using nlohmann::json;
 
 constexpr std::size_t kMostLayers = 1'000'000;
 
-/// Values of a document by what they are, not by where.
+/// Hashes JSON values by content, not by place.
 struct JsonHash {
     std::size_t operator()(const json* value) const { return std::hash<json>{}(*value); }
 };
@@ -95,7 +95,7 @@ private:
         problems.emplace_back(file_, pointer, message);
     }
 
-    /// True if the value at the pointer, or anything inside it, breaks the schema.
+    /// True if the value at the pointer, or anything inside it, violates the schema.
     bool is_broken(const std::string& pointer) const {
         if (broken_.empty()) return false;
         if (broken_.contains(pointer)) return true;
@@ -103,7 +103,7 @@ private:
         return inside != broken_.end() && inside->starts_with(pointer + "/");
     }
 
-    /// The document's own materials, whether they are used or not.
+    /// Reads the document's own materials, used or not.
     void read_named() {
         const auto found = document_.find("materials");
         if (found == document_.end() || !found->is_object()) return;
@@ -113,7 +113,7 @@ private:
             named.emplace(name, is_broken(pointer) ? Material{name, RefractiveIndex{}}
                                                    : build(value, pointer));
         }
-        named_ = std::move(named);  // only now, as they do not name each other
+        named_ = std::move(named);  // only now, as they cannot refer to each other
     }
 
     std::vector<Element> elements(const json& array, const std::string& pointer) {
@@ -162,7 +162,7 @@ private:
         return result;
     }
 
-    /// A graded layer is a group of its parts that occurs once.
+    /// A graded layer as a group of its parts that occurs once.
     Group graded_layer_of(const json& object, const std::string& pointer) {
         ++layers_;
         Group result;
@@ -196,14 +196,14 @@ private:
         return result;
     }
 
-    /// Of the incident medium about where graded layers are measured.
+    /// Approximate incident index, for measuring the error of graded layers.
     double incident_index() const {
         Material incident = result_.stack.materials[result_.stack.incident];
         incident.outside = Outside::clamp;
         return std::max(1e-3, index_at(incident, kGradedWavelength_nm).real());
     }
 
-    /// The layers with those of rough faces.
+    /// Inserts the layers of rough faces.
     void roughen() {
         Stack& stack = result_.stack;
         const FaceReader faces{
@@ -228,7 +228,7 @@ private:
             with_rough_faces(document_, stack.elements, stack.incident, stack.substrate, faces);
     }
 
-    /// Thickness of that many quarter waves of a material, at normal incidence.
+    /// Thickness of `count` quarter waves of a material, at normal incidence.
     double quarter_waves(double count, std::size_t material, const std::string& pointer) {
         if (!document_.contains("reference_nm")) {
             report(pointer, "requires the stack's reference_nm (or --reference NM)");
@@ -248,7 +248,7 @@ private:
         return 0;
     }
 
-    /// The place of a material in the stack's list, where it is put if it is new.
+    /// Index of a material in the stack's list, to which it is added if new.
     std::size_t material(const json& value, const std::string& pointer) {
         if (is_broken(pointer)) return 0;
         const auto [known, is_new] = by_text_.try_emplace(&value, 0);
@@ -330,7 +330,7 @@ private:
         return medium;
     }
 
-    /// A material that is no uniaxial one.
+    /// A material that is not uniaxial.
     Material isotropic(const json& value, const std::string& pointer) {
         Material result = build(value, pointer);
         if (!is_uniaxial(result)) return result;
@@ -395,7 +395,7 @@ private:
         }
     }
 
-    /// A k below 0 is often a table of n - ik.
+    /// Notes a k below 0, which is often a table of n - ik.
     void note_gain(const RefractiveIndex& index, const std::string& pointer) {
         const auto* k = std::get_if<Table>(&index.k);
         if (k != nullptr && *std::min_element(k->value.begin(), k->value.end()) < 0)
@@ -413,8 +413,7 @@ private:
         }
     }
 
-    /// An incident medium whose k is one number is judged here, others at the wavelengths asked
-    /// for.
+    /// Checks an incident medium with constant k; others are checked at the requested wavelengths.
     void require_real(std::size_t incident) {
         if (is_broken("/incident") || result_.stack.materials.empty()) return;
         const Material& medium = result_.stack.materials[incident];
@@ -473,13 +472,13 @@ StackDocument read_stack(const StackRequest& request) {
 
 namespace {
 
-/// Light comes from the substrate, which must be transparent for that.
+/// Reverses the stack; the substrate, where the light then comes from, must be transparent.
 void reverse(StackDocument& document) {
     document.stack = reversed(std::move(document.stack));
     const Material& incident = document.stack.materials[document.stack.incident];
     if (is_uniaxial(incident))
         throw InputError(document.file, "/substrate", "must be isotropic for --reverse");
-    if (!is_constant(incident)) return;  // said at the wavelengths that are asked for
+    if (!is_constant(incident)) return;  // reported later, at the requested wavelengths
     const double k = index_at(incident, kAllWavelengths.first_nm).imag();
     if (std::abs(k) >= kTransparentBelow_k)
         throw InputError(

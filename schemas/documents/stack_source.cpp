@@ -29,7 +29,7 @@ void add_medium(StackSource& source, const std::string& text) {
     if (equals == std::string::npos || equals == 0)
         throw InputError("--material", "",
                          "must be NAME=MATERIAL, as in H=2.35 (got " + short_text(text) + ")");
-    if (!source.document.is_object()) return;  // said where it is read
+    if (!source.document.is_object()) return;  // reported when the document is read
     json& media = source.document["materials"];
     if (media.is_null()) media = json::object();
     if (!media.is_object()) return;
@@ -40,7 +40,7 @@ void add_medium(StackSource& source, const std::string& text) {
     }
 }
 
-/// The number of --reference.
+/// The number given to --reference.
 json reference_of(const std::string& text) {
     const std::optional<double> nm = parse_number(text);
     if (!nm || !(*nm >= kAllWavelengths.first_nm && *nm <= kAllWavelengths.last_nm))
@@ -89,7 +89,7 @@ void set_values(StackSource& source, const StackRequest& request) {
 
 namespace {
 
-/// Calls visit(material) for a material and the parts of mixtures.
+/// Calls visit(material) for a material or, if it is a mixture, for its parts.
 void visit_material(json& material, const std::function<void(json&)>& visit) {
     visit(material);
     if (!material.is_object()) return;

@@ -115,7 +115,7 @@ private:
         surface_.layers.push_back(std::move(layer));
     }
 
-    /// Nothing is seen below a layer that light does not pass straight.
+    /// Checks that nothing lies below a layer that does not transmit light straight on.
     void check_order() {
         for (std::size_t i = 0; i < surface_.layers.size(); ++i) {
             const RoughLayer& layer = surface_.layers[i];
@@ -137,7 +137,7 @@ private:
     LayeredSurface surface_;
 };
 
-/// The surface, or the problems of its document.
+/// The surface, and the problems of its document.
 SurfaceDocument read_checked(const json& document, const std::string& file,
                              const std::string& folder, std::vector<InputError>& problems) {
     static const Schema schema(json::parse(surface_schema_text()));

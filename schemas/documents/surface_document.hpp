@@ -12,13 +12,13 @@
 
 namespace irido::schemas {
 
-/// The options that select a surface, as typed.
+/// The options that select a surface, as given on the command line.
 struct SurfaceRequest {
     StackRequest source;          ///< its `stack` is a surface or stack file, "-" or an expression
-    std::optional<double> alpha;  ///< the roughness of a stack
+    std::optional<double> alpha;  ///< roughness to give to a plain stack
 };
 
-/// Every kind of surface that a document describes.
+/// A surface of any kind that a document can describe.
 using Surface = std::variant<LayeredSurface, ScratchedSurface>;
 
 /// A surface document as plain values.
@@ -26,22 +26,22 @@ struct SurfaceDocument {
     Surface surface;
     std::string file;                ///< its name in messages
     std::string name;                ///< "" if the document has none
-    std::vector<std::string> notes;  ///< notes of the readers of stacks
+    std::vector<std::string> notes;  ///< notes from reading the stacks
 };
 
 /// Whether a JSON document has keys that only surfaces have.
 bool is_surface(const nlohmann::json& document);
 
-/// Checks a document against surface.schema.json and rules beyond it, and builds its surface.
-/// Throws InputError for the first problem.
+/// Checks a document against surface.schema.json and further rules, and builds its surface. Throws
+/// InputError for the first problem.
 /// document  the surface
 /// file      its name in messages
-/// folder    where its relative paths start
+/// folder    base of its relative paths
 SurfaceDocument read_surface(const nlohmann::json& document, const std::string& file,
                              const std::string& folder);
 
-/// Loads and reads the surface of a request; a stack with an alpha is the surface of that one
-/// layer over a black base. Throws InputError.
+/// Loads and reads the surface of a request; a stack with an alpha becomes a surface of one layer
+/// over a black base. Throws InputError.
 SurfaceDocument read_surface(const SurfaceRequest& request);
 
 /// All problems of a surface document, one line each: "FILE: POINTER: message".

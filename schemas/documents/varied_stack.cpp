@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kThickness = "thickness_nm";
 
-/// I of "layers.I.rest", of which "rest" stays; nothing for a path of another shape.
+/// Removes "layers.I." from a path and returns I; empty for any other path.
 std::optional<std::size_t> take_layer(std::string_view& path) {
     constexpr std::string_view kLayers = "layers.";
     if (!path.starts_with(kLayers)) return std::nullopt;
@@ -30,7 +30,7 @@ std::optional<std::size_t> take_layer(std::string_view& path) {
     return index;
 }
 
-/// Setting a value would overwrite another one inside it.
+/// Refuses paths inside each other: setting one would overwrite the other.
 void require_apart(const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
         for (const std::string& other : paths) {
@@ -42,11 +42,11 @@ void require_apart(const std::vector<std::string>& paths) {
 
 }  // namespace
 
-/// What the readings share: to copy a document takes about as long as to check it.
+/// State shared between readings: copying a document takes about as long as checking it.
 struct VariedStack::Shared {
     MaterialFiles files;
     std::mutex lock;
-    std::vector<nlohmann::json> documents;  ///< with values of the varied paths, not in use
+    std::vector<nlohmann::json> documents;  ///< with some values of the varied paths, not in use
 
     nlohmann::json take(const nlohmann::json& otherwise) {
         const std::scoped_lock guard(lock);
@@ -100,7 +100,7 @@ StackDocument VariedStack::read(std::span<const Value> values) const {
     nlohmann::json document = shared_->take(source_.document);
     for (std::size_t i = 0; i < paths_.size(); ++i) set_value(document, paths_[i], values[i]);
     StackDocument result = read_source(source_, document, shared_->files);
-    shared_->give_back(std::move(document));  // the next values replace these ones
+    shared_->give_back(std::move(document));  // the next values overwrite these
     return result;
 }
 

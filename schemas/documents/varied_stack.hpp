@@ -15,36 +15,36 @@ namespace irido::schemas {
 /// ("layers.0.thickness_nm").
 class VariedStack {
 public:
-    /// Throws InputError if a path leads nowhere: a last key that is missing is added, as by
-    /// set_value. No path may be repeated or lie inside another.
+    /// Throws InputError if a path does not exist (a missing last key is added, as by set_value),
+    /// is repeated, or lies inside another.
     VariedStack(StackSource source, std::vector<std::string> paths);
 
-    /// The document with those values, one for each path, read and checked. Throws InputError.
-    /// Safe from many threads.
+    /// The document with these values, one for each path, read and checked. Throws InputError.
+    /// Thread-safe.
     StackDocument document(std::span<const nlohmann::json> values) const;
 
-    /// Its stack where all values are numbers.
+    /// The stack for values that are all numbers.
     Stack at(std::span<const double> values) const;
 
-    /// True if all paths are thicknesses: materials and structure are then always the same.
+    /// True if all paths are thicknesses, so that materials and structure never change.
     bool varies_thickness_only() const { return varies_thickness_only_; }
 
-    /// One of its stacks as the document has it, where layer_at() finds its layers: reversed() if
-    /// the source says so, and back.
+    /// Converts one of its stacks to document order, in which layer_at() finds its layers, and
+    /// back: reversed() if the source says so.
     Stack as_written(Stack stack) const;
 
     /// Whether a path has the shape layers.I.thickness_nm or layers.I.layers.J.thickness_nm, to
     /// any depth.
     static bool is_thickness(std::string_view path);
 
-    /// Whether a path of this shape does more in a document than to set the thickness of one layer
-    /// of the stack: where it is graded, in quarter waves, or where any face is rough.
+    /// Whether setting this thickness affects more than one layer's thickness in the stack: if the
+    /// layer is graded or in quarter waves, or if any face is rough.
     static bool has_other_effects(const nlohmann::json& document, std::string_view path);
 
-    /// The indices I, J, ... of such a path; nothing for one of another shape.
+    /// The indices I, J, ... of such a path; empty for any other path.
     static LayerPlace place_of(std::string_view path);
 
-    /// The layer whose thickness a path names; nullptr if the stack has none there.
+    /// The layer whose thickness a path names; nullptr if the stack has no such layer.
     static Layer* layer_at(Stack& stack, std::string_view path);
 
     /// Throws InputError(file, path, "must be in [0, 1e9] (got X)").

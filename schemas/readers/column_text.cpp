@@ -26,7 +26,8 @@ std::string_view unquoted(std::string_view cell) {
     return cell;
 }
 
-/// The trimmed cells of a line; a separator in quotes is none. Blanks are one separator together.
+/// The trimmed cells of a line; separators inside quotes do not count, and consecutive blanks are
+/// one separator.
 Cells cells_of(std::string_view line, char separator) {
     Cells cells;
     const auto ends = [&](char c) { return c == separator || (separator == ' ' && c == '\t'); };
@@ -45,7 +46,7 @@ Cells cells_of(std::string_view line, char separator) {
     return cells;
 }
 
-/// A number whose decimal point may be a comma.
+/// A number, possibly with a decimal comma.
 std::optional<double> number_of(std::string_view cell) {
     const std::size_t comma = cell.find(',');
     if (comma == std::string_view::npos) return parse_number(cell);
@@ -62,7 +63,7 @@ bool are_numbers(const Cells& cells) {
            std::ranges::all_of(cells, [](auto cell) { return number_of(cell).has_value(); });
 }
 
-/// A line without its comment, or what a comment says.
+/// A line without its comment, or the text of a comment.
 struct Line {
     TextLine whole;
     std::string_view text;
@@ -77,21 +78,21 @@ Line without_comment(const TextLine& line) {
     return {line, first == std::string_view::npos ? text.substr(0, 0) : text.substr(first), true};
 }
 
-/// The separator that makes numbers of the line, if one does.
+/// The separator that splits the line into numbers, if there is one.
 std::optional<char> separator_of(std::string_view line) {
     for (const char separator : kSeparators)
         if (are_numbers(cells_of(line, separator))) return separator;
     return std::nullopt;
 }
 
-/// The separator of a line that is no row: the first that is in it.
+/// The separator of a line that is not a row: the first one that occurs.
 char likely_separator(std::string_view line) {
     for (const char separator : {';', '\t', ','})
         if (line.find(separator) != std::string_view::npos) return separator;
     return ' ';
 }
 
-/// Names in a line, a unit in brackets belonging to the word before it.
+/// The names in a line; a unit in brackets belongs to the word before it.
 std::vector<std::string> names_of(std::string_view line, char separator) {
     std::vector<std::string> names;
     for (const std::string_view cell : cells_of(line, separator)) {
@@ -144,7 +145,7 @@ private:
                          "has no rows of numbers; known columns: " + names_.known + names_.others);
     }
 
-    /// A line that begins with a number was meant as a row.
+    /// A line that begins with a number was probably meant as a row.
     void require_no_row(const Line& line) const {
         const Cells cells = cells_of(line.text, likely_separator(line.text));
         if (!number_of(cells[0])) return;
@@ -178,7 +179,7 @@ private:
         return row;
     }
 
-    /// "1,234;1.5" has either a thousands separator or two kinds of decimal points.
+    /// "1,234;1.5" has either a thousands separator or two kinds of decimal point.
     void require_one_point(const std::vector<ColumnRow>& rows) const {
         bool comma = false, point = false;
         for (const ColumnRow& row : rows)
@@ -196,7 +197,7 @@ private:
         return names.size() == count && names_.are(names);
     }
 
-    /// The names in a line above the first row: by the rows' separator, or by one of its own.
+    /// The names in a line above the first row, split at the rows' separator or at one of its own.
     std::vector<std::string> header_in(const Line& line, std::size_t count) const {
         for (const char separator : {separator_, likely_separator(line.text), ' '})
             if (auto names = names_of(line.text, separator); are_names(names, count)) return names;
@@ -222,7 +223,7 @@ private:
                  " (got " + in_quotes(trimmed(unknown->text)) + "; other lines must begin with #)");
     }
 
-    /// A line of units right below the names belongs to them.
+    /// Appends a line of units directly below the names to these.
     std::vector<std::string> with_units(std::vector<std::string> names,
                                         std::span<const Line> below) const {
         if (below.empty() || below[0].is_comment) return names;
@@ -256,7 +257,7 @@ namespace {
 
 using Spelling = std::pair<std::string_view, std::string_view>;
 
-/// Letters and marks of names of columns that are not ASCII, or that are more than a letter.
+/// Spellings in column names that are not ASCII, or that stand for more than a letter.
 constexpr std::array kSpellings{
     Spelling{"\u00B5", "u"},        Spelling{"\u03BC", "u"},   Spelling{"\u00C5", "angstrom"},
     Spelling{"\u212B", "angstrom"}, Spelling{"\u00E5", "a"},   Spelling{"\u00F6", "o"},
@@ -296,7 +297,7 @@ bool holds(const Words& words, std::string_view word) {
     return std::ranges::find(words, word) != words.end();
 }
 
-/// Words that go with a unit.
+/// Words that fit a unit.
 bool goes_with(std::string_view word, SpectralUnit unit) {
     if (unit == SpectralUnit::ev) return holds(kEnergyWords, word);
     if (unit == SpectralUnit::per_cm) return holds(kWavenumberWords, word);

@@ -10,7 +10,8 @@ namespace irido::schemas {
 
 namespace {
 
-/// k of transparent media, as glass catalogues give it: no matter beyond the range it is known in.
+/// Such a small k, typical of glass catalogues, does not matter outside the range where it is
+/// known.
 constexpr double kHeldBelow = 1e-4;
 
 WavelengthRange range_of(const Table& table) {

@@ -9,29 +9,29 @@
 
 namespace irido::schemas {
 
-/// A row of a table of a file: a wavelength in nm and one or two values.
+/// A row of a material table: a wavelength in nm and one or two values.
 using IndexRow = std::array<double, 3>;
 
-/// Sorts rows by wavelength and averages those at one wavelength; notes, which begin with `where`,
-/// say so.
+/// Sorts rows by wavelength and averages rows at the same wavelength. Adds notes about it, which
+/// begin with `where`.
 void put_in_order(std::vector<IndexRow>& rows, const std::string& where,
                   std::vector<std::string>& notes);
 
-/// Values 1 or 2 of rows in order over their wavelengths.
+/// Value 1 or 2 of sorted rows as a function of wavelength.
 Table column(const std::vector<IndexRow>& rows, std::size_t value);
 
-/// Makes k (value 2) positive where light is absorbed: a k that is nowhere positive is that of
-/// n - ik, which a note says. Throws InputError for both signs.
+/// Makes k (value 2) positive for absorption: if k is nowhere positive, the file is taken to mean n
+/// - ik, with a note. Throws InputError if both signs occur.
 void make_k_positive(std::vector<IndexRow>& rows, const std::string& file,
                      std::vector<std::string>& notes);
 
-/// The material of n and k, whose ranges may differ. Where k is not known it is extended if its
-/// nearest value is below 1e-4, else the material is not known there; notes say which. Throws
-/// InputError if the material is known nowhere.
+/// The material with these n and k, whose ranges may differ. Where k is unknown, its nearest value
+/// is used if that is below 1e-4; otherwise the material is undefined there. Notes say which.
+/// Throws InputError if the material is defined nowhere.
 /// file    the material's name, also in messages
 /// n       the index over nm
-/// k       the extinction coefficient over nm; none: 0
-/// notes   of the reader
+/// k       the extinction coefficient over nm; if absent, 0
+/// notes   notes so far, to which this function adds
 /// source  the publication, or ""
 MaterialFile material_of(const std::string& file, Dispersion n, std::optional<Table> k,
                          std::vector<std::string> notes, std::string source = "");

@@ -27,14 +27,14 @@ bool is_there(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-/// A page of a database and where it is.
+/// A page of a database and the path of its file.
 struct Page {
     std::string shelf, book, page;
     std::string path, words;
     std::set<std::string> other_books = {};  ///< other names of the book
 };
 
-/// A plain or quoted scalar of YAML, which a comment may follow.
+/// A plain or quoted YAML scalar, possibly followed by a comment.
 std::string scalar(std::string_view text) {
     text = trimmed(text);
     if (text.size() >= 2 && (text[0] == '"' || text[0] == '\'')) {
@@ -46,7 +46,7 @@ std::string scalar(std::string_view text) {
     return std::string(text);
 }
 
-/// Text without the tags of HTML.
+/// Text without HTML tags.
 std::string without_tags(const std::string& text) {
     std::string plain;
     bool is_tag = false;
@@ -58,7 +58,7 @@ std::string without_tags(const std::string& text) {
     return plain;
 }
 
-/// The folder below a catalogue where its paths start: data, or data-nk as until 2023.
+/// The folder below a catalogue that its paths start from: data, or data-nk until 2023.
 fs::path data_folder(const fs::path& catalogue, const std::string& first_path) {
     for (const char* name : {"data", "data-nk", "."}) {
         const fs::path folder = catalogue.parent_path() / name;
@@ -67,7 +67,8 @@ fs::path data_folder(const fs::path& catalogue, const std::string& first_path) {
     return catalogue.parent_path() / "data";
 }
 
-/// The pages of a catalogue: nested lists whose lines SHELF, BOOK, PAGE, name and data suffice.
+/// The pages of a catalogue: of its nested lists, only the lines SHELF, BOOK, PAGE, name and data
+/// are needed.
 std::vector<Page> catalogue_pages(const fs::path& catalogue) {
     std::vector<Page> pages;
     Page current;
@@ -130,7 +131,7 @@ std::string titles_in(const fs::path& about) {
     return titles;
 }
 
-/// The other names of a book whose folder is "C2H6O - ethanol": either part.
+/// Alternative names of a book whose folder is "C2H6O - ethanol": either part.
 std::set<std::string> parts_of(const std::string& book) {
     std::set<std::string> names;
     const std::size_t dash = book.find(" - ");
@@ -140,7 +141,7 @@ std::set<std::string> parts_of(const std::string& book) {
     return names;
 }
 
-/// A page as its file is placed: SHELF/BOOK/nk/PAGE.yml, with other folders below specs.
+/// The page of a file, from its path: SHELF/BOOK/nk/PAGE.yml, with other folders below specs.
 std::optional<Page> placed_page(const fs::path& base, const fs::path& file) {
     const fs::path place = file.lexically_relative(base);
     std::vector<std::string> steps;
@@ -199,10 +200,10 @@ std::optional<fs::path> catalogue_of(const fs::path& folder) {
     return std::nullopt;
 }
 
-/// A copy of the database, read when it is first needed.
+/// A copy of the database, read on first use.
 struct Database {
     std::mutex lock;
-    std::string folder;  ///< "" for that of the environment
+    std::string folder;  ///< "" for the one in the environment
     std::optional<std::vector<Page>> catalogue, placed;
 
     std::string where() const {
@@ -256,7 +257,7 @@ const Page* page_named(const std::vector<Page>& pages, std::string_view name) {
     return found == pages.end() ? nullptr : &*found;
 }
 
-/// SHELF/BOOK/nk/PAGE.yml or SHELF/BOOK/PAGE.yml, without looking at all the others.
+/// Tries SHELF/BOOK/nk/PAGE.yml and SHELF/BOOK/PAGE.yml, without listing all files.
 std::optional<std::string> direct_file(const fs::path& folder, const std::string& name) {
     const std::size_t slash = name.rfind('/');
     if (slash == std::string::npos) return std::nullopt;

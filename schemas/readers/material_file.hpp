@@ -12,22 +12,23 @@ namespace irido::schemas {
 
 /// A material read from a file.
 struct MaterialFile {
-    Material material;               ///< named as the reader was told
-    std::vector<std::string> notes;  ///< what was done to the data, one line each
-    std::string source;              ///< the publication that the file names, on one line
+    Material material;               ///< named as requested by the caller
+    std::vector<std::string> notes;  ///< corrections and conversions applied, one line each
+    std::string source;              ///< publication that the file cites, on one line
 };
 
-/// Whether a path ends as those of material files do: in .csv, .txt, .tsv, .dat, .nk, .mat, .yml or
-/// .yaml, in capitals or not. The format is told by the content, whatever the ending.
+/// Whether a path has an extension of material files, in either case: .csv, .txt, .tsv, .dat, .nk,
+/// .mat, .yml or .yaml. The format is recognized by content, whatever the extension.
 bool is_material_file(const std::string& path);
 
-/// The material in a text of any format (readers/materials/). Throws InputError with file `name`.
+/// Reads a material in any format (readers/materials/). Throws InputError with file `name`.
 MaterialFile read_material_file(std::string_view text, const std::string& name);
 
-/// Material files, each read once. Safe from many threads.
+/// Material files, each read once. Thread-safe.
 class MaterialFiles {
 public:
-    /// What is in the file at this path, for which is_material_file holds. Throws InputError.
+    /// The content of the file at this path, for which is_material_file must be true. Throws
+    /// InputError.
     const MaterialFile& read(const std::string& path);
 
 private:

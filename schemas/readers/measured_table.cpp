@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 4> kTransmitted{"t", "transmittance", "tr
                                                        "transmissivity"};
 constexpr std::array<std::string_view, 3> kAbsorbed{"a", "absorptance", "absorption"};
 
-/// Whether the words name the quantity; those of psi_deg begin with psi.
+/// Whether the words name the quantity; for psi_deg, psi suffices.
 bool names_quantity(const std::vector<std::string>& words, std::string_view quantity) {
     if (quantity == "R") return has_word(words, kReflected);
     if (quantity == "T") return has_word(words, kTransmitted);

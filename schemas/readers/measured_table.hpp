@@ -7,20 +7,22 @@
 
 namespace irido::schemas {
 
-/// Measured values at one angle, in the order of the file.
+/// Measurements at one angle, in file order.
 struct MeasuredRows {
-    std::optional<double> angle_deg;  ///< none if the file has no column of angles
+    std::optional<double> angle_deg;  ///< empty if the file has no angle column
     std::vector<double> wavelength_nm;
     std::vector<double> value;
     std::vector<double> sigma;  ///< empty if the file has no such column
 };
 
-/// One quantity of a table whose heading names its columns (column_text.hpp): the spectral column
-/// with its unit, that of the values, and where there are any those of the angle (angle_deg, angle,
-/// aoi, theta) and of the standard deviation (sigma_R, R_sigma, R_error). Percentages, %R or
-/// R_percent, become fractions. Angles are set apart. Throws InputError with file `name` and
-/// "line:column".
-/// quantity  as of a design target: R, psi_deg;   column  the column's name, "" to look for it
+/// Reads one quantity of a table whose header names its columns (column_text.hpp): the spectral
+/// column with its unit, the values and, optionally, the angle (angle_deg, angle, aoi, theta) and
+/// the standard deviation (sigma_R, R_sigma, R_error). Percentages, %R or R_percent, become
+/// fractions. Rows are grouped by angle. Throws InputError with file `name` and "line:column".
+/// text      the file's content
+/// name      the file's name in messages
+/// quantity  as in a design target: R, psi_deg
+/// column    the name of its column, "" to search for it
 std::vector<MeasuredRows> read_measured_table(std::string_view text, const std::string& name,
                                               std::string_view quantity, std::string_view column);
 

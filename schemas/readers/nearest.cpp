@@ -14,8 +14,8 @@ bool same_letter(char a, char b) {
            std::tolower(static_cast<unsigned char>(b));
 }
 
-/// Letters replaced, added, left out, or swapped with the next: the fewest that turn a into b, by
-/// rows of the table of all beginnings of a against all beginnings of b.
+/// The fewest letters to replace, add, omit, or swap with the next that turn a into b, computed row
+/// by row over all prefixes of a and b.
 std::size_t edits(std::string_view a, std::string_view b) {
     std::vector<std::size_t> two_before;
     std::vector<std::size_t> before;

@@ -6,8 +6,8 @@
 
 namespace irido::schemas {
 
-/// The candidate that `word` is most likely a misspelling of, or "" if none is near: one edit, or
-/// at most one in three letters, upper and lower case being the same letter.
+/// The candidate that `word` is most likely a misspelling of, or "" if none is close: at most one
+/// edit, or one per three letters, ignoring case.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// ` (did you mean "X"?)` with the nearest candidate, or "".

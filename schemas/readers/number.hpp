@@ -9,9 +9,9 @@ namespace irido::schemas {
 /// `text` without spaces, tabs and carriage returns at its ends.
 std::string_view trimmed(std::string_view text);
 
-/// The finite number that the whole of `text` spells, whatever the locale: "1.5", ".5", "+2",
-/// "1E-03". Nothing for an empty text, for a rest ("1.80-17"), for inf and nan, and beyond a
-/// double's range.
+/// The finite number spelt by all of `text`, independent of the locale: "1.5", ".5", "+2", "1E-03".
+/// Empty for an empty text, trailing characters ("1.80-17"), inf, nan, and values beyond a double's
+/// range.
 std::optional<double> parse_number(std::string_view text);
 
 /// `text` in single quotes for a message: at most 40 bytes of it, without control characters.

@@ -6,7 +6,7 @@
 namespace irido::schemas {
 
 /// The values of a LIST: v | start:stop:step | start:stop/count, joined by commas. The stop of
-/// start:stop:step is included when it lies on the grid; decimals are exact as typed (0:1:0.1
+/// start:stop:step is included if it lies on the grid; decimals are exact as written (0:1:0.1
 /// contains 0.3, not 0.30000000000000004). Throws InputError("", "", words).
 std::vector<double> read_number_list(std::string_view text);
 

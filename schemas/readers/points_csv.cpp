@@ -15,7 +15,7 @@ namespace irido::schemas {
 
 namespace {
 
-/// Whether a text that is no number of ours was meant as one: nan, inf, 1e999.
+/// Whether a text that we do not accept as a number was meant as one: nan, inf, 1e999.
 bool is_unusable_number(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0;
@@ -28,7 +28,7 @@ class Rows {
 public:
     struct Cell {
         std::string_view text;  ///< valid until the next row is read
-        std::size_t at = 0;     ///< where it begins in the file's text
+        std::size_t at = 0;     ///< offset in the file's text
     };
 
     Rows(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -48,7 +48,7 @@ public:
         return false;
     }
 
-    /// Where the row begins that was read last.
+    /// Where the last row read begins.
     std::size_t start() const { return start_; }
 
     [[noreturn]] void fail(std::size_t at, const std::string& message) const {
@@ -64,7 +64,7 @@ private:
         return true;
     }
 
-    /// The text from here to the next comma or end of a line, which it takes, trimmed.
+    /// Takes the text up to the next comma or line end, trimmed.
     std::string_view take_plain() {
         const std::size_t from = at_;
         while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n') ++at_;
@@ -89,9 +89,9 @@ private:
         return result;
     }
 
-    /// What is in quotes, the first of which was taken.
+    /// The text inside quotes, after the opening one has been taken.
     std::string_view quoted_text(std::size_t opening) {
-        std::string* whole = nullptr;  // of more than one part
+        std::string* whole = nullptr;  // if it has more than one part
         for (;;) {
             const std::size_t end = text_.find('"', at_);
             if (end == std::string_view::npos) fail(opening, "the quote is never closed");
@@ -109,7 +109,7 @@ private:
     std::string_view text_;
     const std::string& name_;
     std::size_t at_ = 0, start_ = 0;
-    std::deque<std::string> unquoted_;  ///< texts of cells that are not as they stand in the file
+    std::deque<std::string> unquoted_;  ///< texts of cells that are spelt differently in the file
 };
 
 using PlacedCells = std::vector<Rows::Cell>;
@@ -129,7 +129,7 @@ std::vector<PointsColumn> read_header(Rows& rows) {
     return columns;
 }
 
-/// Reads all rows, numbers where a column has no others. Which columns have is in the result.
+/// Reads all rows and fills purely numeric columns. The result says which columns are not.
 std::vector<bool> read_numbers(Rows rows, std::vector<PointsColumn>& columns) {
     std::vector<bool> has_texts(columns.size());
     PlacedCells cells;
@@ -155,7 +155,7 @@ std::vector<bool> read_numbers(Rows rows, std::vector<PointsColumn>& columns) {
     return has_texts;
 }
 
-/// Reads all rows again, for the columns that are not numbers.
+/// Reads all rows again, for the non-numeric columns.
 void read_texts(Rows rows, const std::vector<bool>& has_texts, std::vector<PointsColumn>& columns) {
     std::vector<std::map<std::string, std::uint32_t, std::less<>>> known(columns.size());
     PlacedCells cells;

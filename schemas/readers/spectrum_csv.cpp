@@ -11,7 +11,7 @@ namespace irido::schemas {
 
 namespace {
 
-/// Values are relative: this leaves room for their products and sums.
+/// Values are relative: this leaves headroom for products and sums.
 constexpr double kLargestPower = 1e30;
 
 bool is_wavelength(const std::optional<SpectralColumn>& column) {
@@ -19,7 +19,7 @@ bool is_wavelength(const std::optional<SpectralColumn>& column) {
                       *column->unit == SpectralUnit::um || *column->unit == SpectralUnit::angstrom);
 }
 
-/// Powers are per wavelength, in whatever unit; powers per eV are others.
+/// Powers are per unit wavelength, in any unit; powers per eV are refused.
 bool are_spectrum_columns(const std::vector<std::string>& header) {
     return is_wavelength(spectral_column(header[0])) && !spectral_column(header[1]);
 }

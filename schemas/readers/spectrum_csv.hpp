@@ -7,9 +7,10 @@
 
 namespace irido::schemas {
 
-/// The spectrum in a table of two columns (column_text.hpp), wavelength and power per wavelength:
-/// wavelengths in nm, or as the header says in um or angstroms, in any order. At least two rows, no
-/// value negative, not all zero. Throws InputError with file `name` and "line:column".
+/// Reads a spectrum from a table of two columns (column_text.hpp), wavelength and power per unit
+/// wavelength: wavelengths in nm or, if the header says so, in um or angstroms, in any order. At
+/// least two rows, no negative values, not all zero. Throws InputError with file `name` and
+/// "line:column".
 Table read_spectrum_csv(std::string_view text, const std::string& name);
 
 }  // namespace irido::schemas

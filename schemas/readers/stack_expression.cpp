@@ -20,7 +20,7 @@ using nlohmann::json;
 
 constexpr std::string_view kSpaces = " \t\r\n";
 constexpr std::string_view kMarks = "|@()^!";
-constexpr int kDeepest = 30;  // with the layers' own levels, what a file may have
+constexpr int kDeepest = 30;  // with the levels of the layers themselves, the limit of files
 
 std::string_view trim(std::string_view text) {
     const std::size_t first = text.find_first_not_of(kSpaces);
@@ -28,7 +28,7 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
-/// A decimal number at the start of `text`, taken off it with the spaces behind.
+/// Removes and returns a decimal number at the start of `text`, with the spaces after it.
 std::optional<double> take_number(std::string_view& text) {
     const bool has_plus = text.starts_with('+');
     const std::string_view digits = text.substr(has_plus ? 1 : 0);
@@ -52,7 +52,7 @@ bool is_imaginary_unit(std::string_view text) {
     return text == "i" || text == "j";
 }
 
-/// The nm of "100", "100nm", "0.1um" or "1 mm", rounded once; nothing for any other text.
+/// The nm of "100", "100nm", "0.1um" or "1 mm", rounded once; empty for any other text.
 std::optional<double> parse_thickness(std::string_view text) {
     std::string_view unit = text;
     const std::optional<double> value = take_number(unit);
@@ -103,7 +103,7 @@ public:
     }
 
 private:
-    /// The next character that is no space, '\0' at the end.
+    /// The next character that is not a space, '\0' at the end.
     char peek() {
         at_ = std::min(text_.find_first_not_of(kSpaces, at_), text_.size());
         return at_ < text_.size() ? text_[at_] : '\0';
@@ -127,7 +127,7 @@ private:
         ++at_;
     }
 
-    /// What stands before the next mark, for reading and for messages.
+    /// The text up to the next mark, for reading and for messages.
     std::string next_word() {
         peek();
         const std::size_t end = std::min(text_.find_first_of(kMarks, at_), text_.size());
@@ -154,7 +154,7 @@ private:
         return material;
     }
 
-    /// A name in double quotes, whatever marks are in it.
+    /// A name in double quotes, which may contain any mark.
     json quoted_name() {
         const std::size_t end = text_.find('"', at_ + 1);
         if (end == text_.npos) fail("a closing \" after the name");
@@ -199,7 +199,7 @@ private:
         if (depth > kDeepest) refuse("groups must nest at most 30 deep");
         json layers = json::array();
         do {
-            ++at_;  // the "(" or the "|" before
+            ++at_;  // the preceding "(" or "|"
             layers.push_back(peek() == '(' ? group(depth + 1) : layer(medium("a layer")));
         } while (peek() == '|');
         expect(')');
@@ -258,7 +258,7 @@ std::string medium_text(const Material& material, std::vector<std::string>& loss
 
 namespace {
 
-/// Writes a stack as an expression and collects what it cannot hold.
+/// Writes a stack as an expression and collects what it cannot express.
 class Writer {
 public:
     Writer(const Stack& stack, std::vector<std::string>& losses) : stack_(stack), losses_(losses) {}

@@ -9,33 +9,32 @@
 
 namespace irido::schemas {
 
-/// "air | (TiO2@58.5 | SiO2@94.2)^10 | BK7@1mm! | air" as the document that a file would hold:
+/// Parses "air | (TiO2@58.5 | SiO2@94.2)^10 | BK7@1mm! | air" into the equivalent stack document:
 /// media from the incident side to the substrate, thickness after @ in nm or in the unit that
-/// follows it,
-/// "!" for a layer that is not coherent; groups nest up to 30 deep.
+/// follows it, "!" for an incoherent layer; groups nest up to 30 deep.
 ///     stack  = medium "|" { item "|" } medium
 ///     item   = medium "@" number [ "nm" | "um" | "mm" | "Q" ] [ "!" ]
 ///            | "(" item { "|" item } ")" [ "^" repeat ]
 ///     medium = name  |  real  |  real +- imaginary "i"  |  imaginary "i"     ("j" is "i")
-/// A name is that of a material or a material file, in double quotes where it has one of |@()^!.
-/// Throws InputError("EXPRESSION" in quotes, "column N", what was expected and found).
+/// A name is that of a material or a material file, in double quotes if it contains any of |@()^!.
+/// Throws InputError("EXPRESSION" in quotes, "column N", expected and found tokens).
 nlohmann::json parse_stack_expression(std::string_view text);
 
-/// The material that "1.5", "1.9+1.5i", "1.9+1.5j" or "2i" stands for; null for any other text.
+/// The material denoted by "1.5", "1.9+1.5i", "1.9+1.5j" or "2i"; null for any other text.
 nlohmann::json parse_index(std::string_view text);
 
-/// A medium of a stack in text: the name where it leads back to the same material, else the index
-/// at 550 nm. What that loses is added to `losses`.
+/// A medium of a stack as text: its name if reading that name gives the same material, otherwise
+/// its index at 550 nm. Adds what is lost to `losses`.
 std::string medium_text(const Material& material, std::vector<std::string>& losses);
 
-/// A stack as an expression, and what it cannot hold, one entry each.
+/// A stack as an expression, and a list of what could not be expressed.
 struct StackExpression {
     std::string text;
     std::vector<std::string> losses;
 };
 
-/// The expression of a stack: names of built-in materials and of material files, of all others the
-/// index at 550 nm. thickness_sigma_nm is left out.
+/// The expression of a stack: built-in materials and material files by name, all others by their
+/// index at 550 nm. thickness_sigma_nm is omitted.
 StackExpression stack_expression(const Stack& stack);
 
 }  // namespace irido::schemas

@@ -32,8 +32,8 @@ constexpr std::size_t kLongestFlow = 64 * kMebibyte, kLongestFile = 1024 * kMebi
 /// A file's device and inode.
 using Identity = std::pair<dev_t, ino_t>;
 
-/// Files that were read, and a path to each: a number that belongs to another file by now, the old
-/// one being gone, is found out by its path.
+/// Files that were read, with a path to each: if an inode number now belongs to another file
+/// because the old one is gone, the path reveals it.
 struct Inputs {
     std::mutex lock;
     std::map<Identity, std::string> path_of;
@@ -53,7 +53,7 @@ void add_input(const Identity& identity, const std::string& path) {
 class OpenFile {
 public:
     OpenFile(const std::string& path, TextSource source) : path_(path) {
-        // without O_NONBLOCK, a pipe without a writer would not even open
+        // without O_NONBLOCK, opening a pipe that has no writer would block
         const int flags =
             O_RDONLY | O_CLOEXEC | (source == TextSource::regular_file ? O_NONBLOCK : 0);
         descriptor_ = path == "-" ? STDIN_FILENO : open(path.c_str(), flags);
@@ -72,7 +72,7 @@ public:
     std::size_t size() const { return static_cast<std::size_t>(status_.st_size); }
     Identity identity() const { return {status_.st_dev, status_.st_ino}; }
 
-    /// Everything up to the end, or some more than `most` bytes.
+    /// Reads to the end, or a little more than `most` bytes.
     std::string read_up_to(std::size_t most) const {
         std::string text;
         if (is_regular()) text.reserve(std::min(size(), most));

@@ -18,7 +18,7 @@ namespace irido::tables {
 
 namespace {
 
-/// The temporary file's name while it exists; plain bytes, so that a signal handler may read it.
+/// The temporary file's name while it exists, as plain bytes that a signal handler may read.
 std::array<char, 4096> unfinished_name{};
 volatile std::sig_atomic_t is_unfinished = 0;
 

@@ -10,15 +10,15 @@
 
 namespace irido::tables {
 
-/// Output that could not be written; the text names the file and the system's reason.
+/// Output could not be written; the text names the file and the system's reason.
 struct OutputError : Error {
     using Error::Error;
 };
 
-/// Thrown when the reader of standard output is gone.
+/// Thrown when the reader of standard output has gone away.
 struct BrokenPipe {};
 
-/// A path that is to be written.
+/// A path to be written to.
 struct OutputTarget {
     std::string path;     ///< with symbolic links resolved
     bool is_file = true;  ///< a named regular file, existing or not; else a device, a pipe or an
@@ -33,11 +33,11 @@ OutputTarget output_target(const std::string& path);
 /// The path with symbolic links resolved.
 std::string resolved_path(const std::string& path);
 
-/// Throws OutputError if a path leads to an input file, by whatever name.
+/// Throws OutputError if a path leads to an input file, under any name.
 void require_no_input(const std::string& path);
 
-/// Checks several paths before the first is written. Throws OutputError if one cannot be written or
-/// if two of them are the same file.
+/// Checks several paths before any is written. Throws OutputError if one cannot be written or if
+/// two of them are the same file.
 void check_outputs(const std::vector<std::string>& paths);
 
 /// Throws "PATH: cannot be written: REASON", or BrokenPipe.
@@ -68,9 +68,8 @@ private:
     int descriptor_;
 };
 
-/// Writes a file whole or not at all: a temporary name in the same folder, then a rename; an
-/// existing file keeps its permissions. Devices and pipes are written to directly. Throws
-/// OutputError.
+/// Writes a file atomically: under a temporary name in the same folder, then renamed; an existing
+/// file's permissions are kept. Devices and pipes are written to directly. Throws OutputError.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// Writes to standard output. Throws OutputError, or BrokenPipe.

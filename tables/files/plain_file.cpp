@@ -14,9 +14,9 @@ namespace irido::tables {
 namespace {
 
 int flags_of(PlainFile::Use use) {
-    // a pipe in a file's place reads as empty instead of blocking
+    // a pipe in place of a file then reads as empty instead of blocking
     if (use == PlainFile::Use::read) return O_RDONLY | O_CLOEXEC | O_NONBLOCK;
-    // no link that somebody else has laid
+    // do not follow a link planted by somebody else
     return O_RDWR | O_CLOEXEC | O_NOFOLLOW | (use == PlainFile::Use::create ? O_CREAT : 0);
 }
 

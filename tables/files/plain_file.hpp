@@ -6,12 +6,12 @@
 
 namespace irido::tables {
 
-/// An open file whose errors are OutputErrors; closed with the object.
+/// An open file that reports failures as OutputError and closes itself.
 class PlainFile {
 public:
     enum class Use { read, write, create };  ///< `create`: write, creating the file if needed
 
-    /// Errors name `shown` if it is given.
+    /// Errors name `shown` instead of the path, if given.
     PlainFile(const std::string& path, Use use, const std::string& shown = "");
     ~PlainFile();
     PlainFile(const PlainFile&) = delete;

@@ -9,7 +9,7 @@
 
 namespace irido::tables {
 
-// Shared by the kinds whose values are colours, with three channels each.
+// Shared by the kinds of tables whose values are colours, with three channels each.
 
 /// Channel names: R, G, B, or X, Y, Z in the space xyz.
 std::vector<std::string> color_channels(const LutRequest& request);
@@ -19,8 +19,8 @@ class ColorValues {
 public:
     explicit ColorValues(const LutRequest& request);
     Triple operator()(const Triple& xyz) const;
-    /// L*, a*, b* of a table's value, under the white of the space or, without adaptation, of the
-    /// illuminant.
+    /// L*, a*, b* of a table's value, relative to the white of the space or, without adaptation, of
+    /// the illuminant.
     Triple to_lab(const Triple& value) const;
 
 private:
@@ -40,7 +40,7 @@ LutRequest rougher(LutRequest request, double error);
 /// Metadata of colours: color_space, stack and the colour part of the request.
 nlohmann::json color_facts(const LutRequest& request);
 
-/// Problems with values that no colour has: XYZ below 0 or above the white, RGB far out of range.
+/// Problems with values that no colour can have: XYZ below 0 or above white, RGB far out of range.
 std::vector<std::string> color_problems(const Lut& lut);
 
 /// Unit of a stack value, derived from the end of its path.

@@ -21,12 +21,12 @@ struct LutAxis {
     std::string name;            ///< column of the CSV: theta_i_deg, cos_theta, opd_nm, ...
     std::string unit;            ///< deg, nm, or "" for a pure number
     std::vector<double> values;  ///< strictly monotonic, at least one
-    /// Above 0: equally spaced in place_of(x) = x/(x + half_at), between which readers interpolate.
+    /// If above 0: equally spaced in place_of(x) = x/(x + half_at), in which readers interpolate.
     double half_at = 0;
     bool operator==(const LutAxis&) const = default;
 
     std::size_t count() const { return values.size(); }
-    /// Whether equally spaced (to 1e-9 of the spacing); then only ends and count are stored.
+    /// Whether equally spaced (to 1e-9 of the spacing); if so, only the ends and count are stored.
     bool is_linear() const;
     /// The index of the cell [values[i], values[i + 1]] that contains x or is nearest to it; 0 if
     /// there is none.
@@ -39,7 +39,7 @@ struct LutAxis {
     }
 };
 
-/// `count` values from one end to the other, both included; count 1 is `first` alone.
+/// `count` values from one end to the other, both included; count 1 gives only `first`.
 std::vector<double> equally_spaced(double first, double last, std::size_t count);
 
 /// A function sampled along 1 to 3 axes: made by a kind, written by a format.
@@ -48,20 +48,20 @@ std::vector<double> equally_spaced(double first, double last, std::size_t count)
 struct Lut {
     std::string kind;
     std::vector<LutAxis> axes;          ///< slowest first
-    std::vector<std::string> channels;  ///< R,G,B, or one name for each value
+    std::vector<std::string> channels;  ///< R,G,B, or one name per value
     /// The first axis counts mip levels: level l has max(1, count >> l) equally spaced samples
     /// between the same ends along every other axis, which are linear.
     bool mips = false;
     LutType type = LutType::f32;
     std::vector<double> values;  ///< level by level if mips; last axis and then channel fastest
-    /// The rest of the metadata, as schemas/lut.schema.json has it: version, color_space, stack,
-    /// request, error, notes. Never paths, times or thread counts.
+    /// The rest of the metadata, as defined by schemas/lut.schema.json: version, color_space,
+    /// stack, request, error, notes. Never paths, times or thread counts.
     nlohmann::json facts = nlohmann::json::object();
 
     std::size_t levels() const { return mips ? axes.front().count() : 1; }
-    /// Axes of one level without the mip axis, with the samples that this level has.
+    /// Axes of one level without the mip axis, with the samples of that level.
     std::vector<LutAxis> axes_of_level(std::size_t level) const;
-    std::size_t values_of_level(std::size_t level) const;  ///< numbers, channels counted
+    std::size_t values_of_level(std::size_t level) const;  ///< numbers, including channels
 };
 
 }  // namespace irido::tables

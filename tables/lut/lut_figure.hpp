@@ -6,9 +6,8 @@
 
 namespace irido::tables {
 
-/// How a table looks: a table of colours as it is seen in sRGB, others by their values; its last
-/// axis along x. The figure keeps the table's metadata. Throws PictureError for what cannot be
-/// drawn.
+/// Draws a table: colours as seen in sRGB, other tables by their values, with the last axis along
+/// x. The figure keeps the table's metadata. Throws PictureError for tables that cannot be drawn.
 Figure lut_figure(const Lut& lut, const std::string& title, GamutMapping gamut);
 
 }  // namespace irido::tables

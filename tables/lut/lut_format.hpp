@@ -11,7 +11,7 @@
 
 namespace irido::tables {
 
-/// Thrown for tables that a format cannot hold, and for damaged or foreign files.
+/// Thrown for tables that a format cannot represent, and for damaged or foreign files.
 struct LutError : Error {
     using Error::Error;
 };
@@ -19,7 +19,7 @@ struct LutError : Error {
 /// Options of the file layout.
 struct LutLayout {
     bool zstd = false;    ///< ktx2: Zstandard supercompression
-    bool layers = false;  ///< ktx2: a third axis as array layers, not as depth
+    bool layers = false;  ///< ktx2: a third axis as array layers instead of depth
 };
 
 /// One of the files of a table.
@@ -30,10 +30,10 @@ struct LutFile {
 
 /// A file format of tables. Every file, or its companion, holds the complete metadata.
 struct LutFormat {
-    std::string_view name;     ///< as --format and as a file's extension
+    std::string_view name;     ///< value of --format, and the file extension
     std::string_view summary;  ///< for --help, one line
     bool is_binary = true;
-    /// Throws LutError, which names what the format cannot hold.
+    /// Throws LutError, which names what the format cannot represent.
     std::vector<LutFile> (*write)(const Lut&, const LutLayout&) = nullptr;
     /// Reads a table, values as stored, from the bytes of a file and of its companion ("" if the
     /// format has none or it is missing). Throws LutError for truncated, foreign or inconsistent
@@ -44,7 +44,7 @@ struct LutFormat {
 /// All formats, by name. The list is made from the files in tables/lut/formats/.
 std::span<const LutFormat* const> lut_formats();
 
-/// nullptr if there is none of that name.
+/// nullptr if there is no format of that name.
 const LutFormat* find_lut_format(std::string_view name);
 
 /// The complete metadata of a table: its facts, axes, channels, type and checksums. Defined by
@@ -54,11 +54,12 @@ nlohmann::json metadata_of(const Lut& lut);
 /// metadata_of() as text: one line, keys sorted.
 std::string metadata_text(const Lut& lut);
 
-/// A table without values from its metadata, checked against lut.schema.json. Throws LutError.
+/// A table without values, from its metadata after a check against lut.schema.json. Throws
+/// LutError.
 Lut lut_from_metadata(std::string_view text);
 
 /// "sha256:" and 64 hexadecimal digits of the values as little-endian numbers of the table's type,
-/// in the table's own order, whatever the file's layout.
+/// in the table's own order, independent of the file's layout.
 std::string checksum_of(const Lut& lut);
 
 }  // namespace irido::tables

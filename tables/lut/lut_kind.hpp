@@ -20,20 +20,20 @@
 
 namespace irido::tables {
 
-/// An option specific to a kind of table, as the command line shows it.
+/// An option specific to a kind of table.
 struct LutOption {
     enum class Type { list, number, whole, word, range, flag };  ///< range: a list of LO, HI
     std::string_view name;                                       ///< without dashes
     Type type = Type::list;
     std::string_view help;        ///< with unit, range and default
-    std::string_view fallback{};  ///< as typed; "" for none
+    std::string_view fallback{};  ///< default, as typed; "" for none
     double lowest = 0, highest = 0;
     std::vector<std::string_view> words{};  ///< allowed values of a word
     char letter = 0;                        ///< short form, 0 for none
 };
 
-/// Parsed values of the options of a kind; those with neither value nor fallback are missing, and
-/// so are flags that are not set.
+/// Parsed values of the options of a kind; options with neither value nor default are absent, as
+/// are flags that are not set.
 using LutOptions =
     std::map<std::string, std::variant<std::vector<double>, double, std::string>, std::less<>>;
 
@@ -82,7 +82,7 @@ struct AxisPlan {
 
 /// A measure of the difference between values of a table.
 struct LutMeasure {
-    std::string name;  ///< as the metadata has it: delta_e_2000, relative to ..., absolute
+    std::string name;  ///< name in the metadata: delta_e_2000, relative to ..., absolute
     /// Differences between two blocks of values [..][channel], one number per sample; `axes` are
     /// those of the block.
     std::function<std::vector<double>(const std::vector<LutAxis>& axes,
@@ -130,7 +130,7 @@ struct LutKind {
 /// All kinds, by name. The list is made from the files in tables/lut/kinds/.
 std::span<const LutKind* const> lut_kinds();
 
-/// nullptr if there is none of that name.
+/// nullptr if there is no kind of that name.
 const LutKind* find_lut_kind(std::string_view name);
 
 /// The paths of the varied values, in order.

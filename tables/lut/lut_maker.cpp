@@ -163,7 +163,7 @@ std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized
 double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads) {
     constexpr std::size_t few = 8;  // samples along an axis
     constexpr double evaluations =
-        4;  // of the values, between them along each of two axes and both
+        4;  // of the values: between them along each of two axes and both
     double seconds = 0;
     for (std::vector<LutAxis> grid : grids_of(sized)) {
         const auto all = static_cast<double>(size_of(grid, 0, grid.size()));

@@ -22,8 +22,8 @@ struct LutSizing {
 struct LutMaking {
     LutSizing sizing{};
     LutType type = LutType::f32;
-    bool mips = false;     ///< the first axis as mip levels, where the plan allows it
-    bool measure = true;   ///< store the interpolation error in the facts
+    bool mips = false;     ///< makes the first axis mip levels, where the plan allows it
+    bool measure = true;   ///< stores the interpolation error in the facts
     unsigned threads = 0;  ///< 0: one per core; the table does not depend on it
     /// Called with the part of the values that is done, 0 before, and what is being worked on.
     std::function<void(double done, const std::string& what)> progress{};
@@ -36,7 +36,7 @@ struct LutMaking {
 /// the values as stored.
 struct InterpolationError {
     double value = 0;
-    std::vector<double> at;       ///< the place, one number per axis
+    std::vector<double> at;       ///< its location, one number per axis
     std::vector<double> of_axis;  ///< along each axis alone
 };
 
@@ -57,12 +57,12 @@ double least_evaluations(const LutPlan& plan, const LutMaking& making);
 /// The result of make_lut() without values and error.
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 
-/// The estimated interpolation error of each mip level of a sized table, from few samples in the
+/// The estimated interpolation error of each mip level of a sized table, from a few samples in the
 /// cells that would be worst at a single thickness. Empty if there are no levels.
 std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized, unsigned threads);
 
-/// Estimated seconds of make_lut() for the values of a sized table and their error, extrapolated
-/// from few samples of each level.
+/// Estimated time of make_lut(), in seconds, for the values of a sized table and their error,
+/// extrapolated from a few samples of each level.
 double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads);
 
 }  // namespace irido::tables

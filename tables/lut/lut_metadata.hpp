@@ -8,16 +8,16 @@
 
 namespace irido::tables {
 
-/// schemas/lut.schema.json.
+/// The text of schemas/lut.schema.json.
 const char* lut_schema_text();
 
-/// name, unit, first, last, count, mapping, and the values of a list.
+/// An axis as metadata: name, unit, first, last, count, mapping, and the values of a list.
 nlohmann::json axis_metadata(const LutAxis& axis);
 
-/// Metadata as text: one line, keys sorted. Throws LutError if lut.schema.json forbids it.
+/// Metadata as text: one line, keys sorted. Throws LutError if it violates lut.schema.json.
 std::string metadata_text(const nlohmann::json& metadata);
 
-/// FILE.json beside FILE: the metadata and a line feed.
+/// The companion FILE.json: the metadata and a line feed.
 LutFile companion_of(const Lut& lut);
 
 /// A table without values from a companion's bytes. Throws LutError, also if they are missing.

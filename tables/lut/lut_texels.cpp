@@ -13,7 +13,7 @@ double filler(std::size_t component) {
     return component == kAlpha ? 1 : 0;
 }
 
-/// What a texel's component is: an index into the values of the level, or none.
+/// Calls visit with each texel component's index into the values of the level, or none for padding.
 template <class Visit>
 void visit_components(const Lut& lut, std::size_t level, std::size_t components, Visit visit) {
     const auto [blocks, channels] = texel_blocks(lut);

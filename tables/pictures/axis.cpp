@@ -9,13 +9,13 @@ namespace irido::tables {
 
 namespace {
 
-/// Values of a flat curve differ by less than this part.
+/// A curve is flat if its values differ by less than this fraction.
 constexpr double kFlat = 1e-3;
 constexpr const char* kMinus = "\u2212";
-/// Coordinates beyond are of no use to any format.
+/// Larger coordinates are useless in any format.
 constexpr double kFarthest = 20000;
 
-/// Steps of 1, 2 or 5 times a power of ten that leave at most `most` of them.
+/// The step of 1, 2 or 5 times a power of ten that gives at most `most` steps.
 double round_step(double length, double most) {
     for (double decade = std::pow(10, std::floor(std::log10(length / most)));; decade *= 10)
         for (const double digit : {1.0, 2.0, 5.0})
@@ -38,7 +38,7 @@ std::string tick_text(double value, double step) {
     std::array<char, 48> text{};
     const double size = std::abs(value);
     const std::string sign = value < 0 ? kMinus : "";
-    // zeros in front of few digits are powers of ten
+    // numbers with many leading zeros become powers of ten
     if (size < 1e6 && (step >= 0.99e-4 || size > 1000 * step)) {
         const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
         std::snprintf(text.data(), text.size(), "%.*f", decimals, size);
@@ -66,7 +66,7 @@ AxisPlaces::AxisPlaces(const FigureAxis& axis, double low, double high, bool wid
         low = std::min(low, 0.0);
         high = std::max(high, 0.0);
     }
-    if (!(high > low)) {  // of one value: some room around it
+    if (!(high > low)) {  // a single value: some room around it
         const double room = low == 0 ? 1 : std::abs(low) * 0.1;
         low = axis.from_zero ? 0 : low - room;
         high += room;

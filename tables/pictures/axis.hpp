@@ -4,17 +4,18 @@
 
 namespace irido::tables {
 
-/// A label of an axis and where it is.
+/// A label of an axis and its coordinate.
 struct Tick {
     double value;
     std::string text;
 };
 
-/// Maps an axis' values to places between two coordinates of a picture.
+/// Maps the values of an axis to coordinates in a picture.
 class AxisPlaces {
 public:
-    /// low, high  of the data, used for ends that the axis leaves open, and widened to round
-    ///            numbers if `widen`, or where they are equal
+    /// axis       the axis
+    /// low, high  range of the data, used for ends that the axis leaves open; widened if equal
+    /// widen      widens the range of the data to round numbers
     /// from, to   coordinates of the axis' first and last value
     AxisPlaces(const FigureAxis& axis, double low, double high, bool widen, double from, double to);
 
@@ -25,7 +26,7 @@ public:
     double last() const { return last_; }
     double from() const { return from_; }
     double to() const { return to_; }
-    /// Labels that stay `space` apart.
+    /// Labels at least `space` apart.
     std::vector<Tick> ticks(double space) const;
 
 private:
@@ -36,7 +37,7 @@ private:
     double first_, last_, from_, to_;
 };
 
-/// A number as a label: a real minus sign, powers of ten raised.
+/// A number as a label, with a true minus sign and superscript powers of ten.
 std::string tick_text(double value, double step);
 
 }  // namespace irido::tables

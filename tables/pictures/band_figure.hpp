@@ -4,7 +4,7 @@
 
 namespace irido::tables {
 
-/// Photonic gaps over wavelength and angle.
+/// Photonic band gaps over wavelength and angle.
 struct BandDiagram {
     struct Edges {
         double short_nm = 0, long_nm = 0;
@@ -12,7 +12,7 @@ struct BandDiagram {
     /// One gap at all angles.
     struct Gap {
         double order = 0;
-        std::vector<Edges> s, p;  ///< one for each angle
+        std::vector<Edges> s, p;  ///< one per angle
     };
     std::string title;
     double first_nm = 360, last_nm = 830;  ///< the range shown
@@ -20,7 +20,7 @@ struct BandDiagram {
     std::vector<Gap> gaps;
 };
 
-/// s to the left, its angles growing to the left, p to the right.
+/// s on the left with its angles growing leftwards, p on the right.
 Figure band_figure(const BandDiagram& diagram);
 
 }  // namespace irido::tables

@@ -66,7 +66,7 @@ void add_path(Panel& panel, const ChromaticityPath& path, std::size_t style, Pla
     std::vector<Label> labels;
     for (std::size_t i = 0; i < n; ++i) {
         line.points.push_back(place(stops[i]->xyz));
-        const auto in_turn = [&](std::size_t most) {  // whether it is one of so many
+        const auto in_turn = [&](std::size_t most) {  // one of `most` evenly chosen
             return n <= most || i == 0 || i * (most - 1) / last > (i - 1) * (most - 1) / last;
         };
         if (in_turn(kMostDots)) {

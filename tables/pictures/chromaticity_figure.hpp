@@ -6,20 +6,24 @@
 
 namespace irido::tables {
 
-/// Colours that follow each other.
+/// A sequence of colours.
 struct ChromaticityPath {
     std::string name;  ///< "" if it is the only one
     struct Stop {
-        Triple xyz;  ///< a sum of 0 has no place and is left out
+        Triple xyz;  ///< omitted if its sum is 0 and so has no chromaticity
         Ink ink;
-        std::string label;  ///< written beside some of the stops, the first and the last among them
+        std::string label;  ///< written next to some stops, including the first and the last
     };
     std::vector<Stop> stops;
 };
 
-/// Paths in the CIE 1931 diagram, x and y, and the CIE 1976 one, u' and v', side by side, with the
+/// Paths in the CIE 1931 diagram (x, y) and the CIE 1976 one (u', v'), side by side, with the
 /// observer's spectral locus, the triangle of sRGB and the white point. Throws PictureError if no
-/// stop of a path has a place.
+/// stop of a path has a chromaticity.
+/// title  the figure's title
+/// paths  the paths
+/// eye    whose spectral locus is drawn
+/// white  XYZ of the white point
 Figure chromaticity_figure(const std::string& title, const std::vector<ChromaticityPath>& paths,
                            const Observer& eye, const Triple& white);
 

@@ -9,7 +9,7 @@
 
 namespace irido::tables {
 
-/// In units of a picture, of which 96 are an inch; x to the right, y down.
+/// In picture units, 96 per inch; x to the right, y down.
 struct Point {
     double x = 0, y = 0;
 };
@@ -22,7 +22,7 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// A colour in the encoding of sRGB, 65535 being 1.
+/// A colour in sRGB encoding, 65535 being 1.
 struct Ink {
     std::uint16_t r = 0, g = 0, b = 0;
 
@@ -40,20 +40,20 @@ constexpr Ink ink(std::uint32_t rgb) {
 /// "#rrggbb"
 std::string hex(const Ink& ink);
 
-/// Lines that are drawn along, filled, or both.
+/// Polylines to be stroked, filled, or both.
 struct Path {
     std::vector<std::vector<Point>> lines = {};
     bool closed = false;
-    std::optional<Ink> fill = {};  ///< of what the closed lines wind around
+    std::optional<Ink> fill = {};  ///< for the area inside the closed lines
     double opacity = 1;            ///< of the fill
     std::optional<Ink> stroke = {};
     double width = 1;               ///< of the stroke
-    std::vector<double> dash = {};  ///< lengths drawn and left out in turn; none: a whole line
+    std::vector<double> dash = {};  ///< alternating lengths drawn and skipped; none: solid
 };
 
 enum class Anchor { start, middle, end };
 
-/// A line of text, its baseline through `at`, read upwards if `upright`.
+/// A line of text with its baseline through `at`, reading upwards if `upright`.
 struct Text {
     Point at;
     std::string text;  ///< UTF-8, well_formed()
@@ -61,30 +61,30 @@ struct Text {
     double size = 12;
     Ink ink = {};
     bool upright = false;
-    bool halo = false;  ///< over a white edge, to be read on lines and areas
+    bool halo = false;  ///< with a white outline, for legibility over lines and areas
 };
 
-/// A grid of coloured cells that fills a box, row by row from the top left.
+/// A grid of coloured cells that fills a box, in rows from the top left.
 struct Cells {
     Box box;
     std::size_t columns = 0, rows = 0;
     std::vector<Ink> inks;
 };
 
-/// What belongs together, drawn in order.
+/// A group of related shapes, drawn in order.
 struct DrawnGroup {
     std::string name;              ///< class in SVG
-    std::string title = {};        ///< what SVG shows when it is pointed at
-    std::optional<Box> clip = {};  ///< outside of which nothing is drawn
+    std::string title = {};        ///< tooltip in SVG
+    std::optional<Box> clip = {};  ///< nothing is drawn outside it
     std::vector<std::variant<Path, Text, Cells>> items = {};
 };
 
-/// A picture on white ground, ready to be written in any format.
+/// A picture on a white background, ready for output in any format.
 struct Drawing {
     double width = 0, height = 0;
     std::string title;
-    std::string metadata;  ///< JSON that formats keep with the picture; "" for none
-    unsigned bits = 8;     ///< of a component where a format has a choice: 8 or 16
+    std::string metadata;  ///< JSON that formats store with the picture; "" for none
+    unsigned bits = 8;     ///< per component, where a format has a choice: 8 or 16
     std::vector<DrawnGroup> groups;
 };
 
@@ -92,6 +92,9 @@ struct Drawing {
 Path box_path(const Box& box);
 
 /// A straight line.
+/// from, to  its ends
+/// ink       its colour
+/// width     of the stroke, in units of the picture
 Path line_path(Point from, Point to, const Ink& ink, double width = 1);
 
 }  // namespace irido::tables

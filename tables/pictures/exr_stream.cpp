@@ -63,8 +63,8 @@ int component_bytes(exr_pixel_type_t type) {
     return type == EXR_PIXEL_HALF ? 2 : 4;
 }
 
-/// Tells an encoder or a decoder where each channel's numbers are; `first` is the first pixel of
-/// its chunk.
+/// Tells an encoder or decoder where each channel's numbers are; `first` is the first pixel of its
+/// chunk.
 template <class Pipeline, class Bytes>
 void aim_channels(Pipeline& pipeline, const ExrPixels& pixels, Bytes* first) {
     const int component = component_bytes(pixels.type);
@@ -92,7 +92,7 @@ public:
     ChunkReader(const ExrFile& file, const ExrPixels& pixels, char* texels)
         : file_(file), pixels_(pixels), texels_(texels), decoder_(file) {}
 
-    /// column, row  of the chunk's first pixel, from the first of the picture
+    /// column, row  of the chunk's first pixel, relative to the picture's first
     void read(const exr_chunk_info_t& chunk, std::int32_t column, std::int32_t row) {
         file_.check(is_first_ ? exr_decoding_initialize(file_, 0, &chunk, &decoder_.pipeline)
                               : exr_decoding_update(file_, 0, &chunk, &decoder_.pipeline));

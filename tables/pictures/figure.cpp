@@ -20,10 +20,10 @@ constexpr double kBarGap = 14, kBarWidth = 14, kLegendRow = 20, kLegendSample = 
 constexpr double kInnerGap = 6, kXSpace = 52, kYSpace = 30;
 constexpr Ink kPale = ink(0x555555);
 
-/// The text, or as much of both its ends as fits.
+/// The text or, if it is too long, as much of both ends as fits.
 std::string fitted(const std::string& text, double size, double width) {
     if (text_width(text, size) <= width) return text;
-    std::vector<std::size_t> starts;  // of characters
+    std::vector<std::size_t> starts;  // starts of characters
     for (std::size_t at = 0; at < text.size(); schemas::next_code_point(text, at))
         starts.push_back(at);
     for (std::size_t kept = starts.size() - 1; kept > 1; --kept) {
@@ -35,7 +35,7 @@ std::string fitted(const std::string& text, double size, double width) {
     return "\u2026";
 }
 
-/// Lines of words that are no wider than `width`.
+/// Breaks text into lines no wider than `width`.
 std::vector<std::string> wrapped(const std::string& text, double size, double width) {
     std::vector<std::string> lines;
     for (std::size_t at = 0; at < text.size();) {
@@ -91,7 +91,7 @@ void check(const Figure& figure) {
     }
 }
 
-/// Puts panels and texts in their places, from the top down.
+/// Arranges panels and texts, from the top down.
 class Arrangement {
 public:
     explicit Arrangement(const Figure& figure) : figure_(figure) {
@@ -160,13 +160,13 @@ private:
     }
 
     bool has_y_labels(std::size_t column) const { return !figure_.shared_y || column == 0; }
-    /// Of a panel that has none below, if they are shared.
+    /// Whether a panel has x labels: if they are shared, only if there is no panel below it.
     bool has_x_labels(std::size_t row, std::size_t column) const {
         return !figure_.shared_x || (row + 1) * columns_ + column >= figure_.panels.size();
     }
     static double hues(const FigureAxis& axis) { return axis.hues ? kHueStrip : 0; }
 
-    /// Room for labels left and right of the panels of a column, of panels so high.
+    /// Reserves room for labels left and right of a column of panels of this height.
     void measure_columns(double height) {
         left_.assign(columns_, 0);
         right_.assign(columns_, 0);
@@ -192,7 +192,7 @@ private:
         return rows_ == 1 ? 330 : rows_ == 2 ? 210 : 160;
     }
 
-    /// Height of panels so wide whose axes have the same scale.
+    /// Height of panels of this width whose axes have the same scale.
     double equal_height(double width) const {
         const PanelPlaces places = panel_places(figure_.panels[0], {0, 0, width, width});
         return width * std::abs((places.y.last() - places.y.first()) /
@@ -228,7 +228,7 @@ private:
         }
     }
 
-    /// Returns the height of what stands below the panel.
+    /// Returns the height of the labels below the panel.
     double put_panel(const Panel& panel, const Box& box, std::size_t row, std::size_t column) {
         const PanelPlaces places = panel_places(panel, box);
         DrawnGroup axes{.name = "axes"};
@@ -255,7 +255,7 @@ private:
         y += kTickHeight;
         std::vector<Tick> ticks = places.x.ticks(kXSpace);
         std::ranges::sort(ticks, {}, [&](const Tick& tick) { return places.x(tick.value); });
-        double reached = -1e9;  // labels that would touch are left out
+        double reached = -1e9;  // labels that would touch are omitted
         const bool is_second = figure_.joined && box.left > kSide + left_[0] + 1;
         for (const Tick& tick : ticks) {
             const double x = places.x(tick.value), half = text_width(tick.text, kBody) / 2;

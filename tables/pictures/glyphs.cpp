@@ -15,7 +15,7 @@ constexpr std::string_view kGlyphs =
     ;
 constexpr char32_t kReplacement = 0xFFFD;
 
-/// Reads "41 1401 M700 1294L426 551" from the front of a text.
+/// Parses "41 1401 M700 1294L426 551" at the start of a text.
 class OutlineReader {
 public:
     explicit OutlineReader(std::string_view text) : text_(text) {}
@@ -64,7 +64,7 @@ private:
     std::string_view text_;
 };
 
-/// Where each character's outline is.
+/// The outline of each character.
 std::map<char32_t, std::string_view> lines_of_glyphs() {
     std::map<char32_t, std::string_view> lines;
     for (std::string_view rest = kGlyphs; !rest.empty();) {

@@ -10,7 +10,7 @@ namespace irido::tables {
 
 namespace {
 
-/// Rounding in the colour's own computation is no reason to call it outside.
+/// Rounding errors of a colour must not count as out of gamut.
 constexpr double kGamutSlack = 1e-9;
 
 /// Y of the primaries of sRGB.
@@ -24,7 +24,7 @@ Triple compressed(const Triple& rgb) {
     const double y = weight[0] * rgb[0] + weight[1] * rgb[1] + weight[2] * rgb[2];
     if (y >= 1) return {1, 1, 1};
     if (y <= 0) return {0, 0, 0};
-    double part = 1;  // of the colour, the rest being grey
+    double part = 1;  // fraction of the colour; the rest is grey
     for (const double c : rgb) {
         if (c < 0) part = std::min(part, y / (y - c));
         if (c > 1) part = std::min(part, (1 - y) / (c - y));
@@ -34,7 +34,7 @@ Triple compressed(const Triple& rgb) {
     return mixed;
 }
 
-/// Linear sRGB of CIELAB under D65.
+/// Linear sRGB from CIELAB under D65.
 Triple rgb_of_lab(double lightness, double a, double b) {
     const RgbSpace& srgb = rgb_space("srgb");
     const double fy = (lightness + 16) / 116;

@@ -8,17 +8,17 @@
 
 namespace irido::tables {
 
-/// How a colour that sRGB lacks is shown.
+/// How colours outside sRGB are shown.
 enum class GamutMapping {
-    clip,      ///< each component brought into [0, 1]
-    compress,  ///< mixed with the grey of its luminance, no more than needed; a luminance above 1
-               ///< is white
+    clip,      ///< each component clamped to [0, 1]
+    compress,  ///< mixed with the grey of its luminance, just enough to fit; luminances above 1
+               ///< become white
 };
 
 /// "clip" or "compress".
 std::string_view name_of(GamutMapping mapping);
 
-/// Turns linear sRGB into inks and counts those that lie outside of sRGB by more than rounding.
+/// Converts linear sRGB to inks and counts colours that lie outside sRGB by more than rounding.
 class InkMixer {
 public:
     explicit InkMixer(GamutMapping mapping = GamutMapping::clip) : mapping_(mapping) {}
@@ -32,15 +32,15 @@ private:
     std::size_t colors_ = 0, outside_ = 0;
 };
 
-/// The ink of linear sRGB, each component brought into [0, 1].
+/// The ink of linear sRGB with each component clamped to [0, 1].
 Ink clipped_ink(const Triple& linear_srgb);
 
-/// Dark blue to pale yellow, part in [0, 1], its lightness L* growing evenly from 15 to 93: it
-/// reads the same without colour vision and in print.
+/// Dark blue to pale yellow for `part` in [0, 1], with lightness L* increasing linearly from 15 to
+/// 93: legible without colour vision and in print.
 Ink value_ink(double part);
 
-/// The hue of a wavelength, paler where the eye sees less of it: the CIE 1931 observer's colour,
-/// brought into sRGB by adding white. White outside of 380 to 780 nm.
+/// The spectral colour of a wavelength, paler where the eye is less sensitive: the CIE 1931
+/// observer's colour, brought into sRGB by adding white. White outside 380 to 780 nm.
 Ink wavelength_ink(double wavelength_nm);
 
 inline constexpr double kFirstVisible_nm = 380, kLastVisible_nm = 780;

@@ -11,7 +11,7 @@ namespace irido::tables {
 namespace {
 
 constexpr int kCurvePieces = 6, kCornerPieces = 12;
-constexpr double kSharpCorner = 0.97;  ///< cosine of a turn that shows
+constexpr double kSharpCorner = 0.97;  ///< cosine of a visible bend
 
 Point between(Point a, Point b, double part) {
     return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
@@ -21,7 +21,7 @@ double distance(Point a, Point b) {
     return std::hypot(b.x - a.x, b.y - a.y);
 }
 
-/// The dashes of a line, each a line of its own.
+/// Splits a line into its dashes, each a separate line.
 std::vector<std::vector<Point>> dashes_of(const std::vector<Point>& line,
                                           const std::vector<double>& dash) {
     std::vector<std::vector<Point>> dashes;
@@ -109,7 +109,7 @@ std::vector<std::vector<Point>> stroke_outline(const Path& path) {
     for (std::vector<Point> line : path.lines) {
         if (path.closed) {
             line.push_back(line[0]);
-            if (line.size() > 2 && path.dash.empty()) line.push_back(line[1]);  // its last corner
+            if (line.size() > 2 && path.dash.empty()) line.push_back(line[1]);  // the last corner
         }
         if (path.dash.empty()) {
             add_line(line, path.width / 2, outlines);

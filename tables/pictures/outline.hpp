@@ -4,11 +4,11 @@
 
 namespace irido::tables {
 
-/// The outlines of a line of text as closed lines, curves cut into straight pieces.
+/// The outlines of a line of text as closed polylines, with curves flattened.
 std::vector<std::vector<Point>> text_outline(const Text& text);
 
-/// Closed lines, all wound the same way, around what a path's stroke covers: blunt ends, round
-/// corners, dashes.
+/// Closed polylines, all with the same winding, around the area that a path's stroke covers: butt
+/// caps, round joins, dashes.
 std::vector<std::vector<Point>> stroke_outline(const Path& path);
 
 }  // namespace irido::tables

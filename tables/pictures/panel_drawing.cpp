@@ -18,7 +18,7 @@ constexpr std::array kStyleInks{ink(0x0072b2), ink(0xd55e00), ink(0x009e73),
                                 ink(0x56b4e9), ink(0x7f7f7f), ink(0x8c510a)};
 constexpr Ink kGuide = ink(0x8a8a8a), kHighlight = ink(0xfbe08a), kWhite = ink(0xffffff);
 constexpr double kCurveWidth = 1.6, kBarShare = 0.8;
-/// Places along an axis of which a curve has its least and its greatest value drawn.
+/// Width along an axis within which only a curve's least and greatest values are drawn.
 constexpr double kThinStep = 0.5;
 constexpr std::size_t kMostCells = 2000;
 
@@ -93,7 +93,7 @@ std::size_t count_of_bars(const Panel& panel) {
         std::ranges::count(panel.series, Series::Form::bars, &Series::form));
 }
 
-/// The smallest distance of two bars of a series.
+/// The smallest distance between two bars of a series.
 double bar_spacing(const Panel& panel) {
     double spacing = std::numeric_limits<double>::infinity();
     for (const Series& series : panel.series) {
@@ -152,8 +152,8 @@ bool is_even(const std::vector<double>& samples) {
     return true;
 }
 
-/// For each of the picture's cells along an axis, in the order of its coordinates, the sample that
-/// it shows: each sample in its turn where they are evenly spaced and few, else the nearest.
+/// For each of the picture's cells along an axis, in coordinate order, the sample it shows: one
+/// cell per sample if they are evenly spaced and few, otherwise the nearest.
 std::vector<std::size_t> shown_samples(const std::vector<double>& samples, const AxisPlaces& axis,
                                        std::set<std::string>& notes) {
     std::vector<std::size_t> shown;
@@ -246,7 +246,7 @@ void draw_area(const Area& area, const PanelPlaces& places, std::vector<DrawnGro
                                        .halo = true});
 }
 
-/// A curve's points in the picture, cut where it wraps.
+/// A curve's points in the picture, cut where it wraps around.
 std::vector<std::vector<Point>> placed_lines(const Series& series, const PanelPlaces& places,
                                              double period) {
     std::vector<std::vector<Point>> lines(1);
@@ -259,7 +259,7 @@ std::vector<std::vector<Point>> placed_lines(const Series& series, const PanelPl
     return lines;
 }
 
-/// Of the points that share a place along x, the first, the lowest, the highest and the last.
+/// Of the points that share an x position, the first, the lowest, the highest and the last.
 std::vector<Point> thinned(const std::vector<Point>& line) {
     std::vector<Point> out;
     for (std::size_t begin = 0; begin < line.size();) {
@@ -353,7 +353,7 @@ void draw_series(const Panel& panel, const PanelPlaces& places, std::vector<Draw
             draw_bars(panel, places, bars_drawn++, series, group);
         } else {
             if (series.form != points) draw_curve(series, places, panel.y.period, group, notes);
-            // a curve of one point is a point
+            // a curve of a single point is drawn as a point
             const bool is_alone = series.form == line && series.points.size() == 1;
             if (series.form == points || series.form == line_with_points || is_alone)
                 draw_markers(series, places, group, notes);
@@ -362,7 +362,7 @@ void draw_series(const Panel& panel, const PanelPlaces& places, std::vector<Draw
     }
 }
 
-/// A label beside `at`, in a direction of length 1, and the room that it takes.
+/// A label next to `at`, offset in the direction of a unit vector, and its bounding box.
 std::pair<Text, Box> label_beside(const std::string& text, Point at, Point direction) {
     constexpr double away = 8, above = 4, sideways = 0.4, ascent = 9, descent = 3;
     const double width = text_width(text, Text{}.size);
@@ -382,7 +382,7 @@ std::pair<Text, Box> label_beside(const std::string& text, Point at, Point direc
     return {label, {left, label.at.y - ascent, left + width, label.at.y + descent}};
 }
 
-/// Each label where there is room for it: in its direction, or on another side.
+/// Places each label where there is room: in its direction, or on another side.
 void draw_labels(const Panel& panel, const PanelPlaces& places, DrawnGroup& to) {
     const Box& frame = places.box;
     std::vector<Box> taken;

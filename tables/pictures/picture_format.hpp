@@ -8,9 +8,9 @@
 
 namespace irido::tables {
 
-/// A way to write drawings. The bytes follow from the drawing alone.
+/// An output format of drawings. The bytes depend only on the drawing.
 struct PictureFormat {
-    std::string_view name;     ///< as --format and as a file's extension
+    std::string_view name;     ///< value of --format, and the file extension
     std::string_view summary;  ///< for --help
     bool is_binary;
     std::string (*write)(const Drawing&);
@@ -19,7 +19,7 @@ struct PictureFormat {
 /// All formats, by name. The list is made from the files in tables/pictures/formats/.
 std::span<const PictureFormat* const> picture_formats();
 
-/// nullptr if there is none of that name.
+/// nullptr if there is no format of that name.
 const PictureFormat* find_picture_format(std::string_view name);
 
 }  // namespace irido::tables

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPngLevel = 6;
 
-/// One row in the file's order of bytes.
+/// One row in the file's byte order.
 void put_row(const Pixels& pixels, std::size_t row, unsigned bits, std::string& bytes) {
     bytes.clear();
     const auto put = [&](std::uint16_t component) {
@@ -37,7 +37,7 @@ void fail(png_structp /*png*/, png_const_charp message) {
     throw PictureError(std::string("PNG: ") + message);
 }
 
-/// The library's structures; its errors are exceptions, as it is compiled to be unwound through.
+/// The library's structures; errors are thrown through the library, which is built to be unwound.
 class PngWriter {
 public:
     explicit PngWriter(std::string& to)

@@ -9,12 +9,12 @@ namespace irido::tables {
 
 namespace {
 
-constexpr int kSteps = 16;  ///< lines of a row of pixels along which an area is looked at
+constexpr int kSteps = 16;  ///< scan lines per row of pixels
 constexpr double kHaloWidth = 3;
 constexpr Ink kPaper = ink(0xffffff);
 
 struct Edge {
-    double top, bottom, x, slope;  ///< x at the top, change of x with y
+    double top, bottom, x, slope;  ///< x at the top, slope of x over y
     int winding;
 };
 
@@ -23,7 +23,7 @@ struct Crossing {
     int winding;
 };
 
-/// The canvas: pixels, and what is drawn on them.
+/// The canvas: pixels, and the functions that draw on them.
 class Canvas {
 public:
     Canvas(const Drawing& drawing, double scale) : scale_(scale) {

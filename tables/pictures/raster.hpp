@@ -4,15 +4,15 @@
 
 namespace irido::tables {
 
-/// Rows of pixels from the top left, in the encoding of sRGB.
+/// Rows of pixels from the top left, in sRGB encoding.
 struct Pixels {
     std::size_t width = 0, height = 0;
     std::vector<Ink> inks;
-    std::vector<std::uint16_t> alpha = {};  ///< of each; none: all are opaque
+    std::vector<std::uint16_t> alpha = {};  ///< one per pixel; none: all opaque
 };
 
-/// A drawing with `scale` pixels a unit. Edges are smoothed: exact along rows, in sixteen steps
-/// across them. The same pixels on every machine.
+/// Rasterizes a drawing with `scale` pixels per unit. Antialiasing is exact along rows and in
+/// sixteen steps across them. The same pixels on every machine.
 Pixels rasterized(const Drawing& drawing, double scale);
 
 }  // namespace irido::tables

@@ -47,7 +47,7 @@ Pixels pixels_over(const Picture& picture, const Triple& linear_srgb) {
     Pixels pixels{picture.width, picture.height, {}, {}};
     for (std::size_t i = 0; i < picture.width * picture.height; ++i) {
         Triple color = color_of(picture, i);
-        // what lies outside of sRGB is clipped before it is mixed, as a viewer does with a PNG
+        // colours outside sRGB are clipped before blending, as a viewer does with a PNG
         const double rest = 1 - alpha_of(picture, i);
         for (std::size_t c = 0; c < 3; ++c)
             color[c] = std::clamp(color[c], 0.0, 1.0) + rest * linear_srgb[c];

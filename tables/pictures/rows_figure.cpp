@@ -11,7 +11,7 @@ namespace irido::tables {
 
 namespace {
 
-constexpr std::size_t kMostCurves = 9;       ///< over a number, if others can be drawn along y
+constexpr std::size_t kMostCurves = 9;       ///< over a number, if the others can be drawn along y
 constexpr std::size_t kMostCategories = 24;  ///< curves, or strips of colour
 constexpr std::size_t kMostPanels = 12;
 constexpr std::size_t kMostGridCells = 20'000'000;
@@ -22,7 +22,7 @@ const Column& column_named(const Records& records, const std::string& name) {
     return *found;
 }
 
-/// A key with its different values, in order of size or of appearance, and which each row has.
+/// A key with its distinct values, in order of size or of appearance, and the one of each row.
 struct VariedKey {
     const RowKey* key = nullptr;
     bool is_number = true;
@@ -37,7 +37,7 @@ struct VariedKey {
         append_number(number, numbers[value]);
         const std::string& unit = key->axis.unit;
         const std::string text = number + (unit.empty() || unit == "\u00b0" ? unit : " " + unit);
-        // an angle and a wavelength need no name
+        // an angle or a wavelength needs no name
         return unit == "\u00b0" || key->axis.hues ? text : key->axis.quantity + " " + text;
     }
 };
@@ -71,7 +71,7 @@ VariedKey varied_key(const Records& records, const RowKey& key) {
     return result;
 }
 
-/// Combinations of the values of some keys that occur, in the order in which they do.
+/// Combinations of the values of some keys that occur, in order of appearance.
 struct Combinations {
     std::vector<std::string> names;
     std::vector<std::size_t> of_row;
@@ -96,7 +96,7 @@ Combinations combinations_of(const std::vector<const VariedKey*>& keys, std::siz
     return result;
 }
 
-/// Which keys become axes.
+/// Chooses which keys become axes.
 class RowsFigure {
 public:
     RowsFigure(const Records& records, const RowPlot& plot) : records_(records), plot_(plot) {
@@ -119,14 +119,14 @@ public:
             make_ladder();
             return std::move(figure_);
         }
-        if (numbers_.empty()) {  // one place on the first axis that there is
+        if (numbers_.empty()) {  // one position on the first available axis
             for (const VariedKey& key : keys_)
                 if (key.is_number && numbers_.empty()) numbers_.push_back(&key);
             if (numbers_.empty()) throw PictureError("no column varies that could be an axis");
         }
         const bool has_colors = !plot_.inks.empty();
         const std::size_t most = has_colors ? 1 : kMostCurves;
-        std::size_t others = 1;  // curves for each category
+        std::size_t others = 1;  // curves per category
         for (const VariedKey* key : numbers_) others *= key->size();
         others /= longest()->size();
         const bool is_map = numbers_.size() > 1 &&
@@ -148,7 +148,7 @@ private:
     const VariedKey* longest() const { return *std::ranges::max_element(numbers_, {}, &size_of); }
     static std::size_t size_of(const VariedKey* key) { return key->size(); }
 
-    /// The keys but for those that are axes.
+    /// Combinations of the keys that are not axes.
     Combinations others_than(std::vector<const VariedKey*> axes, std::size_t most,
                              const std::string& what) const {
         std::vector<const VariedKey*> rest = numbers_;
@@ -162,7 +162,7 @@ private:
         return all;
     }
 
-    /// Panels of values that are not 0 throughout: the values of each.
+    /// The values of each panel; values that are 0 throughout are left out.
     std::vector<std::vector<const RowValue*>> panels_of_values() {
         std::vector<std::vector<const RowValue*>> panels;
         std::vector<std::string> zeros;
@@ -209,7 +209,7 @@ private:
         draw_along(along, axis, x);
     }
 
-    /// Curves of all values over a place of each row, which is that of the key x.
+    /// Curves of all values over one coordinate per row, that of the key x.
     void draw_along(const std::vector<double>& along, const FigureAxis& axis, const VariedKey* x) {
         std::vector<const VariedKey*> paneled;
         for (const VariedKey* key : categories_)
@@ -259,13 +259,13 @@ private:
         }
     }
 
-    /// A name that is the only one says what does not vary.
+    /// Removes a name that is the only one, as it distinguishes nothing.
     void drop_lone_name() {
         for (Panel& panel : figure_.panels)
             for (Series& series : panel.series) series.name.clear();
     }
 
-    /// Places of rows in a grid of two keys.
+    /// The cell of a row in a grid of two keys.
     static std::size_t cell(const VariedKey* x, const VariedKey* y, std::size_t row) {
         return y->of_row[row] * x->size() + x->of_row[row];
     }
@@ -347,7 +347,7 @@ private:
     const Records& records_;
     const RowPlot& plot_;
     std::vector<VariedKey> keys_;
-    std::vector<const VariedKey*> numbers_, categories_;  ///< that vary
+    std::vector<const VariedKey*> numbers_, categories_;  ///< those that vary
     Figure figure_;
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array kCircles_deg{5.0, 30.0, 60.0, 90.0};
 constexpr std::size_t kMargin = 8;  ///< pixels
 
-/// Half as dark again, or as bright.
+/// Darkens or brightens by half.
 Ink circle_ink(const Ink& below) {
     const bool is_bright = int{below.r} + int{below.g} + int{below.b} > 3 * 30000;
     const auto mixed = [&](std::uint16_t part) {
@@ -41,7 +41,7 @@ Pixels scatterogram(
                 if (theta > 90) continue;
                 const double turn = std::atan2(y, x) / kDegree;
                 Ink color = ink(disc, theta, turn < 0 ? turn + 360 : turn);
-                const double half = 45 / radius;  // of a pixel, in degrees
+                const double half = 45 / radius;  // half a pixel, in degrees
                 for (const double circle : kCircles_deg)
                     if (std::abs(theta - std::min(circle, 90 - half)) <= half)
                         color = circle_ink(color);

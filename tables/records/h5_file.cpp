@@ -18,13 +18,13 @@ constexpr std::size_t kBufferBytes = 4U << 20U;
 
 using Offsets = std::vector<std::uint64_t>;  ///< of the columns' data in a file
 
-/// Keeps the library from printing errors itself, and from closing files when the program ends.
+/// Stops the library from printing errors and from closing files at exit.
 void silence() {
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// Keeps the innermost text of the library's error, or the system's reason.
+/// Keeps the innermost message of the library's error, or the system's reason.
 herr_t keep_reason(unsigned, const H5E_error2_t* error, void* reason) {
     std::string& text = *static_cast<std::string*>(reason);
     const std::string said = error->desc ? error->desc : "";
@@ -67,7 +67,7 @@ void require(bool is_good, const std::string& file) {
     if (!is_good) fail(file, ": cannot be written");
 }
 
-/// The type of a column, made anew.
+/// The type of a column, newly created.
 hid_t type_of(const RecordField& field) {
     if (field.type == RecordField::Type::number) return H5Tcopy(H5T_IEEE_F64LE);
     if (field.type == RecordField::Type::flag) {
@@ -83,7 +83,7 @@ hid_t type_of(const RecordField& field) {
     return type;
 }
 
-/// A file with the datasets, whose data are to be written at the offsets.
+/// A file with the datasets; their data are to be written at the returned offsets.
 Offsets create(const std::string& file, const RecordLayout& layout, std::uint64_t rows) {
     silence();
     const Handle ordered(H5Pcreate(H5P_FILE_CREATE), H5Pclose, file);
@@ -112,7 +112,7 @@ Offsets create(const std::string& file, const RecordLayout& layout, std::uint64_
     return offsets;
 }
 
-/// Where the columns' data are in a file of create().
+/// Offsets of the columns' data in a file made by create().
 Offsets offsets_in(const std::string& file, const RecordLayout& layout, std::uint64_t rows) {
     silence();
     const char* const what = ": does not match its journal";

@@ -9,14 +9,17 @@
 
 namespace irido::tables {
 
-/// Throws OutputError if HDF5 cannot have a dataset of the name of a column.
+/// Throws OutputError if a column's name is not possible for an HDF5 dataset.
 void check_h5_names(const RecordLayout& layout);
 
 /// Converts packed rows (packed_rows.hpp, strings as UTF-8) to an HDF5 file in constant memory: one
 /// contiguous dataset per column, in order; strings of fixed length in UTF-8, null-padded; flags as
-/// the boolean enumeration of h5py. No times: the bytes depend on the rows only. Throws
-/// OutputError. layout  the columns rows    number of rows part    path of the packed rows to path
-/// of the HDF5 file
+/// the boolean enumeration of h5py. Without timestamps: the bytes depend only on the rows. Throws
+/// OutputError.
+/// layout  the columns
+/// rows    number of rows
+/// part    path of the packed rows
+/// to      path of the HDF5 file
 void write_h5(const RecordLayout& layout, std::uint64_t rows, const std::string& part,
               const std::string& to);
 

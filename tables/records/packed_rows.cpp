@@ -17,7 +17,7 @@ using Type = RecordField::Type;
 
 constexpr std::size_t kCharacterBytes = sizeof(char32_t);
 
-/// The code point that begins at text[at], which is put after it.
+/// Decodes the code point at text[at] and moves `at` past it.
 char32_t code_point(const std::string& text, std::size_t& at) {
     const auto point = schemas::next_code_point(text, at);
     if (!point) throw std::invalid_argument("a text must be UTF-8 (got '" + text + "')");

@@ -13,14 +13,14 @@ namespace irido::tables {
 /// the field's width; padded with zeros.
 enum class TextCode { utf8, utf32 };
 
-/// Bytes of a field in a packed row: a number has 8, a flag 1.
+/// Bytes of a field in a packed row: 8 for a number, 1 for a flag.
 std::size_t packed_bytes(const RecordField& field, TextCode code);
 
 /// Bytes of a packed row.
 std::size_t packed_bytes(const RecordLayout& layout, TextCode code);
 
 /// Consecutive records, their fields in order without padding, little-endian. Throws
-/// std::logic_error as check_columns(), and std::invalid_argument if a string for UTF-32 is not
+/// std::logic_error like check_columns(), and std::invalid_argument if a string for UTF-32 is not
 /// valid UTF-8.
 std::string packed_rows(const RecordLayout& layout, const Records& records, TextCode code);
 

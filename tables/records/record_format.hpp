@@ -21,18 +21,18 @@ struct StreamPiece {
 /// the same length.
 enum class HeadKind { open, final };
 
-/// A format of records, written block by block or at once. The bytes of a file are
-///     head, rows of a block, separator, rows of the next block that has any, ..., tail
-/// and depend on the rows only, not on their division into blocks.
+/// A format of records, written in blocks or at once. The bytes of a file are
+///     head, rows of a block, separator, rows of the next non-empty block, ..., tail
+/// and depend only on the rows, not on their division into blocks.
 struct RecordFormat {
-    std::string_view name;  ///< as --format and as a file's extension
+    std::string_view name;  ///< value of --format, and the file extension
     std::string_view summary;
     bool is_binary;
     std::string_view separator;
     /// `rows` is the number of rows of the whole stream; an open head's length does not depend on
     /// it.
     std::string (*head)(const RecordLayout&, std::uint64_t rows, HeadKind);
-    /// The rows of one block, whose columns are those of the layout. Safe from many threads.
+    /// The rows of one block, whose columns match the layout. Thread-safe.
     std::string (*rows)(const RecordLayout&, const Records&);
     std::string_view tail;
     /// Converts the complete part file (head, rows and tail) to the final file; nullptr if the part
@@ -47,7 +47,7 @@ struct RecordFormat {
 /// All formats, by name. The list is made from the files in tables/records/formats/.
 std::span<const RecordFormat* const> record_formats();
 
-/// nullptr if there is none of that name.
+/// nullptr if there is no format of that name.
 const RecordFormat* find_record_format(std::string_view name);
 
 /// The layout of complete records: strings are as wide as the longest one.

@@ -10,10 +10,10 @@ namespace irido::tables {
 
 /// One named column of a table of records.
 struct Column {
-    using Numbers = std::vector<double>;  ///< NaN where a row has none
+    using Numbers = std::vector<double>;  ///< NaN where a row has no value
     using Texts = std::vector<std::string>;
     using Flags = std::vector<bool>;
-    /// A column with few distinct values: each value once, and per row an index into them.
+    /// A column with few distinct values: each value once, and an index into them per row.
     template <class Value>
     struct Coded {
         std::vector<Value> values;
@@ -29,7 +29,7 @@ struct Column {
     std::variant<Numbers, Texts, Flags, CodedNumbers, CodedTexts> values;
 };
 
-/// The result of a command: columns of equal length, in the order of printing.
+/// The result of a command: columns of equal length, in output order.
 struct Records {
     std::vector<Column> columns;
 
@@ -38,19 +38,19 @@ struct Records {
     void append(Records more);
 };
 
-/// Shortest text that reads back to the same double, appended.
+/// Appends the shortest text that reads back to the same double.
 void append_number(std::string& out, double value);
 
 /// Typical bytes per value in text formats, separator included.
 inline constexpr std::size_t kUsualValueBytes = 16;
 
-/// Appends the values of columns row by row; a number that is NaN is none. The text of each value
-/// of a coded column is made once.
+/// Appends the values of columns row by row; NaN means no value. The text of each value of a coded
+/// column is made only once.
 class RowWriter {
 public:
     using AppendText = void (*)(std::string& out, const std::string& text);
 
-    /// `none` is the text of a number that is missing.
+    /// `none` is the text of a missing number.
     RowWriter(const Records& records, AppendText append_text, std::string_view none);
 
     /// The value in one row of one column.
@@ -59,7 +59,7 @@ public:
 private:
     struct Source {
         const Column* column;
-        std::vector<std::string> coded;  ///< texts of a coded column's values
+        std::vector<std::string> coded;  ///< texts for a coded column's values
         const std::vector<std::uint32_t>* codes = nullptr;
     };
 

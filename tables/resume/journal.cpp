@@ -70,7 +70,7 @@ JournalHead head_of(const std::string& text) {
     return head;
 }
 
-/// FNV-1a of both texts, as 16 hexadecimal digits.
+/// FNV-1a hash of both texts, as 16 hexadecimal digits.
 std::string checksum(const std::string& head, std::string_view line) {
     std::uint64_t hash = 0xcbf29ce484222325;
     for (const std::string_view text : {std::string_view(head), line})
@@ -84,7 +84,7 @@ std::string checksum(const std::string& head, std::string_view line) {
     return digits;
 }
 
-/// Applies a complete line.
+/// Applies a complete line to the content.
 void take_line(JournalContent& content, const std::string& line, std::uint64_t end) {
     content.whole_bytes = end;
     std::istringstream words(line);
@@ -110,7 +110,8 @@ void take_line(JournalContent& content, const std::string& line, std::uint64_t e
     }
 }
 
-/// The journal, locked, though others may remove it in between; null if another process has it.
+/// Opens and locks the journal, even if others remove it in between; null if another process holds
+/// it.
 std::unique_ptr<PlainFile> open_locked(const std::string& path, const std::string& shown,
                                        bool& was_there) {
     for (;;) {

@@ -14,11 +14,11 @@
 
 namespace irido::tables {
 
-/// The journal of a stream of records: one line of JSON, then a line for each event, which ends in
-/// a checksum of itself and the first line, so that a torn or foreign line is noticed:
+/// The journal of a stream of records: one line of JSON, then a line per event, ending in a
+/// checksum of itself and the first line, so that torn or foreign lines are detected:
 ///     boot ID                 a process started writing during this boot of the machine
 ///     done UNITS ROWS BYTES   that many bytes of the part are complete blocks
-///     safe UNITS ROWS BYTES   the same, flushed to the disk
+///     safe UNITS ROWS BYTES   the same, flushed to disk
 ///     file BYTES INODE TIME [SHA256]  the finished file before its rename; a shard's checksum
 ///     complete                the file was renamed
 
@@ -32,7 +32,7 @@ struct JournalHead {
 struct Checkpoint {
     std::uint64_t units = 0, rows = 0, bytes = 0;
     bool is_safe = false;
-    std::uint64_t journal_bytes = 0;  ///< up to the end of its line
+    std::uint64_t journal_bytes = 0;  ///< up to the end of the first line
 };
 
 /// Identifies a finished file.
@@ -45,16 +45,16 @@ struct FileMark {
 /// The content of a journal, up to the first incomplete line.
 struct JournalContent {
     bool is_empty = true;
-    std::optional<JournalHead> head;  ///< none if the first line is torn or damaged
+    std::optional<JournalHead> head;  ///< empty if the first line is torn or damaged
     std::vector<Checkpoint> checkpoints;
-    std::string boot;              ///< of the last such line
-    std::optional<FileMark> file;  ///< if nothing but "complete" follows its line
+    std::string boot;              ///< from the last such line
+    std::optional<FileMark> file;  ///< if followed by nothing but "complete"
     std::string checksum;          ///< of that file, if it is a shard
     bool is_complete = false;
-    std::uint64_t whole_bytes = 0;  ///< up to the last whole line's end
+    std::uint64_t whole_bytes = 0;  ///< up to the end of the last complete line
 };
 
-/// Parses a journal. Throws OutputError if a text that is not empty does not begin as a journal.
+/// Parses a journal. Throws OutputError if non-empty text does not start like a journal.
 JournalContent read_journal(const std::string& text, const std::string& journal);
 
 /// Reads a whole file. Throws OutputError.
@@ -63,7 +63,7 @@ std::string read_whole(const std::string& path);
 /// PATH.sweep, locked against other writers while this object lives.
 class Journal {
 public:
-    /// `target` without links; errors name `shown`. Throws OutputError.
+    /// `target` has its links resolved; errors name `shown`. Throws OutputError.
     Journal(const std::string& target, const std::string& shown);
 
     const JournalContent& found() const { return found_; }
@@ -85,7 +85,7 @@ private:
     void add(const std::string& line);
 
     std::string path_, shown_;
-    bool was_there_ = false;  // before file_, whose opening sets it
+    bool was_there_ = false;  // declared before file_, whose initialization sets it
     std::unique_ptr<PlainFile> file_;
     JournalContent found_;
     std::string head_;

@@ -80,7 +80,7 @@ void require_all(const std::vector<Shard>& shards) {
         throw OutputError("shard " + std::to_string(wanted) + of + " is missing");
 }
 
-/// Throws OutputError unless each of the sorted shards begins where the one before ends.
+/// Throws OutputError unless each of the sorted shards begins where the previous one ends.
 void require_contiguous(const std::vector<Shard>& shards) {
     std::uint64_t begin = 0;
     for (const Shard& shard : shards) {
@@ -112,7 +112,7 @@ void write_to(int descriptor, std::string_view bytes, const std::string& path) {
     if (const int error = write_all(descriptor, bytes)) fail_to_write(path, error);
 }
 
-/// The rows of a shard, without its head and tail, which must be those of the format.
+/// Copies the rows of a shard, without its head and tail, which must match the format's.
 void copy_rows(const Shard& shard, const RecordFormat& format, int to, const std::string& path) {
     const PlainFile file(shard.path, PlainFile::Use::read);
     const std::string head = format.head(shard.head.layout, shard.counts.rows, HeadKind::open);

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Shortest time between two checkpoints, or if longer, the share of the run time that a kill may
+/// Minimum time between two checkpoints or, if longer, the fraction of the run time that a kill may
 /// cost: keeps the journal small.
 constexpr auto kCheckpointInterval = std::chrono::milliseconds(1);
 constexpr int kCheckpointShare = 1000;
@@ -96,7 +96,8 @@ std::uint64_t FileStream::part_bytes() const {
     return mark ? mark->bytes : 0;
 }
 
-/// A part without a journal is foreign: irido creates the journal first and removes it last.
+/// Refuses a part without a journal as foreign: irido creates the journal first and removes it
+/// last.
 void FileStream::require_own_part() {
     if (journal_.was_there() || part_bytes() == 0) return;
     journal_.remove();
@@ -111,7 +112,7 @@ void FileStream::begin() {
         const std::string head = format_.head(head_.layout, 0, HeadKind::open);
         part_ = std::make_unique<PlainFile>(part_name_, PlainFile::Use::create, path_);
         is_ours = true;
-        journal_.clear();  // first, and the part next: an old part never has a new journal
+        journal_.clear();  // before the part: an old part never gets a new journal
         part_->cut(0);
         journal_.begin(head_, target_.mode);
         part_->write_at(0, head);
@@ -140,7 +141,7 @@ void FileStream::require_same(const JournalHead& found) const {
              ": set IRIDO_SIMD=" + a.simd + ", or rerun without --resume to start over");
 }
 
-/// Whether the file is already complete; then removes leftovers.
+/// Returns whether the file is already complete; if so, removes leftovers.
 bool FileStream::take_finished(const JournalContent& found) {
     const auto mark = mark_of(target_.path);
     if (!found.file || !mark || found.checkpoints.empty()) return false;
@@ -259,9 +260,9 @@ void FileStream::suspend() {
     if (is_over_) return;
     is_over_ = true;
     try {
-        part_->cut(at_.bytes);  // first: makes room for the checkpoint on a full disk
+        part_->cut(at_.bytes);  // before the checkpoint: makes room for it on a full disk
         checkpoint(true);
-    } catch (const OutputError&) {  // the last checkpoint that was written stands
+    } catch (const OutputError&) {  // the last checkpoint written remains valid
     }
 }
 
@@ -327,7 +328,7 @@ private:
     std::string name_;
     const RecordFormat& format_;
     RecordLayout layout_;
-    std::unique_ptr<NewFile> file_;  ///< of the descriptor, if it is one
+    std::unique_ptr<NewFile> file_;  ///< owner of the descriptor, if it is a file
     std::string head_;
     bool has_begun_ = false;
     std::uint64_t units_ = 0, rows_ = 0;

@@ -47,13 +47,14 @@ std::array<float, kRecordNumbers> record_of(const Scratch& scratch, SurfacePoint
             single(scratch.depth_um)};
 }
 
-/// A grid file whose sizes fit its header.
+/// A grid file whose sizes match its header.
 struct OpenGrid {
     std::string_view records, offsets, entries;
     std::uint32_t scratches = 0, columns = 0, rows = 0;
 };
 
-/// Every scratch must be in the cells in which its points are, a step of a quarter cell apart.
+/// A scratch must be listed in every cell that contains one of its points, taken a quarter cell
+/// apart.
 bool is_listed(const OpenGrid& grid, std::uint32_t scratch, double cell_um) {
     const auto number = [&](std::size_t i) {
         return static_cast<double>(number_in(grid.records, scratch * kRecordNumbers + i));

@@ -15,7 +15,7 @@ namespace irido::tables {
 struct GridExtent {
     SurfacePoint origin{};  ///< the corner of cell 0, um
     double width_um = 1000, height_um = 1000, cell_um = 100;
-    double reach_um = 360;  ///< how far off a scratch counts
+    double reach_um = 360;  ///< maximum distance at which a scratch counts
 };
 
 /// The scratches of a surface that come nearer to the rectangle than its reach, and some more
@@ -27,7 +27,7 @@ std::vector<Scratch> scratches_within(const ScratchedSurface& surface, const Gri
 ///              depth, um; ends of endless scratches are -+3e38
 ///     offsets  uint32 [cells + 1]; cell = row columns + column
 ///     entries  uint32: those of a cell are records[entries[offsets[cell]]] and so on, ascending
-/// The header says where each of them begins, and what the rectangle is.
+/// The header gives the offset of each buffer, and the rectangle.
 struct GridFile {
     std::string bytes;
     nlohmann::json header;
@@ -35,8 +35,8 @@ struct GridFile {
 inline constexpr const char* kGridKind = "scratch-grid";
 GridFile grid_file(std::span<const Scratch> scratches, const GridExtent& extent);
 
-/// What is wrong with the bytes of a grid file, one line each: a size, the checksum, an entry out
-/// of range or order, a scratch that is missing in a cell that it crosses.
+/// Errors in the bytes of a grid file, one line each: a wrong size or checksum, an entry out of
+/// range or order, a scratch missing from a cell that it crosses.
 std::vector<std::string> grid_problems(std::string_view bytes, const nlohmann::json& header);
 
 }  // namespace irido::tables

@@ -15,24 +15,24 @@ struct Snippet {
     std::string_view name, text;
 };
 
-/// Written once, in a language of the words below.
+/// Written once, using the words below for the language.
 constexpr Snippet kSnippets[] = {
 #include "shaders.inc"
 };
 
-/// Those that there are in WGSL, complete.
+/// Snippets available in WGSL, complete.
 constexpr Snippet kWgslSnippets[] = {
 #include "wgsl_shaders.inc"
 };
 
-/// Parts of others, nothing by themselves.
+/// Parts of other snippets, useless on their own.
 constexpr std::array<std::string_view, 2> kParts{"common", "complex"};
 
 struct Word {
     std::string_view word, glsl, hlsl;
 };
 
-/// Types and functions. $ stands for the first argument, & for the others with their comma.
+/// Types and functions. $ stands for the first argument, & for the others with their commas.
 constexpr Word kWords[] = {
     {"float2", "vec2", "float2"},
     {"float3", "vec3", "float3"},
@@ -55,7 +55,7 @@ const Snippet& snippet(std::string_view name) {
     return *std::ranges::find(kSnippets, name, &Snippet::name);
 }
 
-/// The place after the parenthesis that closes the one at `open`.
+/// The position after the parenthesis that closes the one at `open`.
 std::size_t after_parentheses(std::string_view text, std::size_t open) {
     int depth = 0;
     std::size_t i = open;
@@ -68,7 +68,7 @@ std::size_t after_parentheses(std::string_view text, std::size_t open) {
 
 std::string translated(std::string_view text, bool is_glsl);
 
-/// A word that takes arguments, with them filled in.
+/// A word that takes arguments, with these filled in.
 std::string filled(std::string_view pattern, std::string_view arguments, bool is_glsl) {
     const std::size_t comma = arguments.find(',');
     const std::string_view first = arguments.substr(0, comma);
@@ -114,7 +114,7 @@ std::string translated(std::string_view text, bool is_glsl) {
     return result;
 }
 
-/// The snippet's text after those that it uses and that are not there yet.
+/// Appends a snippet after those that it uses and that are not there yet.
 void append(std::string& out, std::string_view name, std::vector<std::string_view>& there) {
     constexpr std::string_view use = "//! use:";
     if (std::ranges::find(there, name) != there.end()) return;

@@ -14,16 +14,16 @@ namespace {
 
 using nlohmann::json;
 
-/// CIEDE2000, of colours by the page's wavelengths and by twice as many.
+/// CIEDE2000 between colours computed with the page's wavelengths and with twice as many.
 constexpr double kViewTolerance = 0.05;
-/// More would make the page slow.
+/// More nodes would make the page slow.
 constexpr std::size_t kMostNodes = 600;
 
 constexpr const char* kPage =
 #include "view_page.inc"
     ;
 
-/// Where the slider of a layer's thickness ends.
+/// Upper end of the slider for a layer's thickness.
 double largest_thickness(double thickness_nm) {
     constexpr double kThin_nm = 1000, kRoom_nm = 400;
     const double most =
@@ -64,7 +64,7 @@ std::vector<double> checked_angles_deg() {
     return {0, 15, 30, 45, 60, 70, 80, 85};
 }
 
-/// Linear sRGB of a stack at these angles by the page's method.
+/// Linear sRGB of a stack at these angles, computed as the page does.
 std::vector<Triple> page_colors(const Stack& stack, const ColorNodes& nodes) {
     std::vector<IncidentAngle> incidence;
     for (const double angle_deg : checked_angles_deg())
@@ -81,7 +81,7 @@ std::vector<Triple> page_colors(const Stack& stack, const ColorNodes& nodes) {
     return colors;
 }
 
-/// Two digits, not below the value.
+/// Rounded up to two digits.
 double rounded_up(double value) {
     if (value < 1e-4) return 1e-4;
     const double unit = std::pow(10, 1 - std::floor(std::log10(value)));
@@ -114,7 +114,7 @@ json media_of(const Stack& stack, const std::vector<double>& wavelength_nm) {
     return media;
 }
 
-/// JSON that may stand inside of HTML.
+/// JSON that is safe inside HTML.
 std::string inert(const json& data) {
     std::string text;
     for (const char c : data.dump(-1, ' ', false, json::error_handler_t::replace)) {
@@ -134,7 +134,7 @@ std::string view_page(const ColorTables& tables, const RgbTransform& to_srgb,
     const Stack stack = held_stack(*request.stack, tables.sensitivity());
     Stack thickest = stack;
     make_thickest(thickest.elements);
-    // for the thickest layers where that is possible, but for the given ones in any case
+    // chosen for the thickest layers if possible, and at least for the given ones
     const auto nodes_for = [&](const std::vector<const Stack*>& stacks) {
         return enough_nodes(
             tables.sensitivity(), to_srgb,

@@ -1,4 +1,4 @@
-// How far spectra and colours are from independent methods on seeded random stacks: ./dev accuracy
+// Errors of spectra and colours against independent methods on seeded random stacks: ./dev accuracy
 //   spectra  against transfer matrices in 100 digits
 //   colours  against adaptive Gauss-Legendre integration of every cell between two rows
 #include <algorithm>
@@ -53,7 +53,8 @@ struct ColorErrors {
     std::size_t violations = 0, evaluations = 0;
 };
 
-/// One random stack in one light by auto against the independent integration.
+/// Compares one random stack, for one illuminant and with method auto, with the independent
+/// integration.
 void compare_color(oracle::Kind kind, std::uint64_t seed, double tolerance, ColorErrors& result,
                    std::mutex& lock) {
     oracle::Random random(seed);

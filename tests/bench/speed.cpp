@@ -1,5 +1,5 @@
-// Times of the parts that a colour is made of, on this machine: ./dev bench. Those of spectra are
-// in `irido bench speed`.
+// Times of the parts of a colour computation on this machine: ./dev bench. For spectra, see `irido
+// bench speed`.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -25,7 +25,7 @@ Stack stack_of(const std::string& expression) {
     return read_stack({expression, {}}).stack;
 }
 
-/// Items are colours: 81 angles at once, with all that is computed once for them.
+/// Items are colours: 81 angles at once, including the work done once for all of them.
 void color(benchmark::State& state, const Stack& stack) {
     const Sensitivity sensitivity(observer(2), illuminant("D65"));
     std::vector<double> angles(81);
@@ -37,7 +37,7 @@ void color(benchmark::State& state, const Stack& stack) {
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(angles.size()));
 }
 
-/// Items are colours: 200 thicknesses of the middle one of some layers, at one angle.
+/// Items are colours: 200 thicknesses of the middle layer, at one angle.
 ///   shared  whether the layers that do not vary are computed once
 void sweep(benchmark::State& state, bool shared, const char* first, const char* substrate) {
     const auto layers = static_cast<std::size_t>(state.range(0));

@@ -1,4 +1,4 @@
-// What the sources of the examples say of their colours.
+// What the examples' sources say about their colours.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -26,7 +26,7 @@ struct Seen {
     double Y = 0;
 };
 
-/// The reflected colour of an example, with what else is set.
+/// The reflected colour of an example, with further settings.
 Seen seen(const std::string& example, const std::string& angle,
           const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments{"color", "schemas/examples/" + example + ".json", "-a",
@@ -47,10 +47,10 @@ Seen seen(const std::string& example, const std::string& angle,
 
 }  // namespace
 
-// FPB24 calls the three zones green, red and purple at normal incidence. The air's reflection on
-// the first layer, 5 % at all wavelengths, greys all of them: what is left is which of R, G and B
-// is largest. Without it (light from the index of the first layer) the periods have the hue of
-// their gap, at 521, 623 and 672 nm.
+// FPB24 calls the three zones green, red and purple at normal incidence. Reflection of the first
+// layer in air, 5 % at all wavelengths, desaturates all of them: only which of R, G and B is
+// largest can be compared. Without it (with light incident from the first layer's index) the
+// periods have the hue of their gap, at 521, 623 and 672 nm.
 TEST_CASE("the jewel beetle's zones are green and red, the purple one is a deep red",
           "[cli][examples]") {
     const Seen green = seen("jewel-beetle-green", "0"), red = seen("jewel-beetle-red", "0"),
@@ -58,7 +58,7 @@ TEST_CASE("the jewel beetle's zones are green and red, the purple one is a deep 
     CHECK(green.rgb[1] > 1.2 * std::max(green.rgb[0], green.rgb[2]));
     CHECK(red.rgb[0] > 1.1 * std::max(red.rgb[1], red.rgb[2]));
     CHECK(purple.rgb[0] > 1.3 * std::max(purple.rgb[1], purple.rgb[2]));
-    // as much blue as green, as in no other zone: the nearest that one gap comes to purple
+    // as much blue as green, unlike the other zones: the closest that a single gap comes to purple
     CHECK(purple.rgb[2] / purple.rgb[1] > 0.97);
     CHECK(red.rgb[2] / red.rgb[1] < 0.85);
     for (const Seen& zone : {green, red, purple}) CHECK(zone.chroma() < 10);
@@ -66,16 +66,16 @@ TEST_CASE("the jewel beetle's zones are green and red, the purple one is a deep 
     const Seen own_green = seen("jewel-beetle-green", "0", {"incident=1.59"});
     const Seen own_red = seen("jewel-beetle-red", "0", {"incident=1.6"});
     const Seen own_purple = seen("jewel-beetle-purple", "0", {"incident=1.6"});
-    // CIELAB's hues that are called green lie about 160 degrees, halfway to yellow and to cyan at
-    // most; reds about 25, up to halfway to yellow (90); purples from 300 (violet) to 350 (crimson)
+    // CIELAB hues called green are around 160 degrees, at most halfway to yellow or cyan; reds
+    // around 25, up to halfway to yellow (90); purples from 300 (violet) to 350 (crimson)
     CHECK((own_green.hue_deg() > 125 && own_green.hue_deg() < 190));
     CHECK((own_red.hue_deg() > 0 && own_red.hue_deg() < 58));
-    // 672 nm alone is red: the blue that would make purple is not in these layers
+    // 672 nm alone is red: these layers lack the blue that would make purple
     CHECK((own_purple.hue_deg() > 0 && own_purple.hue_deg() < own_red.hue_deg()));
     CHECK(own_green.chroma() > 60);
     CHECK(own_red.chroma() > 40);
     CHECK(own_purple.chroma() > 20);
-    // a longer period is a darker red, where the eye sees less
+    // a longer period gives a darker red, where the eye is less sensitive
     CHECK(own_purple.lab[0] < 0.5 * own_red.lab[0]);
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("the jewel beetle's green turns blue as it tilts", "[cli][examples]") 
 TEST_CASE("figure 10: 30 nm are visible, more periods change most under a coating",
           "[cli][examples]") {
     const Seen one = seen("fpb24-figure10-a", "0"), next = seen("fpb24-figure10-b", "0");
-    CHECK(ciede2000(one.lab, next.lab) > 10);  // 1 is just noticed, 10 seen at a glance
+    CHECK(ciede2000(one.lab, next.lab) > 10);  // 1 is barely noticeable, 10 obvious at a glance
     const auto gain = [](const std::string& example) {
         return seen(example, "30", {"layers.0.repeat=10"}).Y / seen(example, "30").Y;
     };

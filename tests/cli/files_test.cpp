@@ -14,7 +14,7 @@ const std::string kStack = R"({"name": "film", "incident": "air",
 const std::string kGlass = "300,1.5\n900,1.45\n";
 const std::string kWithMetal = "air | TiO2@100 | Si";
 
-/// A folder with a stack, its material, an illuminant, points and links to the stack.
+/// A folder with a stack, its material, an illuminant, points, and links to the stack.
 class InputFolder {
 public:
     InputFolder() {
@@ -356,7 +356,7 @@ for file in sys.argv[1:]:
             "'layers.0.material={\"n\": 1.5, \"name\": " +
             odd + "},Si' -o " + file + " && python3 check.py " + file + ".sweep");
 
-    // names of files and folders that are no text
+    // file and folder names that are not valid text
     fs::create_directory(folder / "d\xFF");
     write_text(folder / "d\xFF/s\x01\xFF]]>.json", R"({"materials": [
         {"name": "a", "stack": "../odd.json", "shading": "color", "angles_deg": [0, 60]}]})");
@@ -420,7 +420,7 @@ TEST_CASE("memory does not grow with the rows of a spectrum", "[cli][files][slow
     const double of_few = peak_mib("300"), of_many = peak_mib("1500");
     CHECK(of_few > 1);
     CHECK(of_many > 1);
-#ifndef __SANITIZE_ADDRESS__  // which keeps what is freed
+#ifndef __SANITIZE_ADDRESS__  // which delays freeing memory
     CHECK(of_many < of_few + 60);
 #endif
 }

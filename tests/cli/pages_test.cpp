@@ -19,7 +19,7 @@ struct Example {
     std::string command, output;
 };
 
-/// Every "    $ command" of a page with the indented lines that follow it.
+/// Every "    $ command" of a page, with the indented lines that follow.
 std::vector<Example> examples(const std::string& page) {
     const std::string indent = "    ";
     std::vector<Example> found;
@@ -38,8 +38,7 @@ std::vector<Example> examples(const std::string& page) {
     return found;
 }
 
-/// Of a whole field; nothing if it is anything else than a number from its first character to its
-/// last.
+/// The number that makes up the whole field, or nothing.
 std::optional<double> number_in(const std::string& field) {
     double value = 0;
     const char* const end = field.data() + field.size();
@@ -48,10 +47,10 @@ std::optional<double> number_in(const std::string& field) {
     return value;
 }
 
-/// Equal texts; numbers to 16 units in the last place of 1, or of themselves if they are larger:
-/// what is shown are sums of terms of the size of 1 (powers, weights of a colour), whose last
-/// digits depend on the SIMD level, that is on how many of them are added at once. Up to 9 were
-/// seen.
+/// Compares texts exactly, and numbers to 16 units in the last place of 1, or of themselves if
+/// larger: the outputs are sums of terms of order 1 (powers, weights of a colour), whose last
+/// digits depend on the SIMD level, that is on how many terms are added at once. Differences of up
+/// to 9 have occurred.
 bool same_field(const std::string& a, const std::string& b) {
     if (a == b) return true;
     constexpr double kMost = 16 * std::numeric_limits<double>::epsilon();
@@ -59,7 +58,7 @@ bool same_field(const std::string& a, const std::string& b) {
     return x && y && std::abs(*x - *y) <= kMost * std::max(1.0, std::abs(*y));
 }
 
-/// Both in fields and lines, of which every one must be there.
+/// Compares two outputs line by line and field by field; none may be missing.
 void check_same(const std::string& got_text, const std::string& want_text) {
     const auto got = parse_csv(got_text), want = parse_csv(want_text);
     REQUIRE(got.size() == want.size());

@@ -17,14 +17,15 @@ double between_rows(const Table& table, double nm) {
     return (table.value[i - 1] * (x1 - nm) + table.value[i] * (nm - x0)) / (x1 - x0);
 }
 
-/// Observer times illuminant where both are linear, and the spectrum under them.
+/// Observer times illuminant where both are linear, times the spectrum.
 class Integrand {
 public:
     Integrand(const std::function<double(double)>& spectrum, const Observer& observer,
               const Table& illuminant)
         : spectrum_(spectrum), observer_(observer), illuminant_(illuminant) {}
 
-    /// Tables seen from the middle of the piece that is integrated, so that its ends do not ask.
+    /// Sets the current piece; tables are looked up from its midpoint, so that its ends are
+    /// unambiguous.
     void enter(double first_nm, double last_nm) {
         const double middle = (first_nm + last_nm) / 2;
         row_ = static_cast<std::size_t>(std::floor(middle - kFirstRow_nm));

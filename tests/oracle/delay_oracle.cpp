@@ -49,7 +49,7 @@ struct Amplitudes {
     Cx r, t;
 };
 
-/// r and t by adding one layer after the other on top.
+/// Computes r and t by adding one layer at a time on top.
 class AiryStack {
 public:
     AiryStack(const Stack& stack, double wavelength_nm, double angle_deg, Polarization polarization,
@@ -80,7 +80,7 @@ private:
         return {kz, polarization_ == Polarization::s ? kz : eps / kz};
     }
 
-    /// The face between `above` and the topmost medium so far, with all below it.
+    /// Adds the interface between `above` and the current topmost medium, and everything below it.
     void put_face_under(const Medium& above) {
         const Cx f = (above.y - below_.y) / (above.y + below_.y);
         const Cx bounces = one() + f * total_.r;

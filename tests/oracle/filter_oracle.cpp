@@ -8,7 +8,7 @@ namespace irido::oracle {
 
 namespace {
 
-// more digits than are wanted: at grazing angles and small alpha some are lost
+// more digits than required: at grazing angles and for small alpha some are lost
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<70>,
                                            boost::multiprecision::et_off>;
 

@@ -29,7 +29,7 @@ void write_out(const std::vector<Element>& elements, std::vector<Layer>& out) {
     }
 }
 
-/// Fields at every interface, the lowest first, for a wave of unit tangential field that leaves.
+/// Fields at every interface, the lowest first, for an outgoing wave of unit tangential field.
 struct Solution {
     std::vector<Layer> layers;
     std::vector<Fields> fields;

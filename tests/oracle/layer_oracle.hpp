@@ -6,12 +6,12 @@
 
 namespace irido::oracle {
 
-/// Power absorbed in every layer of a coherent stack, groups written out, the first layer's first:
-/// the difference of the Poynting fluxes at its faces, in 100 digits. The fields are waves exp(+-i
-/// kz z) of each layer, matched at every interface from the substrate up.
+/// Power absorbed in each layer of a coherent stack, with groups expanded, starting with the first
+/// layer: the difference of the Poynting fluxes at its faces, in 100 digits. The fields are waves
+/// exp(+-i kz z) in each layer, matched at every interface from the substrate up.
 std::vector<double> layer_absorption(const Stack& stack, const Query& query);
 
-/// Amplitudes of the tangential electric field, reflected and transmitted, from the same fields.
+/// Reflected and transmitted amplitudes of the tangential electric field, from the same fields.
 struct Amplitudes {
     Complex r, t;
 };

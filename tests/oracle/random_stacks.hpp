@@ -21,22 +21,22 @@ enum class Kind {
     bragg,            ///< two-layer periods, 2 to 30 of them
     thick_film,       ///< 2 to 20 um
     metal_cavity,     ///< a dielectric between two thin metals
-    mirror,           ///< two-layer periods in the medium of the first one, 1 to 300 of them
+    mirror,           ///< two-layer periods in the first one's medium, 1 to 300 of them
 };
-inline constexpr std::size_t kKinds = 8;     ///< without the mirrors, whose oracle takes long
-inline constexpr std::size_t kAllKinds = 9;  ///< with them
+inline constexpr std::size_t kKinds = 8;     ///< without mirrors, whose oracle is slow
+inline constexpr std::size_t kAllKinds = 9;  ///< with mirrors
 std::string_view name_of(Kind kind);
 
 Stack random_stack(Kind kind, Random& random);
 
-/// The layer with powers, not amplitudes, added across it; the layer with a spread thickness.
+/// Makes the layer incoherent, or gives it a thickness distribution.
 Element incoherent(Element layer);
 Element spread(Element layer, double sigma_nm);
 
-/// 0 to 89, every fifth above 75.
+/// 0 to 89 degrees, every fifth above 75.
 double random_angle(Random& random);
 
-/// One line that says it all, for messages.
+/// Complete description on one line, for messages.
 std::string text_of(const Stack& stack);
 
 }  // namespace irido::oracle

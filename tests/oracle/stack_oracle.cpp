@@ -24,7 +24,7 @@ Power as_power(const std::array<R, 2>& rt) {
 using Extended = long double;
 using Mean = std::array<Extended, 2>;
 
-/// A stack whose layers change.
+/// A stack whose layers are modified.
 struct Averaged {
     textbook::Transfer<Extended> transfer;
     Polarization polarization;
@@ -33,7 +33,12 @@ struct Averaged {
         : transfer(stack, query.wavelength_nm, query.angle_deg), polarization(query.polarization) {}
 };
 
-/// Mean over a turn of each incoherent layer's phase.
+/// Mean over a full period of each incoherent layer's phase.
+/// stack     the stack, modified by the call
+/// elements  its elements
+/// points    number of points per phase
+/// phases    current phases
+/// layer     index of the layer to average
 Mean phase_mean(Averaged& stack, std::span<const Element> elements, int points,
                 std::vector<Extended>& phases, std::size_t layer) {
     if (layer == phases.size()) {

@@ -5,23 +5,24 @@
 
 namespace irido::test {
 
-/// What the real program did.
+/// Output and exit status of a run of the program.
 struct Outcome {
     int status = -1;
     std::string out, err;
 };
 
-/// Runs the built irido with these arguments in `folder`, `input` on its standard input.
+/// Runs the built irido with these arguments in `folder`, with `input` on standard input.
 Outcome run_irido(const std::vector<std::string>& arguments, const std::string& input = "",
                   const std::string& folder = IRIDO_SOURCE_DIR);
 
 /// Runs a shell command in `folder`; $IRIDO is the built program.
 Outcome run_shell(const std::string& command, const std::string& folder);
 
-/// Exit status 2, nothing on standard output, one line on standard error that contains `error`.
+/// Checks for exit status 2, nothing on standard output, and one line on standard error that
+/// contains `error`.
 void check_refused(const Outcome& outcome, const std::string& error);
 
-/// An empty folder that is removed with all it holds.
+/// An empty folder that is removed with its contents at the end.
 class TemporaryFolder {
 public:
     TemporaryFolder();

@@ -10,19 +10,19 @@ namespace irido::test {
 
 using namespace tables;
 
-/// Columns of every kind, and names and texts of which no format can do without quoting.
+/// Columns of every type, with names and strings that need quoting in some format.
 RecordLayout sample_layout();
 
 /// Rows first, first + 1, ... of an endless sample.
 Records sample_rows(std::uint64_t first, std::uint64_t count);
 
-/// One dataset of an HDF5 file: its values as texts.
+/// One dataset of an HDF5 file, with its values as strings.
 struct H5Column {
     std::string name, type;
     std::vector<std::string> values;
 };
 
-/// The datasets in the order in which they were made, and what is odd about the file: a time, a
+/// The datasets in order of creation, and anything unusual about the file: a timestamp, or a
 /// dataset that is not contiguous.
 struct H5Content {
     std::vector<H5Column> columns;

@@ -33,6 +33,11 @@ inline StreamIdentity identity_of(std::uint64_t total, std::uint64_t shard = 1,
         total,     shards > 1};
 }
 
+/// Appends one block.
+/// stream    the stream
+/// format    format of its rows
+/// identity  identity of the stream
+/// count     number of units in the block
 inline void append_units(RecordStream& stream, const RecordFormat& format,
                          const StreamIdentity& identity, std::uint64_t count) {
     const std::uint64_t first = identity.begin + stream.units_done();
@@ -40,7 +45,13 @@ inline void append_units(RecordStream& stream, const RecordFormat& format,
     stream.append(format.rows(sample_layout(), sample_rows(row, rows)), count, rows);
 }
 
-/// Appends blocks of up to so many units until the stream has the first `until` units.
+/// Appends blocks of up to `most` units until the stream has the first `until` units.
+/// stream    the stream
+/// format    format of its rows
+/// identity  identity of the stream
+/// until     unit to stop at
+/// random    source of block sizes
+/// most      largest number of units per block
 inline void append_until(RecordStream& stream, const RecordFormat& format,
                          const StreamIdentity& identity, std::uint64_t until, std::mt19937& random,
                          std::uint64_t most = 40) {
@@ -49,7 +60,7 @@ inline void append_until(RecordStream& stream, const RecordFormat& format,
                      std::min(1 + random() % most, until - stream.units_done()));
 }
 
-/// The bytes of units [0, total) written in one go.
+/// The bytes of units [0, total) written at once.
 inline std::string whole(const RecordFormat& format, std::uint64_t total) {
     const std::uint64_t rows = rows_before(total);
     const Records all = sample_rows(0, rows);
@@ -62,6 +73,11 @@ inline std::string whole(const RecordFormat& format, std::uint64_t total) {
     return read_file(folder / "whole");
 }
 
+/// Opens a file for sample rows.
+/// path      the file
+/// format    format of the rows
+/// identity  identity of the stream
+/// resume    continue an unfinished part
 inline std::unique_ptr<RecordStream> open_stream(const std::string& path,
                                                  const RecordFormat& format,
                                                  const StreamIdentity& identity,
@@ -69,7 +85,11 @@ inline std::unique_ptr<RecordStream> open_stream(const std::string& path,
     return record_file(path, format, sample_layout(), identity, resume);
 }
 
-/// Writes a file of all units.
+/// Writes a file with all units.
+/// path      the file
+/// format    format of the rows
+/// identity  identity of the stream
+/// resume    continue an unfinished part
 inline void write_stream(const std::string& path, const RecordFormat& format,
                          const StreamIdentity& identity, bool resume = false) {
     std::mt19937 random(7);
@@ -78,9 +98,9 @@ inline void write_stream(const std::string& path, const RecordFormat& format,
     stream->finish();
 }
 
-/// Runs `work` in a process of its own, which is killed so many microseconds after it began if that
-/// is not negative. Its status: 0, or what `work` returns, 99 for an exception, -1 if it was
-/// killed.
+/// Runs `work` in a child process; if `microseconds` is not negative, the child is killed that long
+/// after its start. Returns its status: 0, or the result of `work`, 99 for an exception, -1 if it
+/// was killed.
 inline int in_child(const std::function<int()>& work, int microseconds = -1) {
     int began[2];
     if (pipe(began) != 0) return 98;
@@ -113,7 +133,7 @@ inline std::vector<std::string> names_in(const std::string& folder) {
     return names;
 }
 
-/// What the OutputError says.
+/// The message of the OutputError thrown by `run`, "" if none.
 inline std::string refusal(const std::function<void()>& run) {
     try {
         run();
@@ -123,12 +143,12 @@ inline std::string refusal(const std::function<void()>& run) {
     return "";
 }
 
-/// Of each format.
+/// Number of kills per format.
 inline int kills() {
     const char* const text = std::getenv("IRIDO_TEST_KILLS");
     if (text) return std::atoi(text);
 #ifdef __SANITIZE_ADDRESS__
-    return 20;  // a fork of so large a process takes long
+    return 20;  // forking such a large process is slow
 #else
     return 100;
 #endif

@@ -7,15 +7,15 @@
 
 namespace irido {
 
-/// "not run: avx2, avx512 (instructions that this machine lacks)" of the levels for which `has` is
+/// "not run: avx2, avx512 (instructions that this machine lacks)" for the levels for which `has` is
 /// false; "" if it has all.
 std::string lacking_levels(bool (*has)(SimdLevel));
 
-/// The levels that this machine runs, in the order of kSimdLevels. What it lacks stands in the
-/// output as a warning, once a test case: a test that passes there has not looked at them.
+/// The levels that this machine supports, in the order of kSimdLevels. Unsupported ones are
+/// reported as a warning, once per test case: a passing test has not covered them.
 std::vector<SimdLevel> tested_levels();
 
-/// The same without the plain kernel.
+/// tested_levels() without the plain kernel.
 std::vector<SimdLevel> tested_vector_levels();
 
 }  // namespace irido

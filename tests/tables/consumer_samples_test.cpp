@@ -33,7 +33,7 @@ void write_as(const char* format, const Lut& lut, const std::string& name,
 
 }  // namespace
 
-// Hidden: tests/consumers runs it, and reads the files with what others have written.
+// Hidden: run by tests/consumers, which reads the files with other programs.
 TEST_CASE("files of every layout for other programs", "[.consumers]") {
     const char* const folder = std::getenv("IRIDO_SAMPLES");
     if (!folder) return;

@@ -13,7 +13,7 @@ using Catch::StartsWith;
 
 namespace {
 
-/// What the build's script writes for a folder, by lines.
+/// The lines that the build script writes for a folder.
 std::string version_of(const std::string& folder, const std::string& git,
                        const std::string& header) {
     const Outcome outcome = run_shell(
@@ -64,8 +64,8 @@ TEST_CASE("the commit is that of a checkout, its changes counted in", "[version]
     const std::string commit = git("rev-parse --short=12 HEAD");
     CHECK(version_of(at) == header_with(commit));
     CHECK(version_of(at, "") == header_with(""));
-    CHECK(version_of(at + "/room") == header_with(""));  // a folder inside of another's checkout
-    write_text(folder / "other/a", "2\n");               // nothing that the program is made of
+    CHECK(version_of(at + "/room") == header_with(""));  // a folder inside another checkout
+    write_text(folder / "other/a", "2\n");               // not part of the program
     CHECK(version_of(at) == header_with(commit));
     write_text(folder / "room/a", "2\n");
     const std::string changed = version_of(at);
@@ -75,7 +75,7 @@ TEST_CASE("the commit is that of a checkout, its changes counted in", "[version]
     CHECK(version_of(at) != changed);
     write_text(folder / "room/a", "1\n");
     CHECK(version_of(at) == header_with(commit));
-    write_text(folder / "room/b", "");  // not yet known to git
+    write_text(folder / "room/b", "");  // not yet tracked by git
     CHECK_THAT(version_of(at), Contains(commit + "-dirty-"));
 }
 

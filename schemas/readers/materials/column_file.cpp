@@ -61,7 +61,7 @@ std::optional<ValueColumn> value_column(std::string_view column) {
     return ValueColumn{found->quantity, negated};
 }
 
-/// Which column of a table is what.
+/// Assigns meanings to the columns of a table.
 struct Layout {
     std::optional<std::size_t> spectral, real, imaginary;
     std::optional<SpectralUnit> unit;
@@ -69,7 +69,7 @@ struct Layout {
     double sign = 1;  ///< of the imaginary part
 };
 
-/// Nothing for names that are not known, or not n, k or eps1, eps2 over one spectral column.
+/// Empty if a name is unknown, or unless there are n, k or eps1, eps2 over one spectral column.
 std::optional<Layout> layout_of(const std::vector<std::string>& header) {
     Layout layout;
     std::optional<Quantity> real, imaginary;
@@ -99,7 +99,7 @@ bool are_index_columns(const std::vector<std::string>& header) {
     return layout_of(header).has_value();
 }
 
-/// Wavelengths of rows in nm, in the order of the file.
+/// Rows with wavelengths in nm, in file order.
 std::vector<IndexRow> rows_of(const ColumnText& table, const Layout& layout, SpectralUnit unit,
                               const std::string& name) {
     std::vector<IndexRow> rows;
@@ -115,7 +115,7 @@ std::vector<IndexRow> rows_of(const ColumnText& table, const Layout& layout, Spe
     return rows;
 }
 
-/// n + ik of a permittivity whose imaginary part is not negative.
+/// Replaces a permittivity with non-negative imaginary part by n + ik.
 void take_roots(std::vector<IndexRow>& rows) {
     for (IndexRow& row : rows) {
         const std::complex<double> root = std::sqrt(std::complex(row[1], row[2]));
@@ -124,7 +124,7 @@ void take_roots(std::vector<IndexRow>& rows) {
     }
 }
 
-/// Long waves in nm, or angstroms?
+/// Notes wavelengths so long in nm that they may be angstroms.
 void note_angstroms(const std::vector<IndexRow>& rows, std::vector<std::string>& notes) {
     if (rows.front()[0] >= 1000 && rows.back()[0] <= 30000)
         notes.push_back("no header: wavelengths taken as " + to_text(rows.front()[0]) + " to " +

@@ -20,7 +20,7 @@ bool is_refractiveindex_info(std::string_view text) {
            text.find("\rDATA:") != std::string_view::npos;
 }
 
-/// Whether a text is none: a file of Matlab, UTF-16, or any bytes.
+/// Whether the content is not text: a Matlab file, UTF-16, or arbitrary bytes.
 bool is_binary(std::string_view text) {
     return text.starts_with("MATLAB") || text.substr(0, 4096).find('\0') != std::string_view::npos;
 }

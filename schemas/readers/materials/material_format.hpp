@@ -8,7 +8,7 @@
 
 namespace irido::schemas {
 
-/// A format of material files, which is told by the text and not by the file's name.
+/// A format of material files, recognized by content rather than by file name.
 struct MaterialFormat {
     std::string_view name;
     bool (*is)(std::string_view text);
@@ -16,7 +16,7 @@ struct MaterialFormat {
     MaterialFile (*read)(std::string_view text, const std::string& name);
 };
 
-/// All but tables of columns, which are what is none of these.
+/// All formats except tables of columns, which are the fallback.
 std::span<const MaterialFormat> material_formats();
 
 }  // namespace irido::schemas

@@ -16,7 +16,7 @@ namespace irido::schemas {
 
 namespace {
 
-/// The value of a line "Keyword: value", nothing for any other line.
+/// The value of a line "Keyword: value"; empty for any other line.
 std::optional<std::string_view> value_after(std::string_view keyword, std::string_view line) {
     line = trimmed(line);
     if (!line.starts_with(keyword)) return std::nullopt;
@@ -31,7 +31,7 @@ bool is_end(std::string_view line) {
            (line[2] | 0x20) == 'd';
 }
 
-/// What stands under "Properties:".
+/// The contents of "Properties:".
 struct OpenFiltersMaterial {
     std::string kind, model;
     TextLine properties;         ///< its line
@@ -69,7 +69,7 @@ OpenFiltersMaterial parse_material(const std::vector<TextLine>& lines, const std
     throw InputError(name, place_of(line, part), message);
 }
 
-/// n + ik of "2.4-0.01j", k as irido has it.
+/// n + ik of "2.4-0.01j", with irido's sign of k.
 std::pair<double, double> index_of(const std::string& name, const TextLine& line,
                                    std::string_view text) {
     if (text.starts_with('(') && text.ends_with(')')) text = text.substr(1, text.size() - 2);

@@ -7,12 +7,12 @@
 
 namespace irido::schemas {
 
-/// Whether a text is a material of OpenFilters: lines "Keyword: value", Kind and Model among them.
+/// Whether a text is an OpenFilters material: lines "Keyword: value", including Kind and Model.
 bool is_openfilters_material(std::string_view text);
 
-/// Its material, of model constant, table, Cauchy or Sellmeier, where a negative imaginary part is
-/// loss. Tables are linear between their rows here, monotone cubics there; Urbach tails become
-/// tables. Mixtures are refused. Throws InputError with file `name` and "line:column".
+/// Reads a material with model constant, table, Cauchy or Sellmeier; a negative imaginary part
+/// means loss. Tables are interpolated linearly here, by monotone cubics in OpenFilters; Urbach
+/// tails become tables. Mixtures are refused. Throws InputError with file `name` and "line:column".
 MaterialFile read_openfilters_material(std::string_view text, const std::string& name);
 
 }  // namespace irido::schemas

@@ -24,10 +24,10 @@ bool are_block_columns(const std::vector<std::string>& header) {
            });
 }
 
-/// Rows of a block in nm, in order.
+/// The sorted rows of a block, in nm.
 std::vector<IndexRow> rows_of(const ColumnText& block, const std::string& name,
                               std::vector<std::string>& notes) {
-    constexpr double kLongest_um = 100;  // nm below a header that says um
+    constexpr double kLongest_um = 100;  // nm below a header that claims um
     std::vector<IndexRow> rows;
     for (const ColumnRow& row : block.rows) {
         const double um = row.values[0];

@@ -20,8 +20,8 @@ namespace irido::schemas {
 
 namespace {
 
-/// The numbers of coefficients with which formulas 1 to 9 are whole: each pole or power belongs to
-/// the coefficient before it.
+/// Valid numbers of coefficients of formulas 1 to 9: each pole or power belongs to the coefficient
+/// before it.
 const std::array<std::vector<std::size_t>, 9> kCounts{{
     {1, 3, 5, 7, 9, 11, 13, 15, 17},
     {1, 3, 5, 7, 9, 11, 13, 15, 17},
@@ -34,13 +34,13 @@ const std::array<std::vector<std::size_t>, 9> kCounts{{
     {1, 3, 6},
 }};
 
-/// What one item of DATA gives.
+/// The content of one item of DATA.
 struct Item {
     std::optional<Dispersion> n;
     std::optional<Table> k;
 };
 
-/// Where in the file we are, and what was done so far.
+/// Context for messages, and the notes so far.
 struct Reader {
     const std::string& file;
     std::vector<std::string> notes;
@@ -56,7 +56,7 @@ double um_to_nm(double um) {
     return to_nm(um, SpectralUnit::um);
 }
 
-/// The numbers of one line, which must be numbers altogether.
+/// The numbers of one line, which must contain nothing else.
 std::vector<double> numbers_of(std::string_view line, const Reader& reader) {
     std::vector<double> numbers;
     for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
@@ -69,7 +69,7 @@ std::vector<double> numbers_of(std::string_view line, const Reader& reader) {
     return numbers;
 }
 
-/// A text, or a list.
+/// A text or a list.
 YAML::Node value_of(const YAML::Node& item, const char* key, const Reader& reader) {
     const YAML::Node value = item[key];
     if (!value || !(value.IsScalar() || value.IsSequence()))
@@ -83,7 +83,7 @@ std::string text_of(const YAML::Node& item, const char* key, const Reader& reade
     return value.Scalar();
 }
 
-/// The numbers of a text, or of a list.
+/// The numbers in a text or in a list.
 std::vector<double> numbers_of(const YAML::Node& value, const Reader& reader) {
     if (!value.IsSequence()) return numbers_of(std::string_view(value.Scalar()), reader);
     std::vector<double> numbers;
@@ -95,7 +95,7 @@ std::vector<double> numbers_of(const YAML::Node& value, const Reader& reader) {
     return numbers;
 }
 
-/// Until 2018 the key was called range.
+/// Before 2018 the key was called range.
 WavelengthRange range_of(const YAML::Node& item, const Reader& reader) {
     const char* const key =
         item["wavelength_range"] || !item["range"] ? "wavelength_range" : "range";
@@ -126,7 +126,7 @@ Item formula_item(const YAML::Node& item, std::string_view number, const Reader&
             std::nullopt};
 }
 
-/// The rows of a table: lines of a text, or a list.
+/// The rows of a table, given as lines of text or as a list.
 std::vector<std::vector<double>> numbers_by_row(const YAML::Node& data, const Reader& reader) {
     std::vector<std::vector<double>> rows;
     if (data.IsSequence()) {
@@ -161,7 +161,7 @@ std::vector<IndexRow> rows_of(const YAML::Node& data, std::size_t columns, const
     return rows;
 }
 
-/// k of a passive medium: what is below 0 is noise.
+/// k of a passive medium: negative values are noise.
 Table absorption(Table table, Reader& reader) {
     std::size_t negative = 0;
     for (double& k : table.value)
@@ -201,8 +201,8 @@ Item item_of(const YAML::Node& item, Reader& reader) {
     reader.fail("unknown type " + in_quotes(type));
 }
 
-/// The largest distance of `other` from what `dispersion` gives at its rows; infinite if it reaches
-/// beyond that.
+/// The largest deviation of `other` from `dispersion` at its rows; infinite if it extends beyond
+/// the latter's range.
 double distance(const Dispersion& dispersion, const Dispersion& other) {
     const Material material{"", RefractiveIndex{dispersion, Constant{0}}, Outside::refuse};
     const auto* table = std::get_if<Table>(&other);
@@ -216,7 +216,7 @@ double distance(const Dispersion& dispersion, const Dispersion& other) {
     return largest;
 }
 
-/// Two tables that do not overlap as one, a note saying what lies between them.
+/// Joins two non-overlapping tables, with a note about the gap between them.
 std::optional<Table> joined(const Dispersion& first, const Dispersion& second,
                             const std::string& what, Reader& reader) {
     const auto *a = std::get_if<Table>(&first), *b = std::get_if<Table>(&second);
@@ -234,11 +234,11 @@ std::optional<Table> joined(const Dispersion& first, const Dispersion& second,
     return both;
 }
 
-/// Takes n or k of one more item: what does not overlap is joined, what is given twice must agree.
+/// Adds n or k of another item: non-overlapping ranges are joined, overlapping ones must agree.
 template <class Known>
 void take(std::optional<Known>& known, std::optional<Known> more, const std::string& what,
           Reader& reader) {
-    constexpr double kEqual = 5e-3;  // a table and the formula that was fitted to it
+    constexpr double kEqual = 5e-3;  // a table and the formula fitted to it
     if (!more) return;
     if (!known) {
         known = std::move(more);
@@ -254,7 +254,7 @@ void take(std::optional<Known>& known, std::optional<Known> more, const std::str
                            " apart: the first is used");
 }
 
-/// What a map says about air, by any of the names the keys have had; nothing if nothing.
+/// A map's statement about air, under any name that the key has had; empty if there is none.
 std::optional<bool> flag_in(const YAML::Node& map, std::initializer_list<const char*> keys) {
     if (!map || !map.IsMap()) return std::nullopt;
     for (const char* const key : keys) {
@@ -265,7 +265,7 @@ std::optional<bool> flag_in(const YAML::Node& map, std::initializer_list<const c
     return std::nullopt;
 }
 
-/// "20.0 C" or kelvins; nothing if there is none from -40 to 100 C.
+/// "20.0 C" or kelvins; empty if there is none from -40 to 100 C.
 std::optional<double> temperature_in(const YAML::Node& map) {
     if (!map || !map.IsMap() || !map["temperature"] || !map["temperature"].IsScalar())
         return std::nullopt;
@@ -276,7 +276,7 @@ std::optional<double> temperature_in(const YAML::Node& map) {
         text.find('C') != std::string::npos || text.find("\u2103") != std::string::npos;
     const double celsius = value.value_or(20) - (is_celsius ? 0 : 273.15);
     if (!value || !(celsius >= -40 && celsius <= 100)) return std::nullopt;
-    return std::round(celsius * 2) / 2;  // 293 K is 20 C
+    return std::round(celsius * 2) / 2;  // 293 K counts as 20 C
 }
 
 std::string lower(std::string text) {
@@ -294,7 +294,7 @@ bool is_glass_catalogue(const YAML::Node& document, const std::string& source) {
            words.find("optical glass catalog") != std::string::npos;
 }
 
-/// What the file says of air, and a note if it says so.
+/// The file's statement about air, with a note if there is one.
 Reference reference_of(const YAML::Node& document, const std::string& source,
                        std::vector<std::string>& notes) {
     std::optional<bool> absolute, vacuum;
@@ -319,7 +319,7 @@ Reference reference_of(const YAML::Node& document, const std::string& source,
     return reference;
 }
 
-/// `text` without the tags of HTML; a < that opens none stays.
+/// `text` without HTML tags; a < that opens no tag stays.
 std::string without_tags(std::string_view text) {
     std::string plain;
     while (!text.empty()) {
@@ -336,7 +336,7 @@ std::string without_tags(std::string_view text) {
     return plain;
 }
 
-/// `text` on one line, words set apart by one space.
+/// `text` on one line, words separated by single spaces.
 std::string on_one_line(const std::string& text) {
     std::istringstream words(text);
     std::string line;

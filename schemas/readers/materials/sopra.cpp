@@ -17,7 +17,7 @@ namespace {
 constexpr std::array kUnitsByCode{SpectralUnit::ev, SpectralUnit::um, SpectralUnit::per_cm,
                                   SpectralUnit::nm};
 
-/// The numbers at the beginning of a line, set apart by blanks, semicolons or commas.
+/// The numbers at the beginning of a line, separated by blanks, semicolons or commas.
 std::vector<double> leading_numbers(std::string_view line) {
     constexpr std::string_view kBetween = " \t;,\r";
     std::vector<double> numbers;
@@ -41,7 +41,7 @@ bool is_whole(double value, double lowest, double highest) {
     return value >= lowest && value <= highest && value == std::floor(value);
 }
 
-/// The numbers of the lines that begin with one, up to the first that does not.
+/// The numbers of all lines up to the first that does not begin with a number.
 std::vector<double> numbers_of(const std::vector<TextLine>& lines) {
     std::vector<double> numbers;
     for (const TextLine& line : lines) {

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The cells of a line; one that begins with a quote ends with one, doubled ones inside.
+/// The cells of a line; a cell that begins with a quote ends with one, with quotes inside doubled.
 std::vector<std::string> list_cells(const std::string& file, const TextLine& line, char separator) {
     std::vector<std::string> cells;
     std::string_view rest = line.text;
@@ -193,7 +193,7 @@ private:
         rows_.push_back(std::move(row));
     }
 
-    /// The thickness of that many quarter waves, nm.
+    /// The thickness of `count` quarter waves, nm.
     double quarter_waves(const TextLine& line, const json& material, double count) const {
         if (!(options_.primary_nm > 0))
             fail(line, line.text,

@@ -49,7 +49,7 @@ public:
     std::vector<ProjectEntry> entries;
 
 private:
-    /// is_text  lines are not parted at their colons and open no blocks
+    /// is_text  lines are not split at colons and open no blocks
     std::vector<ProjectEntry> read_block(const TextLine* opened, bool is_text = false) {
         std::vector<ProjectEntry> found;
         while (at_ < lines_.size()) {
@@ -67,7 +67,7 @@ private:
             }
             ProjectEntry entry{
                 line, trimmed(text.substr(0, colon)), trimmed(text.substr(colon + 1)), {}};
-            // blocks have nothing behind their colon, and descriptions may be empty
+            // blocks have nothing after the colon, and descriptions may be empty
             const bool is_description = entry.keyword.ends_with("Description");
             if (entry.value.empty() && !is_description)
                 entry.block = read_block(&line, same_word(entry.keyword, "Comment"));
@@ -148,7 +148,7 @@ private:
         throw InputError(file_, place_of(entry.line, trimmed(entry.line.text)), message);
     }
 
-    /// Lines FrontLayer or BackLayer, in their order.
+    /// Reads the lines FrontLayer or BackLayer, in order.
     json layers_of(const std::vector<ProjectEntry>& filter, const std::string& side) {
         json layers = json::array();
         for (const ProjectEntry& entry : filter) {
@@ -221,13 +221,14 @@ private:
     StackFile result_;
 };
 
-/// "2.4-0.01j", where loss is negative.
+/// "2.4-0.01j", a negative imaginary part meaning loss.
 std::string complex_text(double n, double k) {
     if (k == 0) return to_text(n);
     return to_text(n) + (k > 0 ? "-" : "+") + to_text(std::abs(k)) + "j";
 }
 
-/// "Model: ...\nProperties: ..." of a formula that OpenFilters has; "" for any other material.
+/// "Model: ...
+/// Properties: ..." of a formula known to OpenFilters; "" for any other material.
 std::string formula_text(const Material& material) {
     const auto* index = std::get_if<RefractiveIndex>(&material.model);
     const Formula* const formula = index ? std::get_if<Formula>(&index->n) : nullptr;
@@ -281,9 +282,9 @@ std::string material_text(const Material& material, WavelengthRange range, Losse
     return text + "End\n";
 }
 
-/// A stack as OpenFilters sees it.
+/// A stack in OpenFilters' terms.
 struct Filter {
-    std::vector<Layer> front, back;  ///< from the incident side on
+    std::vector<Layer> front, back;  ///< from the incident side
     std::size_t substrate = 0, behind = 0;
     double substrate_nm = kSubstrate_nm;
     bool has_back = false;

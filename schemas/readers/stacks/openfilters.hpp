@@ -7,15 +7,16 @@
 
 namespace irido::schemas {
 
-/// A filter of an OpenFilters project. Its layers run from the substrate outwards, those of this
-/// document from the front medium on. Materials are files NAME.mat of the folder of the options,
-/// else built-in materials of that name; void is vacuum. With ConsiderBackside the substrate is an
-/// incoherent layer between front and back, else the medium behind the front layers, and the back
-/// is left out with a note. Graded layers and mixtures are refused.
+/// Reads a filter of an OpenFilters project. Its layers run outwards from the substrate, those of
+/// the resulting document inwards from the front medium. Materials are files NAME.mat in the folder
+/// given by the options, otherwise built-in materials of that name; void is vacuum. With
+/// ConsiderBackside the substrate becomes an incoherent layer between front and back; without it,
+/// it is the medium behind the front layers, and the back is omitted with a note. Graded layers and
+/// mixtures are refused.
 StackFile read_openfilters(std::string_view text, const std::string& file,
                            const StackReadOptions& options);
 
-/// The stack as a project of one filter, with its materials as files beside it. One incoherent
+/// The stack as a project of one filter, with its materials as separate files. A single incoherent
 /// layer becomes the substrate.
 WrittenStack write_openfilters(const Stack& stack, const StackWriteOptions& options);
 

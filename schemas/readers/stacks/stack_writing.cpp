@@ -34,7 +34,7 @@ void write_out(const std::vector<Element>& elements, std::vector<Layer>& layers,
     }
 }
 
-/// Adds rows inside (from, to), both of which are there, where a line is not good enough.
+/// Adds rows between two existing ones until linear interpolation is good enough.
 class Refinement {
 public:
     explicit Refinement(const Material& material) : material_(material) {}
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    /// About the middle, with few decimals.
+    /// A wavelength near the middle, with few decimals.
     static double round_step(double from, double to) {
         const double middle = (from + to) / 2;
         for (const double unit : {100.0, 10.0, 1.0, 0.1, 0.01}) {
@@ -79,7 +79,7 @@ private:
 };
 
 std::string shown_name(const Material& material) {
-    constexpr std::string_view kOwn = "/materials/";  // the pointer of one of the document's
+    constexpr std::string_view kOwn = "/materials/";  // pointer of one of the document's materials
     if (material.name.starts_with(kOwn)) return material.name.substr(kOwn.size());
     if (material.name.starts_with("/layers/") || material.name.empty()) return "M";
     const std::size_t slash = material.name.find_last_of('/');

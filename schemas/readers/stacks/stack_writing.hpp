@@ -8,7 +8,7 @@
 
 namespace irido::schemas {
 
-/// Losses, each named once.
+/// A list of losses without duplicates.
 class Losses {
 public:
     void add(const std::string& what);
@@ -18,34 +18,34 @@ private:
     std::vector<std::string> all_;
 };
 
-/// The layers of a stack from the incident side on, groups written out. Throws InputError for more
-/// than 10,000 of them. Distributions of thicknesses are a loss, and so are groups.
+/// The layers of a stack from the incident side, groups expanded. Throws InputError for more than
+/// 10,000. Thickness distributions and groups are recorded as losses.
 std::vector<Layer> layers_written_out(const Stack& stack, Losses& losses);
 
-/// Whether light does not come through a medium that has no end.
+/// Whether a semi-infinite medium of this material transmits no light.
 bool is_opaque(const Material& material);
 
-/// Rows of wavelength in nm, n and k, one for a constant, between which a line is within 1e-5 of a
-/// formula. Rows of tables stay as they are.
-/// range  where they are wanted; where the material is not known there are none
-/// Throws InputError if it is known nowhere there.
+/// Rows of wavelength in nm, n and k (one row for a constant) such that linear interpolation is
+/// within 1e-5 of a formula. Rows of tables are kept as they are. Throws InputError if the material
+/// is defined nowhere in the range.
+/// range  the wavelengths to cover; parts where the material is undefined are skipped
 std::vector<std::array<double, 3>> index_rows_within(const Material& material,
                                                      WavelengthRange range);
 
-/// Names for the materials of a stack, in its order: letters, digits and `_`, at most `longest`,
-/// no two the same in capitals, beginning with a letter.
+/// Distinct names for the materials of a stack, in its order: letters, digits and `_`, at most
+/// `longest` characters, beginning with a letter, distinct even ignoring case.
 std::vector<std::string> plain_names(const Stack& stack, std::size_t longest);
 
-/// A name that is not the material's own is a loss.
+/// Records a loss if `name` is not the material's own name.
 void note_name(const Material& material, const std::string& name, Losses& losses);
 
-/// Any text as such a name.
+/// Turns any text into such a name.
 std::string plain_name(const std::string& text, std::size_t longest);
 
-/// A number without an exponent, which not every program reads: 1000000, 0.0585.
+/// A number without an exponent, which some programs cannot read: 1000000, 0.0585.
 std::string plain_number(double value);
 
-/// What a material is called in messages.
+/// The name of a material in messages.
 std::string name_in_words(const Material& material);
 
 }  // namespace irido::schemas

@@ -43,7 +43,7 @@ struct ZemaxMaterial {
     std::string name;
     std::vector<ZemaxRow> rows;
 
-    /// Linear between the rows, the end values beyond.
+    /// Linear between rows, constant beyond them.
     double n_at(double nm) const {
         const double um = nm / 1000;
         const auto above = std::ranges::upper_bound(rows, um, {}, &ZemaxRow::um);
@@ -176,7 +176,7 @@ json material_json(const ZemaxMaterial& material) {
     return result;
 }
 
-/// The thickness of a layer's line, nm.
+/// The thickness given in a layer's line, nm.
 double thickness_of(const ZemaxFile& zemax, const ZemaxLayer& layer, const ZemaxMaterial* material,
                     const StackReadOptions& options) {
     const double typed = zemax.number(layer.line, layer.words[1]);

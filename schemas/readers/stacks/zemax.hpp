@@ -7,15 +7,15 @@
 
 namespace irido::schemas {
 
-/// A coating of Zemax OpticStudio's COATING.DAT: layers from the incident medium to the substrate,
-/// neither of which is in the file: air and BK7 are assumed, with a note. k < 0 is loss there.
+/// Reads a coating from Zemax OpticStudio's COATING.DAT: layers from the incident medium to the
+/// substrate. The file contains neither; air and BK7 are assumed, with a note. k < 0 is loss there.
 /// Thicknesses in waves need a primary wavelength; on a mirror the last layer is the substrate.
-/// Tapers and loops are refused; TABLE, IDEAL, IDEAL2 and ENCRYPTED are left out with a note.
+/// Tapers and loops are refused; TABLE, IDEAL, IDEAL2 and ENCRYPTED are skipped with a note.
 StackFile read_zemax(std::string_view text, const std::string& file,
                      const StackReadOptions& options);
 
-/// The stack as one coating with absolute thicknesses. A substrate that light does not come through
-/// becomes the last layer, as on mirrors.
+/// The stack as one coating with absolute thicknesses. An opaque substrate becomes the last layer,
+/// as on mirrors.
 WrittenStack write_zemax(const Stack& stack, const StackWriteOptions& options);
 
 }  // namespace irido::schemas

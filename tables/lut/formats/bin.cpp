@@ -1,6 +1,6 @@
 // bin: raw numbers, for anything that can read memory (THREE.DataTexture, LoadRawTextureData).
-// - Little-endian values of the table's type, nothing before, between or after them.
-// - The order is that of the axes, then channels: the last axis and then the channel is fastest.
+// - Little-endian values of the table's type, with nothing before, between or after them.
+// - In axis order, then channels: the channel varies fastest, then the last axis.
 // - Mip levels follow each other, the largest first.
 // - The metadata is in the companion FILE.bin.json.
 

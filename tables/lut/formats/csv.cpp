@@ -1,10 +1,9 @@
 // CSV: for people, spreadsheets and scripts.
-// - The first line has the names: one column for each axis, then one for each channel.
-// - One line per sample, the last axis fastest; with mip levels those of level 0 first, each level
-// at
-//   its own samples, the level's value of the mip axis in the leading column.
-// - Numbers are the shortest text of the double that the table's type rounds the value to, so that
-//   f16, f32 and f64 all read back bit-equal. Linear axes are written as the metadata has them.
+// - The first line has the names: one column per axis, then one per channel.
+// - One line per sample, the last axis fastest; with mip levels, level 0 comes first, and each
+//   level has its own samples, with its value of the mip axis in the leading column.
+// - Numbers are the shortest text of the double to which the table's type rounds the value, so that
+//   f16, f32 and f64 all read back bit-identical. Linear axes are written as in the metadata.
 // - The metadata is in the companion FILE.csv.json; a table on standard output has none.
 
 #include "tables/records/record_format.hpp"
@@ -22,7 +21,7 @@ namespace irido::tables {
 
 namespace {
 
-/// Samples of all axes at one level, that of the level itself in front if there are levels.
+/// Samples of all axes at one level, preceded by the level itself if there are levels.
 std::vector<std::vector<double>> samples_of_level(const Lut& lut, std::size_t level) {
     std::vector<std::vector<double>> samples;
     if (lut.mips) samples.push_back({samples_of(lut.axes.front())[level]});
@@ -30,7 +29,7 @@ std::vector<std::vector<double>> samples_of_level(const Lut& lut, std::size_t le
     return samples;
 }
 
-/// Goes through all combinations of samples, the last fastest.
+/// Iterates over all combinations of samples, the last fastest.
 class Odometer {
 public:
     explicit Odometer(const std::vector<std::vector<double>>& samples)
@@ -97,7 +96,7 @@ std::vector<LutFile> write(const Lut& lut, const LutLayout& layout) {
 
 // --- reading --------------------------------------------------------------------------------
 
-/// The lines of a text, one after the other, cut at commas.
+/// Iterates over the lines of a text, split at commas.
 class Lines {
 public:
     explicit Lines(std::string_view text) : text_(text) {}

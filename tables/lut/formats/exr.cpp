@@ -1,21 +1,19 @@
 // OpenEXR: pictures for renderers and compositors (Mitsuba, pbrt, Blender, oiiotool).
 // - f16 (half) or f32 (float), one part of scan lines, ZIP compression.
-// - 1 channel is Y; 2 are R, G and a B of zeros (three's EXRLoader refuses R and G alone); 3 are R,
-// G,
-//   B, whatever they mean: XYZ too, because readers take channels named X, Y, Z for grey, and the
-//   metadata says what they are; 4 are R, G, B, A. More are blocks of three, R, G, B side by side
-//   along x; the metadata's key `blocks` tells how many.
-// - The last axis is x, the one before y. The first sample is the leftmost column of the topmost
-// row,
-//   which is the file's first line. (three's EXRLoader turns the rows round: its data begin with
-//   the bottom row and flipY is false, so that v = 1 is the first sample.)
-// - A third axis is stacked: its slices lie below each other; the key `stacked` tells how many, if
-//   there are several.
-// - There are no mip levels: a table that has them is refused.
+// - 1 channel is Y; 2 are R, G and a B of zeros (three's EXRLoader refuses R and G alone); 3 are
+//   R, G, B, whatever they mean: also for XYZ, because readers take channels named X, Y, Z for
+//   grey, and the metadata says what they are; 4 are R, G, B, A. More are blocks of three,
+//   R, G, B, side by side along x; the metadata's key `blocks` gives their number.
+// - The last axis is x, the one before it y. The first sample is the leftmost column of the topmost
+//   row, which is the file's first line. (three's EXRLoader flips the rows: its data begin with the
+//   bottom row and flipY is false, so that v = 1 is the first sample.)
+// - A third axis is stacked: its slices lie below each other; the key `stacked` gives their number
+//   if there are several.
+// - Tables with mip levels are refused.
 // - Attributes: `irido.metadata` (JSON), `irido.kind`, `irido.error` (if measured), and
 //   `chromaticities` if the values are colours of an RGB space.
 // - Nothing depends on the time, threads or the machine.
-// Read back are only files as they are written here.
+// Only files as written here can be read back.
 // Source: OpenEXR 3.1, its C library (the "core" API).
 
 #include <algorithm>
@@ -35,22 +33,22 @@ namespace {
 
 constexpr const char* kMetadata = "irido.metadata";
 constexpr int kZipLevel = 6;
-/// Deflate's, rounded up.
+/// The compression limit of Deflate, rounded up.
 constexpr std::size_t kZipLargestRatio = 1100;
 
-/// Width, height and the names of the texels' components, in their order.
+/// Width, height and the names of the texels' components, in order.
 struct Picture {
     std::int32_t width = 0, height = 0;
     std::vector<const char*> channels;
 };
 
 std::int32_t checked_size(std::size_t size) {
-    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 64;  // bytes of a row
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 64;  // bytes per row
     if (size > most) throw LutError("a picture cannot be " + std::to_string(size) + " texels wide");
     return static_cast<std::int32_t>(size);
 }
 
-/// Throws LutError naming what a picture cannot hold.
+/// Throws LutError naming what a picture cannot represent.
 Picture picture_of(const Lut& lut) {
     if (lut.type == LutType::f64) throw LutError("exr holds f16 and f32, not f64");
     if (lut.mips) throw LutError("exr has no mip levels; only ktx2, bin and csv do");
@@ -81,7 +79,7 @@ ExrPixels pixels_of(const Picture& picture, LutType type) {
             type == LutType::f16 ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT};
 }
 
-/// Errors of pictures as those of tables.
+/// Converts errors of pictures to those of tables.
 auto in_words_of_tables(const auto& work) {
     try {
         return work();

@@ -1,24 +1,24 @@
 // KTX2: textures for engines and web pages.
 // - f16 or f32; 1 channel is R, 2 are RG, 3 are RGBA with alpha = 1 (readers refuse RGB), 4 are
 //   RGBA. More are blocks of three channels, each RGBA with alpha = 1, side by side along x; the
-//   metadata's key `blocks` tells how many.
-// - The last axis is x, the one before y, the first sample in row 0. One axis makes a 2D texture of
-//   height 1, not a 1D one: WebGL, OpenGL ES and Godot have no 1D textures, and three.js makes of
-//   one an image of height 0. A third axis is the depth of a 3D texture or, if asked for, the
-//   layers of an array (three.js reads only the first layer). One sample along it is no depth: then
-//   the texture is 2D.
-// - Mip levels, if the table has them, belong to 2D textures (three.js uploads none of 3D ones).
-//   Level l of a texture of width w has max(1, w >> l) columns; so side by side blocks need counts
+//   metadata's key `blocks` gives their number.
+// - The last axis is x, the one before it y, with the first sample in row 0. One axis makes a 2D
+//   texture of height 1, not a 1D one: WebGL, OpenGL ES and Godot have no 1D textures, and three.js
+//   turns one into an image of height 0. A third axis is the depth of a 3D texture or, if
+//   requested,
+//   the layers of an array (three.js reads only the first layer). With a single sample along it the
+//   texture is 2D.
+// - Mip levels, if the table has them, are those of 2D textures (three.js uploads none of 3D ones).
+//   Level l of a texture of width w has max(1, w >> l) columns, so side-by-side blocks need counts
 //   that halve evenly.
-// - Zstandard supercompression if asked for, one frame a level, always the same level of effort.
-// The
+// - Zstandard supercompression if requested, one frame per level, always at the same effort. The
 //   descriptor's bytesPlane0 stays that of the texels (KTX-Software 5 warns about the 0 that the
-//   specification asked for before).
+//   specification used to require).
 // - The metadata is the value of the key `irido.metadata`: UTF-8 JSON without a NUL at the end.
-// - The descriptor names the primaries of the colour space. three.js knows BT.709 only: it warns of
+// - The descriptor names the primaries of the colour space. three.js knows only BT.709: it warns of
 //   others, and throws when it draws Display P3 unless texture.colorSpace is set to NoColorSpace.
-// - Nothing depends on the time or the machine: the same table makes the same bytes.
-// Read back are only files as they are written here.
+// - Nothing depends on the time or the machine: the same table gives the same bytes.
+// Only files as written here can be read back.
 // Source: KTX File Format Specification 2.0; Khronos Data Format Specification 1.3.
 
 #include <zstd.h>
@@ -46,7 +46,7 @@ constexpr int kZstandardEffort = 12;
 constexpr std::size_t kZstandardLargestRatio = 1U << 15U, kZstandardBlock = 1U << 17U;
 constexpr std::string_view kMetadataKey = "irido.metadata";
 
-/// What the header says of the texels.
+/// The header's description of the texels.
 struct Texture {
     std::uint32_t vk_format = 0, type_size = 0;
     std::uint32_t width = 0, height = 0, depth = 0, layers = 0, faces = 1, levels = 1, scheme = 0;
@@ -85,7 +85,7 @@ void check_mips_halve(const Lut& lut, const Texture& texture) {
                            " that can be halved " + std::to_string(lut.levels() - 1) + " times");
 }
 
-/// Throws LutError, which names what a texture cannot hold.
+/// Throws LutError, which names what a texture cannot represent.
 Texture texture_of(const Lut& lut, const LutLayout& layout) {
     if (lut.type == LutType::f64) throw LutError("ktx2 holds f16 and f32, not f64");
     const std::vector<LutAxis> axes = lut.axes_of_level(0);
@@ -129,7 +129,7 @@ void pad(std::string& out, std::size_t alignment) {
     out.append((alignment - out.size() % alignment) % alignment, '\0');
 }
 
-/// Of the Khronos Data Format Specification.
+/// Code of the Khronos Data Format Specification.
 std::size_t primaries_of(const Lut& lut) {
     struct Primaries {
         std::string_view space;
@@ -178,7 +178,7 @@ std::string key_values_of(const Lut& lut, const Texture& texture) {
     using namespace std::string_view_literals;
     nlohmann::json metadata = metadata_of(lut);
     if (texel_blocks(lut).count > 1) metadata["blocks"] = texel_blocks(lut).count;
-    std::string out;  // keys by code point
+    std::string out;  // keys sorted by code point
     append_entry(out, "KTXorientation", texture.depth > 0 ? "rdi\0"sv : "rd\0"sv);
     append_entry(out, "KTXwriter", "irido " + this_build().version + '\0');
     append_entry(out, kMetadataKey, metadata_text(metadata));
@@ -245,7 +245,7 @@ Number number_in(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-/// `length` bytes from `offset` on. Throws LutError if the file ends before.
+/// `length` bytes starting at `offset`. Throws LutError if the file is too short.
 std::string_view part_of(std::string_view bytes, std::uint64_t offset, std::uint64_t length,
                          const std::string& what) {
     if (offset > bytes.size() || length > bytes.size() - offset)

@@ -1,10 +1,10 @@
 // npy: NumPy's array format 1.0, for numpy.load, Mitsuba's tensors and twenty lines of JavaScript.
 // - One plain array of '<f2', '<f4' or '<f8', C order. Its shape is that of the axes, slowest
 // first,
-//   then the channels; with one channel there is no axis of channels.
-// - There are no mip levels: a table that has them is refused.
+//   then the channels; a single channel gets no axis.
+// - Tables with mip levels are refused.
 // - The metadata is in the companion FILE.npy.json.
-// - Read back is only a header that is, byte for byte, the one that NumPy writes for the table.
+// - Only headers that are byte-identical to NumPy's for the table can be read back.
 // Source: NumPy documentation, numpy.lib.format.
 
 #include "tables/records/npy.hpp"

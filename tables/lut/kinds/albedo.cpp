@@ -71,7 +71,7 @@ LutPlan plan(const LutRequest& request) {
     return plan;
 }
 
-/// The luminance must be in [0, 1], but for adaptation and rounding.
+/// The luminance must be in [0, 1], apart from adaptation and rounding.
 std::vector<std::string> problems(const Lut& lut) {
     constexpr double kSlack = 0.02;
     constexpr std::size_t kMostLines = 5;

@@ -103,7 +103,7 @@ private:
         levels_.push_back(std::move(level));
     }
 
-    /// Refuses colours too inaccurate for any table.
+    /// Rejects colours too inaccurate for any table.
     static void require_known(const StackColor& color, double angle_deg) {
         constexpr double worst = 1e-4;
         if (!(color.error <= worst))

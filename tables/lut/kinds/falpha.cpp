@@ -32,15 +32,15 @@ LutPlan plan(const LutRequest& request) {
         }
         return values;
     };
-    // about the peak of a row, which has integral G1 and width alpha
+    // approximate peak of a row, which has integral G1 and width alpha
     plan.measure = relative_to("relative to G1/alpha", [](double alpha, double theta_i_deg) {
         return smith_masking(alpha, cos_of_incidence(theta_i_deg)) / alpha;
     });
     return plan;
 }
 
-/// Integral over theta_d of the lines through a row, over every `step`-th sample; F goes to 0 at
-/// 90 degrees.
+/// Integral over theta_d of the piecewise linear function through every `step`-th sample of a row;
+/// F tends to 0 at 90 degrees.
 double integral_of(const LutAxis& axis, std::span<const double> row, std::size_t step) {
     double sum = 0, before = axis.values[0], value = row[0];
     for (std::size_t i = step; i < row.size(); i += step) {
@@ -52,7 +52,7 @@ double integral_of(const LutAxis& axis, std::span<const double> row, std::size_t
     return sum * std::numbers::pi / 180;
 }
 
-/// A row that starts at 0 must integrate to G1, to within the change by leaving out every second
+/// A row that starts at 0 must integrate to G1, to within the change from omitting every second
 /// sample.
 std::vector<std::string> problems(const Lut& lut) {
     std::vector<std::string> lines =

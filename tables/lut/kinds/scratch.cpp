@@ -17,14 +17,14 @@ namespace irido::tables {
 
 namespace {
 
-/// What a table of scratches holds.
+/// The contents of a table of scratches.
 struct ScratchForm {
     bool carrier = false;     ///< Q instead of T
-    bool derivative = false;  ///< T, and its derivative by u
-    bool place = false;       ///< the derivative by x = u/(u + half) alone
+    bool derivative = false;  ///< T and its derivative with respect to u
+    bool place = false;       ///< only the derivative with respect to x = u/(u + half)
 };
 
-/// u at which the places of an axis turn: half of the largest place.
+/// u at x = 1/2 on the axis x = u/(u + half).
 double half_of(const LutRequest& request) {
     return request.number("u-scale");
 }
@@ -86,7 +86,7 @@ public:
 
     /// du/dx
     double per_place(double u) const { return (u + half_) * (u + half_) / half_; }
-    /// L*, a*, b* of XYZ of which the full lobe at mean depth has two white ones.
+    /// L*, a*, b* of XYZ, where the full lobe at mean depth has twice the XYZ of white.
     Triple lab_of(Triple value) const {
         for (double& component : value) component /= 2;
         return values_.to_lab(value);
@@ -107,11 +107,10 @@ private:
     std::shared_ptr<const SlitColors> colors_;
 };
 
-/// Part of x that the light covers in which derivatives are measured.
+/// Extent in x of the light for which derivatives are measured.
 constexpr double kNarrow = 0.05;
 
-/// What is lost of A = Q(u, 0) between the samples of an axis of u, of which A there and at the
-/// targets is known.
+/// Interpolation error of A = Q(u, 0) along an axis of u, from A at its samples and at the targets.
 class FlatError {
 public:
     FlatError(const ScratchFunction& function, LutAxis axis)
@@ -134,7 +133,7 @@ public:
     }
 
 private:
-    /// A, or its derivative by x.
+    /// A, or its derivative with respect to x.
     std::vector<Triple> flat(const std::vector<double>& u) const {
         const std::array depth{0.0};
         const auto q = function_.form().place
@@ -153,7 +152,7 @@ private:
     std::vector<Triple> samples_;
 };
 
-/// Differences of colours; with the carrier those that errors of A and Q make together.
+/// Colour differences; with the carrier, those from the errors of A and Q combined.
 LutMeasure scratch_measure(const ScratchFunction& function, const LutAxis& u_axis) {
     std::shared_ptr<const FlatError> flat_error;
     if (function.form().carrier) flat_error = std::make_shared<const FlatError>(function, u_axis);
@@ -255,7 +254,7 @@ LutPlan plan(const LutRequest& request) {
     return result;
 }
 
-/// T rises with u from 0 to less than twice the white, |Q| to less than half of it.
+/// T rises with u from 0 to less than twice the white, |Q| to less than half the white.
 std::vector<std::string> problems(const Lut& lut) {
     if (lut.facts.at("color_space") != "xyz") return {};
     const auto& white = lut.facts.at("request").at("white_xyz");

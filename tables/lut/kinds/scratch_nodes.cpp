@@ -25,7 +25,7 @@ LutPlan plan(const LutRequest& request) {
             }
             return values;
         };
-    // nothing lies between two nodes
+    // there is nothing to interpolate between nodes
     result.measure = {
         "none", [](const std::vector<LutAxis>& axes, std::span<const double>,
                    std::span<const double>) { return std::vector<double>(axes[0].count(), 0.0); }};
@@ -34,7 +34,7 @@ LutPlan plan(const LutRequest& request) {
     return result;
 }
 
-/// The weights add up to the white.
+/// The weights must add up to white.
 std::vector<std::string> problems(const Lut& lut) {
     const auto& white = lut.facts.at("request").at("white_xyz");
     for (std::size_t c = 0; c < 3; ++c) {

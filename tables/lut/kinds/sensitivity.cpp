@@ -89,7 +89,7 @@ LutPlan plan(const LutRequest& request) {
     return result;
 }
 
-/// |H_j| is at most its value at a path difference of 0, the white.
+/// |H_j| is at most its value at zero path difference, the white.
 std::vector<std::string> problems(const Lut& lut) {
     constexpr double rounding = 1e-3;
     const auto& white = lut.facts.at("request").at("white_xyz");

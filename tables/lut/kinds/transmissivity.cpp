@@ -12,7 +12,7 @@ namespace irido::tables {
 
 namespace {
 
-constexpr double kWorstError = 1e-6;  ///< of any value, as the integration states it
+constexpr double kWorstError = 1e-6;  ///< of any value, as estimated by the integration
 
 Light light_of(const LutRequest& request) {
     if (!request.has("polarization")) return Light::unpolarized;

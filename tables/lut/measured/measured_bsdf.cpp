@@ -13,17 +13,17 @@ namespace irido::tables {
 
 namespace {
 
-/// theta of a place in the unit square, radians.
+/// theta of a coordinate in the unit square, radians.
 double theta_of_place(double x) {
     return 0.5 * kPi * x * x;
 }
 
-/// Area of the facets that a direction sees, 1 at the normal.
+/// Projected area of the facets visible from a direction, 1 at the normal.
 double seen_area(double alpha, double theta_rad) {
     return 1 / visibility(alpha, std::cos(theta_rad), std::sin(theta_rad));
 }
 
-/// Density over [0, 1], linear between equally spaced nodes: where its integral has a share.
+/// A density on [0, 1], linear between equally spaced nodes, with inversion of its integral.
 struct LinearDensity {
     std::vector<double> values, sums;  ///< at the nodes
 
@@ -33,13 +33,13 @@ struct LinearDensity {
             sums[k] = sums[k - 1] + 0.5 * (values[k - 1] + values[k]);
     }
 
-    /// The interval and the place in it.
+    /// The interval and the position in it.
     std::pair<std::size_t, double> at_share(double share) const {
         const double wanted = share * sums.back();
         const auto above = std::ranges::upper_bound(sums, wanted);
         const auto k = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
             above - sums.begin() - 1, 0, static_cast<std::ptrdiff_t>(sums.size()) - 2));
-        // a t + (b - a) t^2 / 2 = rest, without its cancellation
+        // solves a t + (b - a) t^2 / 2 = rest without cancellation
         const double a = values[k], b = values[k + 1], rest = wanted - sums[k];
         const double root = std::sqrt(std::max(0.0, a * a + 2 * (b - a) * rest));
         const double t = a + root > 0 ? 2 * rest / (a + root) : 0;
@@ -47,7 +47,7 @@ struct LinearDensity {
     }
 };
 
-/// The visible normals of one direction over the unit square of normals.
+/// The visible normals for one direction over the unit square.
 struct NormalSquare {
     std::vector<std::vector<double>> rows;  ///< density at nodes, [y][x]
     LinearDensity marginal{{1, 1}};

@@ -31,7 +31,7 @@ struct Vector {
     double x, y, z;
 };
 
-/// The directions of a cell's corner or centre: turned from where h is the normal.
+/// The directions of a cell's corner or centre, rotated from the frame whose normal is h.
 std::pair<Vector, Vector> directions_of(double theta_h_deg, double theta_d_deg, double phi_d_deg) {
     const double sd = sin_deg(theta_d_deg), cd = cos_deg(theta_d_deg);
     const double dx = sd * cos_deg(phi_d_deg), dy = sd * sin_deg(phi_d_deg);
@@ -42,7 +42,7 @@ std::pair<Vector, Vector> directions_of(double theta_h_deg, double theta_d_deg, 
     return {turned(dx, dy), turned(-dx, -dy)};
 }
 
-/// Half the azimuth between two directions, from their horizontal parts.
+/// Half the azimuth between two directions, from their horizontal components.
 TablePair pair_of(const Vector& i, const Vector& o) {
     const double cos_i = std::clamp(i.z, kJustAbove, 1.0), cos_o = std::clamp(o.z, kJustAbove, 1.0);
     const double turn = std::atan2(i.x * o.y - i.y * o.x, i.x * o.x + i.y * o.y);
@@ -72,7 +72,7 @@ std::string merl_file(const std::function<Triple(const TablePair&)>& rgb, unsign
                 };
                 auto [i, o] = at(0.5, 0.5, 0.5);
                 bool is_above = i.z > 0 && o.z > 0;
-                // a cell whose centre is below may have corners above
+                // a cell whose centre is below the horizon may have corners above it
                 for (std::size_t corner = 0; corner < 8 && !is_above; ++corner) {
                     const auto [ci, co] = at(corner & 1 ? 0.98 : 0.02, corner & 2 ? 0.98 : 0.02,
                                              corner & 4 ? 0.98 : 0.02);

@@ -1,6 +1,6 @@
-// PDF 1.4, one page of the picture's size, nothing of the time or the machine. Text is text: its
-// glyphs are fonts of type 3, drawn from the same outlines as elsewhere, with a table of characters
-// for those who search or copy. Source: ISO 32000-1.
+// PDF 1.4, one page of the picture's size, with nothing that depends on time or machine. Text stays
+// text: its glyphs are type 3 fonts, drawn from the same outlines as elsewhere, with a character
+// map for searching and copying. Source: ISO 32000-1.
 
 #include <zlib.h>
 
@@ -20,7 +20,7 @@ namespace irido::tables {
 
 namespace {
 
-constexpr double kPoints = 0.75;  ///< of 1/72 inch, in a unit
+constexpr double kPoints = 0.75;  ///< points of 1/72 inch per unit
 constexpr std::size_t kCodes = 255;
 constexpr double kHaloWidth = 3;
 
@@ -61,12 +61,12 @@ std::string utf16(char32_t character) {
     return text.data();
 }
 
-/// The objects of a file and where they begin.
+/// The objects of a file and their offsets.
 class File {
 public:
     File() { bytes_ = "%PDF-1.4\n%\xE2\xE3\xCF\xD3\n"; }
 
-    /// A number for an object to come.
+    /// Reserves the number of a later object.
     std::size_t reserve() {
         places_.push_back(0);
         return places_.size();
@@ -113,7 +113,7 @@ public:
         if (is_new) characters_ += character;
         return found->second;
     }
-    /// The fonts as a dictionary of resources.
+    /// Adds the fonts, as a resource dictionary.
     std::string add_to(File& file) const {
         std::string fonts = "<<";
         for (std::size_t first = 0; first < characters_.size(); first += kCodes)
@@ -129,7 +129,7 @@ private:
             Point last = contour.first;
             out += number(last.x) + number(last.y) + "m\n";
             for (const auto& [control, end, straight] : contour.curves) {
-                if (!straight) {  // the cubic curve that is the same
+                if (!straight) {  // the equivalent cubic curve
                     for (const Point from : {last, end})
                         out += number(from.x + 2.0 / 3 * (control.x - from.x)) +
                                number(from.y + 2.0 / 3 * (control.y - from.y));
@@ -281,7 +281,7 @@ private:
     std::string images_, states_;
 };
 
-/// A string of a document's properties.
+/// A string in the document's properties.
 std::string text_string(const std::string& text) {
     std::string out = "<FEFF";
     for (const char32_t character : characters_of(schemas::well_formed(text)))

@@ -7,7 +7,7 @@ namespace irido::tables {
 namespace {
 
 constexpr double kPixelsAUnit = 2;
-constexpr unsigned kPixelsAMetre = 7559;  ///< two a unit, 96 units an inch
+constexpr unsigned kPixelsAMetre = 7559;  ///< two per unit, 96 units per inch
 
 std::string write(const Drawing& drawing) {
     return png_file(rasterized(drawing, kPixelsAUnit), drawing.bits, kPixelsAMetre,

@@ -1,5 +1,5 @@
-// SVG 1.1: text stays text, and a picture says of its parts what they are (class, title). Cells are
-// PNG files in the picture.
+// SVG 1.1: text stays text, and the parts of a picture are labelled (class, title). Cells are
+// embedded PNG files.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ std::string attribute(const char* name, double value) {
     return std::string(" ") + name + "=\"" + number(value) + "\"";
 }
 
-/// Text as it stands between tags or in quotes.
+/// Text escaped for use between tags or in quotes.
 std::string escaped_xml(const std::string& text) {
     std::string out;
     for (const char c : schemas::well_formed(text)) {
@@ -33,7 +33,7 @@ std::string escaped_xml(const std::string& text) {
             out += "&amp;";
         } else if (c == '<') {
             out += "&lt;";
-        } else if (c == '>') {  // "]]>" is no text of XML
+        } else if (c == '>') {  // "]]>" is not allowed in XML text
             out += "&gt;";
         } else if (c == '"') {
             out += "&quot;";
@@ -117,7 +117,8 @@ std::string element(const Text& text) {
     return out + ">" + escaped_xml(text.text) + "</text>\n";
 }
 
-/// As rectangles, which an editor takes apart; each reaches under the next, so that no seam shows.
+/// Cells as rectangles, which an editor can take apart; each extends under the next, so that no
+/// seam shows.
 std::string rectangles(const Cells& cells) {
     const Box& box = cells.box;
     const double width = box.width() / static_cast<double>(cells.columns),

@@ -1,7 +1,7 @@
 // csv: comma-separated values after RFC 4180, but with LF line ends.
 // - A header line, then one line per record.
-// - A number that is missing is an empty field.
-// - Texts with commas, quotes or line ends are quoted; numbers are in their shortest form.
+// - A missing number is an empty field.
+// - Strings with commas, quotes or line ends are quoted; numbers are in their shortest form.
 
 #include "tables/records/packed_rows.hpp"
 #include "tables/records/record_format.hpp"

@@ -1,4 +1,4 @@
-// h5: HDF5 with one dataset for each column, made of packed rows when the part is complete.
+// h5: HDF5 with one dataset per column, made from packed rows when the part is complete.
 
 #include "tables/records/h5_file.hpp"
 #include "tables/records/packed_rows.hpp"

@@ -1,5 +1,5 @@
 // json: an array with one object per record, one record per line; numbers in their shortest form,
-// null where one is missing.
+// null where a number is missing.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

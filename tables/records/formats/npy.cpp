@@ -1,6 +1,7 @@
 // npy: NumPy's array format, a one-dimensional structured array with one field per column.
-// - Little-endian; numbers are <f8, texts <U of the longest one's bytes, flags |b1.
-// - A head whose number of rows is still open has room for 20 digits, so that it can be replaced.
+// - Little-endian; numbers are <f8, strings <U with the longest one's byte count, flags |b1.
+// - A head whose number of rows is still unknown leaves room for 20 digits, so that it can be
+// replaced.
 
 #include "tables/records/npy.hpp"
 
@@ -13,14 +14,14 @@ namespace irido::tables {
 
 namespace {
 
-constexpr std::size_t kDigits = 20;  // of a count of 64 bits
+constexpr std::size_t kDigits = 20;  // of a 64-bit count
 
 std::string type_name(const RecordField& field) {
     if (field.type == RecordField::Type::number) return "<f8";
     return field.type == RecordField::Type::flag ? "|b1" : "<U" + std::to_string(field.width);
 }
 
-/// As a Python literal of ASCII.
+/// A name as an ASCII literal in Python.
 std::string python_literal(const std::string& name) {
     std::string out = "'";
     for (const char32_t c : code_points(name)) {

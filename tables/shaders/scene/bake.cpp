@@ -37,7 +37,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* kLock = ".irido-lock";
-/// Largest angles to try, in degrees, where a table cannot cover all.
+/// Largest angles to try, in degrees, if a table cannot cover all.
 constexpr std::array kServedAngles_deg{85.0, 80.0, 70.0, 60.0};
 
 /// Locks a folder for one bake; released when the process ends.
@@ -67,7 +67,7 @@ void make_folder(const std::string& folder) {
     if (error) throw OutputError(folder + ": cannot be created: " + error.message());
 }
 
-/// Writes a file of the folder, replacing anything in its place, symbolic links included.
+/// Writes a file of the folder, replacing anything in its place, including symbolic links.
 void write_own(const std::string& path, const std::string& bytes) {
     std::error_code error;
     if (fs::symlink_status(path, error).type() != fs::file_type::not_found && !is_regular(path) &&
@@ -82,7 +82,7 @@ std::size_t size_of_files(const std::vector<LutFile>& files) {
     return bytes;
 }
 
-/// Time of the last write or rename of a file, in nanoseconds; the largest number if it is missing.
+/// Time of a file's last write or rename, in nanoseconds; the largest number if it is missing.
 std::int64_t time_of(const std::string& path) {
     struct stat status {};
     if (lstat(path.c_str(), &status) != 0) return std::numeric_limits<std::int64_t>::max();
@@ -92,8 +92,8 @@ std::int64_t time_of(const std::string& path) {
     return std::max(nanoseconds(status.st_mtim), nanoseconds(status.st_ctim));
 }
 
-/// Calls make(request). Where a table cannot cover the largest angles, the range is shortened if
-/// the scene allows it; else the error names angles that would work.
+/// Calls make(request). If a table cannot cover the largest angles, the range is shortened if the
+/// scene allows it; otherwise the error names angles that would work.
 Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest&)>& make) {
     std::string reason;
     try {
@@ -153,7 +153,7 @@ json made_entry(const SceneTable& table, const LutFormat& format, const BakeRequ
     return entry;
 }
 
-/// Removes temporary files left by a killed bake; the folder is locked.
+/// Removes temporary files left by a killed bake; the folder must be locked.
 void remove_unfinished(const BakePlace& place) {
     std::vector<fs::path> left;
     for (const auto& file : fs::directory_iterator(place.folder)) {
@@ -217,7 +217,7 @@ json vary_of(const MaterialPlan& material) {
     return result;
 }
 
-/// Why a manifest does not contain a table, in words.
+/// Why a manifest lacks a table, in words.
 std::string why_unknown(const schemas::Scene& scene, const ScenePlan& plan, const SceneTable& table,
                         const json& manifest) {
     if (manifest.is_null()) return "nothing was baked before";
@@ -496,7 +496,7 @@ BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRe
             entries[table.id] = std::move(keeping.entry);
         } catch (const OutputError&) {
             throw;
-        } catch (const std::exception& error) {  // of any type: it concerns these materials only
+        } catch (const std::exception& error) {  // of any type: affects only these materials
             add_faults(result.faults, scene, table, error);
         }
     }
@@ -504,17 +504,17 @@ BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRe
     if (request.prune && result.faults.empty())
         result.pruned = pruned_files(place, std::exchange(stale, {}));
     json manifest = manifest_of(scene, plan, entries, result.faults);
-    // the commit that made the last table; a bake that makes none keeps it
+    // the commit that made the last table; a bake that makes none preserves it
     const std::string commit = result.made.empty() && before.manifest.is_object()
                                    ? before.manifest.value("commit", "")
                                    : this_build().commit;
     if (!commit.empty()) manifest["commit"] = commit;
     manifest["stale"] = stale;
     manifest["checksum"] = checksum_of(manifest);
-    // reasons of faults may name folders
+    // reasons of faults may contain folder names
     const std::string text = manifest.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     const std::string path = place.folder + "/" + place.manifest;
-    // after new files, too: what is not newer than the manifest need not be read next time
+    // rewritten after new files, too: files not newer than the manifest need not be read next time
     if (!result.made.empty() || !is_regular(path) || schemas::read_own_file(path) != text) {
         write_own(path, text);
         result.manifest_written = true;

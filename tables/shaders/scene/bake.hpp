@@ -34,7 +34,7 @@ Baked baked_scene(const BakePlace& place, const schemas::Scene& scene);
 std::vector<std::string> stale_files(const BakePlace& place, const Baked& baked,
                                      const TableEntries& entries);
 
-/// Whether a bake keeps an existing table.
+/// Decision on whether a bake keeps an existing table.
 struct Keeping {
     nlohmann::json entry;  ///< the table's entry, null if it must be made
     std::string why;       ///< why it must be made, in words
@@ -52,30 +52,29 @@ struct Keeping {
 Keeping keeping_of(const schemas::Scene& scene, const ScenePlan& plan, const SceneTable& table,
                    const Baked& baked, const BakePlace& place, bool verify);
 
-/// The expected entry of a table that is not made yet, with the size that meets the tolerance,
-/// `samples`, estimated `seconds`, and the errors of estimated_level_errors(). Throws
-/// ToleranceError.
+/// The expected entry of a table yet to be made, with the size that meets the tolerance, `samples`,
+/// estimated `seconds`, and the errors of estimated_level_errors(). Throws ToleranceError.
 nlohmann::json planned_entry(const SceneTable& table);
 
 /// Options of a bake.
 struct BakeRequest {
     BakePlace place;
-    bool force = false;   ///< make every table again
-    bool verify = false;  ///< read the tables that are kept
-    bool prune = false;   ///< remove tables that this scene made and no material needs
+    bool force = false;   ///< remakes every table
+    bool verify = false;  ///< reads the tables that are kept
+    bool prune = false;   ///< removes tables made for this scene that no material needs
     unsigned threads = 0;
     /// Receives the fraction done, [0, 1], and the table being made: material and kind.
     std::function<void(double done, const std::string& text)> progress{};
 };
 
-/// Reasons of failure of materials, by name.
+/// Reasons why materials failed, by name.
 using MaterialFaults = std::map<std::string, std::vector<schemas::SceneFault>>;
 
-/// Faults known before any table is computed.
+/// Faults that are known before any table is computed.
 MaterialFaults faults_of(const ScenePlan& plan);
 
-/// Adds the error of making a table to all materials that use it.
-/// faults  is extended
+/// Adds the error from making a table to all materials that use it.
+/// faults  the faults so far, extended by the call
 /// scene   the scene
 /// table   the table that failed
 /// error   the error caught
@@ -90,18 +89,16 @@ struct BakeResult {
 };
 
 /// Makes the tables of a plan in a folder, which is created if needed, and then the manifest, which
-/// lists the materials made and the reasons why others failed. Tables with unchanged inputs are
-/// kept. Anything else in a table's place is replaced, symbolic links included. Throws OutputError
-/// for files that cannot be written, a manifest of another scene, or a folder locked by another
-/// bake.
+/// lists the materials made and why others failed. Tables with unchanged inputs are kept. Anything
+/// else in a table's place is replaced, including symbolic links. Throws OutputError for files that
+/// cannot be written, a manifest of another scene, or a folder locked by another bake.
 BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRequest& request);
 
-/// All omissions of a material: those of the plan, and those that follow from the tables' entries.
+/// All omissions of a material: those of the plan and those implied by the tables' entries.
 std::vector<Omission> omissions_of(const ScenePlan& plan, const MaterialPlan& material,
                                    const TableEntries& entries);
 
-/// Angles that a material's tables cover: those of the scene or, where it gives none, perhaps
-/// fewer.
+/// Angles that a material's tables cover: those of the scene or, if it gives none, possibly fewer.
 schemas::ValueRange served_angles(const ScenePlan& plan, const MaterialPlan& material,
                                   const TableEntries& entries);
 

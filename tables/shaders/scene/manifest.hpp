@@ -14,7 +14,7 @@ inline constexpr const char* kCompanion = ".json";
 /// Whether a path is a regular file and not a symbolic link.
 bool is_regular(const std::string& path);
 
-/// Bytes of a table's file and its companion; 0 unless both are regular files.
+/// Size in bytes of a table's file and its companion; 0 unless both are regular files.
 std::size_t size_of_table(const std::string& path);
 
 /// Whether a file name is that of a baked table, KIND-ID.FORMAT, or of its companion.
@@ -34,17 +34,18 @@ nlohmann::json grid_entry(const nlohmann::json& header, const std::string& file,
 nlohmann::json found_entry(const std::string& folder, const std::string& file,
                            const std::string& id);
 
-/// The checksum of a manifest, its own key excluded.
+/// The checksum of a manifest, without its own key.
 std::string checksum_of(nlohmann::json manifest);
 
 /// The manifest in a file; null if the file is not a manifest.
 nlohmann::json read_manifest(const std::string& path);
 
-/// Files listed in a manifest, stale ones included.
+/// Files listed in a manifest, including stale ones.
 std::vector<std::string> files_of(const nlohmann::json& manifest);
 
-/// The problems of a manifest, one line each: violations of manifest.schema.json; else a wrong
-/// checksum and unknown tables; and, unless `folder` is "", files that differ from the manifest.
+/// The problems of a manifest, one line each: violations of manifest.schema.json or, without any, a
+/// wrong checksum and unknown tables; and, unless `folder` is "", files that differ from the
+/// manifest.
 std::vector<std::string> manifest_problems(const nlohmann::json& document, const std::string& file,
                                            const std::string& folder = "");
 

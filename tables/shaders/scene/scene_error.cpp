@@ -18,7 +18,7 @@ namespace irido::tables {
 
 namespace {
 
-constexpr std::uint64_t kSeeds = 0x9e3779b97f4a7c15U;  ///< apart
+constexpr std::uint64_t kSeeds = 0x9e3779b97f4a7c15U;  ///< distance between seeds
 constexpr std::size_t kChunk = 64;                     ///< points that one thread takes at a time
 
 double within(const LutAxis& axis, Random& random) {
@@ -59,7 +59,7 @@ bool is_list(const LutPlan& plan, std::size_t a) {
     return plan.axes[a].fixed;
 }
 
-/// The level of the table's spreads, as the snippet fourier finds it.
+/// The level of a standard deviation in the table, as computed by the snippet fourier.
 double level_of_spread(const std::vector<double>& sigmas, double sigma_nm) {
     const auto fade = [](double sigma) {
         const double waves = sigma / 550;
@@ -73,7 +73,7 @@ double level_of_spread(const std::vector<double>& sigmas, double sigma_nm) {
            std::clamp((from - fade(sigma_nm)) / std::max(from - to, 1e-9), 0.0, 1.0);
 }
 
-/// H_j of a table of the sensitivity.
+/// H_j from a sensitivity table.
 class TableOfSensitivity {
 public:
     explicit TableOfSensitivity(const Lut& lut) : lut_(lut) {
@@ -113,7 +113,7 @@ private:
     Triple carrier_nm_{};
 };
 
-/// What irido_film() computes.
+/// The equivalent of the shader's irido_film().
 Triple film_xyz(const Film& film, double cos_theta, int orders, double sigma_nm,
                 const Triple& white, const TableOfSensitivity* table) {
     Triple xyz{};
@@ -142,7 +142,7 @@ RefractiveIndex constant_index(Complex index) {
     return {Constant{index.real()}, Constant{index.imag()}};
 }
 
-/// With the indices that shaders take, whatever the wavelength.
+/// The stack with the indices that shaders use, at every wavelength.
 Stack without_dispersion(Stack stack, const Sensitivity& sensitivity) {
     const Stack held = held_stack(stack, sensitivity);
     for (std::size_t m = 0; m < stack.materials.size(); ++m) {
@@ -157,7 +157,7 @@ Stack without_dispersion(Stack stack, const Sensitivity& sensitivity) {
     return stack;
 }
 
-/// Some samples of a range, or its only one.
+/// A few samples of a range, or its only one.
 std::vector<double> few_of(const std::vector<double>& samples) {
     constexpr std::size_t few = 9;
     return samples.size() < 2 ? samples : equally_spaced(samples.front(), samples.back(), few);

@@ -30,16 +30,16 @@ using nlohmann::json;
 using Kind = Omission::Kind;
 
 constexpr double kMiddle_nm = kShaderIndices_nm;
-constexpr std::size_t kRangeSize = 16;  ///< of a range whose size the tolerance decides
-constexpr double kOpaque_k = 1e-6;      ///< of a base of which no light comes back
-constexpr double kRed_nm = 700;         ///< the fringes of longer waves are hardly seen
+constexpr std::size_t kRangeSize = 16;  ///< initial size of a range sized by the tolerance
+constexpr double kOpaque_k = 1e-6;      ///< of a base from which no light returns
+constexpr double kRed_nm = 700;         ///< fringes at longer wavelengths are hardly visible
 
 std::vector<double> samples_of(const schemas::ValueRange& range) {
     if (range.is_one()) return {range.first};
     return equally_spaced(range.first, range.last, kRangeSize);
 }
 
-/// Cosines from the largest angle to the smallest, so that they ascend.
+/// Cosines from the largest angle to the smallest, that is ascending.
 std::vector<double> cosines_of(const schemas::ValueRange& angles_deg) {
     return samples_of({cos_of_incidence(angles_deg.last), cos_of_incidence(angles_deg.first)});
 }
@@ -52,14 +52,14 @@ std::string in_text(const schemas::ValueRange& range) {
     return to_text(range.first) + " to " + to_text(range.last);
 }
 
-/// The option of a request that has cosines of angles; "" if there is none.
+/// The option of a request that holds cosines of angles; "" if there is none.
 std::string angle_option(const LutRequest& request) {
     for (const char* name : {"cos", "cos-theta"})
         if (request.has(name)) return name;
     return "";
 }
 
-/// Plans one material after the other.
+/// Plans the materials one by one.
 class Planner {
 public:
     Planner(const schemas::Scene& scene, const Execution& execution)
@@ -86,7 +86,7 @@ public:
             try {
                 if (plan.faults.empty()) plan.faults = shading_faults(material);
                 if (plan.faults.empty()) plan_material(material, plan);
-            } catch (const std::exception& error) {  // of any type: it concerns this material only
+            } catch (const std::exception& error) {  // of any type: affects only this material
                 plan.faults.push_back(schemas::fault_of(material, error));
                 plan.tables.clear();
                 result_.omissions.resize(omissions);
@@ -107,7 +107,7 @@ public:
     }
 
 private:
-    /// Requests of the scene that the shading does not support.
+    /// Requests in the scene that the shading does not support.
     std::vector<schemas::SceneFault> shading_faults(const schemas::SceneMaterial& material) const {
         const std::string name(name_of(material.shading));
         std::vector<schemas::SceneFault> faults;
@@ -253,7 +253,7 @@ private:
         plan.tables.push_back({role, place});
     }
 
-    /// All inputs that a table's values depend on.
+    /// All inputs that affect a table's values.
     json inputs_of(const SceneTable& table) const {
         const LutRequest& request = table.request;
         json inputs = {{"numbers", kNumbersVersion},
@@ -278,8 +278,8 @@ private:
         return inputs;
     }
 
-    /// The stack at the other end of what varies: a path may reach more than its own value, as that
-    /// of a material which several layers share.
+    /// The stack at the other end of the varied ranges: a path may affect more than its own value,
+    /// for example a material shared by several layers.
     static json end_of(const LutRequest& request) {
         std::vector<double> last;
         for (const VariedValue& vary : request.vary) last.push_back(vary.values.back());
@@ -313,7 +313,7 @@ private:
         }
     }
 
-    /// Standard deviations of the thickness, as mip levels.
+    /// Standard deviations of the thickness, for use as mip levels.
     void plan_spread(const schemas::SceneMaterial& material, LutRequest& request) {
         const double spread = material.thickness_spread_nm;
         if (spread == 0)
@@ -326,7 +326,7 @@ private:
 
     // --- the series in the shader -----------------------------------------------------------
 
-    /// Films at the ends and in the middle of the varied ranges, with the indices of shaders.
+    /// Films at the ends and midpoints of the varied ranges, with the shaders' indices.
     std::vector<Film> films_of(const schemas::SceneMaterial& material) const {
         const LutRequest request = request_of(material);
         const std::vector<std::string> paths = paths_of(request.vary);
@@ -418,9 +418,9 @@ private:
         return orders;
     }
 
-    /// Standard deviations of the optical path difference. That of order m is
-    /// m 2 n2 cos(theta2) sigma, with sigma that of the thickness: the shader picks the level of
-    /// each order. The last level is the largest that occurs, or one without any fringes.
+    /// Standard deviations of the optical path difference. For order m it is m 2 n2 cos(theta2)
+    /// sigma, where sigma is that of the thickness; the shader picks the level for each order. The
+    /// last level is the largest that occurs, or one at which the fringes have vanished.
     std::vector<double> sigmas_of(const schemas::SceneMaterial& material,
                                   const std::vector<Film>& films, int orders) {
         const double spread = material.thickness_spread_nm;

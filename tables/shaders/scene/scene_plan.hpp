@@ -16,8 +16,8 @@
 
 namespace irido::tables {
 
-/// Incremented whenever irido computes different numbers for the same request: older tables are
-/// then remade.
+/// Incremented whenever irido computes different numbers for the same request, so that older tables
+/// are remade.
 inline constexpr int kNumbersVersion = 2;
 
 /// Scratches, and the rectangle in which engines look them up.
@@ -29,7 +29,7 @@ struct SceneGrid {
 /// A table that a scene needs; its size is not known yet. Or a grid of scratches, which no kind of
 /// table makes.
 struct SceneTable {
-    std::string id;    ///< hash of all that its values depend on, 16 hexadecimal digits
+    std::string id;    ///< hash of everything its values depend on, 16 hexadecimal digits
     std::string file;  ///< KIND-ID.FORMAT
     const LutKind* kind = nullptr;
     std::shared_ptr<const SceneGrid> grid;  ///< in the place of kind, request and making
@@ -43,7 +43,7 @@ struct SceneTable {
     std::vector<std::string> materials;  ///< materials that use it
 };
 
-/// Something left out for a material, and why.
+/// Something omitted for a material, and the reason.
 struct Omission {
     enum class Kind {
         skipped,  ///< work that would not change the result
@@ -54,7 +54,7 @@ struct Omission {
     std::string what;    ///< transmission, mip levels, layers.0.thickness_nm, ...
     std::string reason;  ///< in words
     Kind kind = Kind::skipped;
-    std::optional<double> delta_e{};  ///< of a loss, if known: the largest value found
+    std::optional<double> delta_e{};  ///< for a loss, if known: the largest value found
 };
 
 /// The loss of the shading scratches over a base.
@@ -72,7 +72,7 @@ struct MaterialPlan {
     };
     std::string name;
     schemas::Shading shading = schemas::Shading::color;
-    schemas::ValueRange angles_deg;  ///< of the scene, or [0, 90]
+    schemas::ValueRange angles_deg;  ///< from the scene, or [0, 90]
     std::vector<schemas::VariedRange> vary;
     std::vector<Use> tables;
     nlohmann::json constants = nlohmann::json::object();
@@ -84,25 +84,25 @@ struct ScenePlan {
     std::vector<SceneTable> tables;
     std::vector<MaterialPlan> materials;
     std::vector<Omission> omissions;
-    Triple white_xyz{};          ///< of the scene's light
+    Triple white_xyz{};          ///< for the scene's light
     ColorMatrix rgb_from_xyz{};  ///< to the scene's space, with its adaptation; rows
 };
 
-/// Plans a scene: tables with axes and tolerances, constants, and omissions. Equal tables are
-/// shared. Depends on the scene only. A material that cannot be made has faults and no tables.
+/// Plans a scene: tables with axes and tolerances, constants, and omissions. Identical tables are
+/// shared. Depends only on the scene. A material that cannot be made has faults and no tables.
 ScenePlan plan_scene(const schemas::Scene& scene, const Execution& execution);
 
 /// The table's request with its angles limited to `largest_angle_deg`.
 LutRequest request_up_to(const SceneTable& table, double largest_angle_deg);
 
-/// The request to the kind `color` for a material's reflected light, whatever its shading.
+/// The request for a table of kind `color` for a material's reflected light, whatever its shading.
 LutRequest color_request_of(const schemas::Scene& scene, const schemas::SceneMaterial& material,
                             const Execution& execution);
 
-/// The wavelength of the indices that shaders use.
+/// The wavelength at which shaders take indices.
 inline constexpr double kShaderIndices_nm = 550;
 
-/// The film of a stack, with the indices that shaders use.
+/// The film of a stack, with its indices at that wavelength.
 Film shader_film(const Stack& stack);
 
 /// The file format that the scene requests.

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Small and of every kind of entry: tables with and without levels, shared ones, numbers.
+/// Small, with every kind of entry: tables with and without levels, shared ones, numbers.
 const std::string kScene = R"({
     "name": "test", "tolerance": {"delta_e": 0.5, "relative": 0.01},
     "materials": [
@@ -70,7 +70,7 @@ public:
         REQUIRE(outcome.status == 0);
         return files_in(path(folder));
     }
-    /// A file of a baked folder whose name begins so.
+    /// The file in a baked folder whose name begins with `start`.
     std::string file(const std::string& folder, const std::string& start) const {
         for (const auto& [name, bytes] : files_in(path(folder)))
             if (name.starts_with(start)) return path(folder) + "/" + name;
@@ -92,7 +92,7 @@ TEST_CASE("a second bake touches nothing", "[cli][bake]") {
     CHECK_THAT(second.err, Contains("0 made, 6 kept\n"));
     CHECK(times_in(bakery.path("a")) == times);
     CHECK(files_in(bakery.path("a")) == first);
-    // and so says the plan
+    // and the plan agrees
     const json plan = json::parse(
         run_irido({"plan", bakery.path("scene.json"), "-o", bakery.path("a"), "-f", "json"}).out);
     std::map<std::string, int> states;
@@ -108,7 +108,7 @@ TEST_CASE("a bake's bytes depend on the scene alone", "[cli][bake]") {
     CHECK(bakery.baked("one", {"--force"}) == one);
     for (const auto& [name, time] : times_in(bakery.path("one")))
         if (name.ends_with(".ktx2")) CHECK(time != times.at(name));
-    // what --force wrote is as good as before
+    // files written with --force are as good as before
     const auto forced = times_in(bakery.path("one"));
     CHECK_THAT(bakery.bake("one").err, Contains("0 made"));
     CHECK(times_in(bakery.path("one")) == forced);
@@ -117,7 +117,7 @@ TEST_CASE("a bake's bytes depend on the scene alone", "[cli][bake]") {
 TEST_CASE("bake --prune removes tables that this scene made and no material needs", "[cli][bake]") {
     const Bakery bakery;
     bakery.baked("a");
-    // not made by this scene, whatever it is called
+    // not made by this scene, whatever its name
     write_text(bakery.path("a/color-0123456789abcdef.ktx2"), "old");
     write_text(bakery.path("a/mine.ktx2"), "mine");
     json scene = json::parse(kScene);
@@ -163,7 +163,7 @@ TEST_CASE("a second scene needs a manifest of its own, and its tables are safe",
     const Outcome second = bake({"--manifest", "other"});
     CHECK_THAT(second.err, Contains("0 made, 2 kept, other.json written"));
     CHECK(run_irido({"validate", bakery.path("a/other.json")}).status == 0);
-    // what the first scene drops, the second keeps
+    // tables that the first scene drops are kept by the second
     json scene = json::parse(kScene);
     scene["materials"].erase(3);
     bakery.set(scene);
@@ -187,7 +187,7 @@ TEST_CASE("the bake folder is irido's own: links and pipes are replaced", "[cli]
         CHECK(bakery.baked("a") == whole);
         CHECK(!fs::exists(bakery.path("missing")));
     }
-    // a link to the right bytes, too: who knows what happens to them
+    // even a link to the right bytes is replaced: they may change later
     fs::rename(file, target);
     fs::create_symlink(target, file);
     CHECK(bakery.baked("a") == whole);
@@ -208,7 +208,7 @@ TEST_CASE("a table that is not the one asked for is made again", "[cli][bake]") 
         if (name.starts_with("color-")) colors.push_back(bakery.path("a/" + name));
     REQUIRE(colors.size() == 2);
     const auto swap = [&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // times of files go in ticks
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));  // file times are coarse
         fs::rename(colors[0], bakery.path("a/t"));
         fs::rename(colors[1], colors[0]);
         fs::rename(bakery.path("a/t"), colors[1]);
@@ -232,7 +232,7 @@ TEST_CASE("a table that is not the one asked for is made again", "[cli][bake]") 
         CHECK_THAT(bakery.bake("a", options).err, Contains("1 made, 2 kept"));
         CHECK(files_in(bakery.path("a")) == whole);
     }
-    // nor is a manifest made of them where there is none
+    // nor is a manifest made from them where there is none
     swap();
     fs::remove(bakery.path("a/manifest.json"));
     CHECK(bakery.baked("a") == whole);
@@ -330,7 +330,7 @@ TEST_CASE("plan says why a table is new, and bytes do not depend on that", "[cli
     scene["tolerance"]["delta_e"] = 1;
     bakery.set(scene);
     CHECK(plan(folder)["tables"][0]["why"] == "changed: tolerance");
-    // a time is on standard error
+    // the time is printed on standard error
     CHECK_THAT(run_irido({"plan", bakery.path("scene.json")}).err,
                Contains("making the new tables will take about "));
 }
@@ -340,13 +340,13 @@ TEST_CASE("a changed scene makes only what changed", "[cli][bake]") {
     bakery.baked("a");
     const auto times = times_in(bakery.path("a"));
     json scene = json::parse(kScene);
-    scene["tolerance"]["relative"] = 0.02;  // of the filters, not of the colours
+    scene["tolerance"]["relative"] = 0.02;  // for the filters, not the colours
     bakery.set(scene);
     const Outcome outcome = bakery.bake("a", {"--prune"});
     CHECK_THAT(outcome.err, Contains("4 made, 2 kept"));
     for (const auto& [name, time] : times_in(bakery.path("a")))
         if (name.starts_with("color-")) CHECK(time == times.at(name));
-    // another name changes the manifest alone
+    // a new name changes only the manifest
     scene["materials"][0]["name"] = "other";
     bakery.set(scene);
     CHECK_THAT(bakery.bake("a").err, Contains("0 made, 6 kept, manifest.json written"));
@@ -359,7 +359,7 @@ TEST_CASE("a bake that was killed goes on and ends with the same bytes", "[cli][
     int killed = 0;
     for (int round = 0; round < 20; ++round) {
         const std::string folder = "round-" + std::to_string(round);
-        // three times in a row, at moments that differ; the process is gone when timeout(1) is
+        // three times in a row, at different moments; the process is gone when timeout(1) returns
         for (int again = 0; again < 3; ++again) {
             const int milliseconds = (round * 37 + again * 61) % 160;
             const Outcome outcome = run_shell(
@@ -388,13 +388,13 @@ TEST_CASE("two bakes of one folder at once: one says so, nothing is harmed", "[c
     const Bakery bakery;
     const Files whole = bakery.baked("whole");
     const std::string stage = fs::path(bakery.path("scene.json")).parent_path().string();
-    // flock(1) stands for a bake that takes long
+    // flock(1) stands in for a long bake
     fs::create_directory(bakery.path("a"));
     const Outcome second =
         run_shell("flock -n a/.irido-lock \"$IRIDO\" bake scene.json -o a", stage);
     check_refused(second, "a: locked by another bake");
     CHECK(bakery.baked("a") == whole);
-    // two real ones
+    // two actual bakes
     const Outcome both = run_shell(
         "\"$IRIDO\" bake scene.json --quiet -o b 2> first.txt & first=$!\n"
         "\"$IRIDO\" bake scene.json --quiet -o b 2> second.txt; echo $?; wait $first; echo $?",
@@ -421,9 +421,9 @@ TEST_CASE("a material that fails leaves the others", "[cli][bake]") {
     const json manifest = json::parse(after.at("manifest.json"));
     CHECK(manifest["materials"].size() == 7);
     CHECK(manifest["failed"]["bad"][0]["pointer"] == "/materials/6/shading");
-    // the plan says it, too
+    // the plan reports it, too
     CHECK(run_irido({"plan", bakery.path("scene.json")}).status == 1);
-    // repaired, what was made is kept
+    // after the repair, existing tables are kept
     scene["materials"].erase(6);
     bakery.set(scene);
     CHECK_THAT(bakery.bake("a").err, Contains("0 made, 7 kept, manifest.json written"));
@@ -463,22 +463,22 @@ TEST_CASE("a table that was altered is made again", "[cli][bake]") {
         CHECK_THAT(outcome.err, Contains("1 made, 5 kept"));
         return files_in(bakery.path("a")) == whole;
     };
-    write_text(file, bytes.substr(0, bytes.size() - 1));  // by its size
+    write_text(file, bytes.substr(0, bytes.size() - 1));  // detected by its size
     CHECK(restored({}));
     fs::remove(file);
     CHECK(restored({}));
     bytes[bytes.size() - 3] ^= 1;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // times of files go in ticks
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // file times are coarse
     write_text(file, bytes);  // newer than the manifest: it is read
     CHECK(restored({}));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    write_text(file, bytes);  // of its size, and with an older time: it was touched nevertheless
+    write_text(file, bytes);  // same size and an older time: it was touched nevertheless
     fs::last_write_time(
         file, fs::last_write_time(bakery.path("a/manifest.json")) - std::chrono::hours(1));
     CHECK(restored({}));
     write_text(file, bytes);
     CHECK(restored({"--verify"}));
-    // touched and whole: read, and kept
+    // touched but intact: read, and kept
     fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::hours(1));
     CHECK_THAT(bakery.bake("a").err, Contains("0 made"));
 }

@@ -92,7 +92,7 @@ TEST_CASE("gaps have their width, the reflectance inside and the periods needed"
         const double centre = 2 / (1 / number(row[3]) + 1 / number(row[4]));
         CHECK(std::abs(centre / number(row[7]) - 1) < 1e-15);
         CHECK(std::abs(reflectance(kMirror, row[7], row[0], row[1]) - number(row[6])) < 1e-12);
-        CHECK(row[11] == "false");  // a gap of vacuum and 1.5 closes at Brewster's angle
+        CHECK(row[11] == "false");  // a gap between vacuum and 1.5 closes at Brewster's angle
         for (const auto& [column, level] : {std::pair{8U, 0.95}, {9U, 0.99}, {10U, 0.999}}) {
             const int n = std::stoi(row[column]);
             const auto with = [](int repeat) {
@@ -120,7 +120,7 @@ TEST_CASE("many periods of little contrast are counted without trying each", "[c
             .at(1);
     const double n = number(row[10]);
     CHECK(n > 1e4);
-    // R = tanh^2(N kappa) at the middle, where kappa is the logarithm of the two indices' ratio
+    // R = tanh^2(N kappa) at the centre, where kappa is the logarithm of the ratio of the indices
     CHECK(std::abs(n - std::ceil(std::atanh(std::sqrt(0.999)) / std::log(1.5003 / 1.5))) <= 2);
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("what bands cannot answer is refused", "[cli][bands]") {
 }
 
 TEST_CASE("landmarks that are not unique are refused", "[cli][bands][refused]") {
-    // n goes from 1.5 to 2.5 between 450 and 500 nm: the phase falls with 1/wavelength there
+    // n rises from 1.5 to 2.5 between 450 and 500 nm: there the phase decreases with 1/wavelength
     const std::string stack = R"({"incident": 1, "layers": [{"repeat": 8, "layers": [
         {"material": 1.3, "thickness_nm": 150},
         {"material": {"table": [[300, 1.5, 0], [450, 1.5, 0], [500, 2.5, 0], [900, 2.5, 0]]},

@@ -18,7 +18,7 @@ json vertical(const json& scratch) {
     return {{"depth_phase", "vertical"}, {"scratches", {scratch}}};
 }
 
-/// Rows of brdf of a document, given on standard input.
+/// Rows printed by brdf for a document on standard input.
 std::vector<std::vector<std::string>> rows_of(const json& document,
                                               std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"brdf", "-"});
@@ -104,7 +104,7 @@ TEST_CASE("brdf of a scratch under area lights has the values of a 40-digit eval
     check_close(color[1][2], 0.01771093295481027, 1e-9);
     check_close(color[1][3], 0.019305930860964205, 1e-9);
     check_close(color[1][4], 0.018300180568327586, 1e-9);
-    // a file is the same as its text, an array of one light as the light
+    // a file is equivalent to its text, and an array of one light to the light
     const TemporaryFolder folder;
     write_text(folder / "light.json", "[" + kSphere + "]");
     CHECK(rows_of(vertical(kScratch), {"--area-light", folder / "light.json", "--view-theta", "20",
@@ -115,7 +115,7 @@ TEST_CASE("slanted depth follows the directions", "[cli][brdf][scratch]") {
     json slanted = vertical(kScratch);
     slanted.erase("depth_phase");
     const auto rows = rows_of(slanted, with(kPair, {"-w", "550"}));
-    // sin^2 of the path D (cos theta_i + cos theta_o) in the place of 2 D
+    // sin^2 of the path D (cos theta_i + cos theta_o) instead of 2 D
     const double pi = 3.141592653589793;
     const double path = 0.14 * (std::cos(19.704 * pi / 180) + std::cos(20 * pi / 180));
     const double factor = std::pow(std::sin(pi * path / 0.55) / std::sin(pi * 0.28 / 0.55), 2);

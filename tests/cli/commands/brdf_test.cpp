@@ -31,7 +31,7 @@ TEST_CASE("rows of brdf", "[cli][brdf]") {
     CHECK(rows[7][3] == "180");
     CHECK_THAT(std::stod(rows[7][5]), WithinRel(1.0713005613365996, 1e-11));
     CHECK_THAT(std::stod(rows[8][5]), WithinRel(9.789604879615283, 1e-11));
-    // azimuths are relative: the same pair, turned
+    // azimuths are relative: the same pair, rotated
     const auto turned = rows_of({kMirror, "--alpha", "0.1", "--light-theta", "30", "--view-theta",
                                  "30", "--light-phi", "270", "--view-phi", "90", "-w", "450"});
     CHECK(turned[1][5] == rows[7][5]);

@@ -17,7 +17,7 @@ double number(const std::string& text) {
 
 }  // namespace
 
-// Reference rows: a 60-digit evaluation, rounded to double. phi_rad is defined up to a full turn.
+// Reference rows: a 60-digit evaluation, rounded to double. phi_rad is defined modulo 2 pi.
 TEST_CASE("coefficients agree with a 60-digit evaluation", "[cli][cm]") {
     const auto want = parse_csv(
         "angle_deg,polarization,side,order,C,opd_nm,phi_rad\n"

@@ -93,13 +93,13 @@ TEST_CASE("the printed hex is its own target, whatever the space", "[cli][color]
             auto again = request;
             again.insert(again.end(), {"--target", colored(request)[0].at("hex")});
             INFO(space << " " << illuminant);
-            // Half a level of 255, which is linear in acescg.
+            // Half of one level in 255; in acescg levels are linear.
             CHECK(number(colored(again)[0], "delta_e_2000") < (space == "acescg" ? 1 : 0.6));
         }
 }
 
 TEST_CASE("Lab of dark colours holds 1e-4", "[cli][color]") {
-    // A film that reflects 1e-5: slopes of Lab are 4000.
+    // A film that reflects 1e-5: there Lab has slopes of 4000.
     const std::string stack = "1.5 | 1.51@700 | 1.5";
     const auto coarse = colored({stack, "-a", "0,30", "--columns", "L,a,b", "--tolerance", "1e-2"});
     const auto fine = colored({stack, "-a", "0,30", "--columns", "L,a,b", "--tolerance", "1e-12"});

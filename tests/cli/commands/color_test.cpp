@@ -21,7 +21,7 @@ std::vector<std::string> row_of(const std::vector<std::string>& arguments, std::
 }  // namespace
 
 // Reference values: the spectrum of each stack times D65 and the CIE 1931 observer, both linear
-// between their 1 nm rows, integrated cell by cell with Gauss-Legendre rules; good to 1e-12.
+// between their 1 nm rows, integrated cell by cell with Gauss-Legendre rules; accurate to 1e-12.
 TEST_CASE("colours agree with an independent integration", "[cli][color]") {
     struct Case {
         std::string stack, angle;
@@ -78,7 +78,7 @@ TEST_CASE("a perfect mirror is exactly 1, black exactly 0", "[cli][color][slow]"
     CHECK(black[2] + black[3] + black[4] == "000");
     CHECK(black[7] + black[8] + black[9] == "000");
     CHECK(black[10] == "#000000");
-    CHECK_THAT(black[5], StartsWith("0.3127"));  // the white's, where there is no light
+    CHECK_THAT(black[5], StartsWith("0.3127"));  // that of the white, if there is no light
 }
 
 TEST_CASE("an illuminant from a file is the same as by its name", "[cli][color]") {

@@ -37,7 +37,7 @@ const std::string kFilms =
     "titanium,2.3,35,0,2.15,2.15,2.15,2.9,2.9,2.9\n"
     "metal,1.6,250,40,0.18,0.42,1.37,3.42,2.35,1.77\n";
 
-/// Whether a field is empty; an empty last one is left out of the row.
+/// Whether a field is empty; a trailing empty field is missing from the row.
 bool is_empty(const std::vector<std::string>& row, std::size_t column) {
     return column >= row.size() || row[column].empty();
 }
@@ -57,7 +57,7 @@ TEST_CASE("compare prints engines beside exact colours", "[cli][compare]") {
     CHECK(rows[2][0] == "gltf");
     CHECK(rows[2][1] == "45");
     CHECK(rows[3][0] == "materialx");
-    // the engines' own sources, compiled in double precision
+    // from the engines' own sources, compiled in double precision
     CHECK_THAT(number(rows[1][2]), WithinAbs(0.0107145505387536, 1e-12));
     CHECK_THAT(number(rows[1][4]), WithinAbs(0.0177042214165557, 1e-12));
     CHECK_THAT(number(rows[3][3]), WithinAbs(0.0129441078971938, 1e-12));
@@ -94,14 +94,14 @@ TEST_CASE("compare names what engines cannot take", "[cli][compare]") {
     strict.push_back("--strict");
     check_refused(compare(strict),
                   "engines cannot take an incident medium other than air, its dispersion");
-    // air is what engines have
+    // engines assume air
     CHECK(compare({"air | 1.3@100 | 1.5", "--strict", "--engine", "gltf", "--quiet"}).status == 0);
-    // a film that absorbs
+    // an absorbing film
     CHECK_THAT(compare({"1 | 1.5+0.1i@300 | 2", "--engine", "gltf"}).err,
                Contains("engines cannot take absorption of the film"));
     check_refused(compare({"1 | 1.5+0.1i@300 | 2", "--engine", "gltf", "--strict"}),
                   "engines cannot take absorption of the film");
-    // methods that take the stack itself
+    // methods that use the stack itself
     const Outcome whole =
         compare({"water | TiO2@40 | BK7", "--engine", "naive,equal/8", "--strict"});
     CHECK(whole.status == 0);
@@ -139,7 +139,7 @@ TEST_CASE("compare reads tables of films", "[cli][compare]") {
     CHECK_THAT(number(rows[4][3]), WithinAbs(0.0776185882937332, 1e-12));
     CHECK_THAT(number(rows[4][11]), WithinAbs(4.745796, 1e-4));
     CHECK_THAT(number(rows[8][3]), WithinAbs(0.113871393234369, 5e-8));
-    // indices that differ by channel are no spectrum
+    // indices that differ by channel do not define a spectrum
     CHECK(rows[10][0] == "metal");
     CHECK_THAT(number(rows[10][3]), WithinAbs(0.957997124373907, 1e-12));
     for (const std::size_t column : {7, 8, 9, 10, 11}) CHECK(is_empty(rows[10], column));
@@ -158,7 +158,7 @@ TEST_CASE("compare reads tables of films", "[cli][compare]") {
     CHECK(statistics[4][1] == "all");
     CHECK(statistics[4][7] == "titanium");
 
-    // gray bases in two columns
+    // grey bases given in two columns
     write_text(folder / "gray.csv",
                "id,film_n,film_d_nm,angle_deg,base_n,base_k\n"
                "coating,1.38,99.6,0,1.52,0\n");
@@ -224,14 +224,14 @@ TEST_CASE("compare fits engines and writes their materials", "[cli][compare][slo
     CHECK_THAT(material("materialx-gltf", "mtlx"), Contains("<gltf_pbr name="));
     CHECK_THAT(material("cycles", "py"), Contains("\"PHYSICAL_CONDUCTOR\""));
     CHECK_THAT(material("cycles-principled", "py"), Contains("nodes[\"Principled BSDF\"]"));
-    // what cannot be matched is said: a beetle's mirror seen from inside its cuticle
+    // a failure to match is reported: a beetle's mirror seen from inside its cuticle
     const std::string beetle = "schemas/examples/jewel-beetle-green.json";
     const Outcome inside = compare({beetle, "--set", "incident=1.59", "--engine", "gltf", "--fit"});
     CHECK(inside.status == 0);
     CHECK_THAT(inside.err, Contains("no match exists: the mean difference of gltf stays at 17"));
     const Outcome outside = compare({beetle, "--engine", "gltf", "--fit"});
     CHECK_THAT(outside.err, !Contains("no match exists"));
-    // weights: one angle alone can be met
+    // weights: a single angle can be matched
     const Rows one = compared(
         {stack, "--engine", "gltf", "--fit", "-a", "0,20,80", "--weights", "0,1,0", "--quiet"});
     CHECK(number(one[one.size() - 2][2]) < 0.1);
@@ -256,8 +256,8 @@ TEST_CASE("compare reads materials of glTF assets", "[cli][compare]") {
     CHECK_THAT(number(rows[1][12]), WithinAbs(3.619342, 1e-4));
     CHECK(rows[5][1] == "100");
     CHECK(rows[9][1] == "400");
-    CHECK(is_empty(rows[5], 12));  // colored: not known exactly
-    // the factor mixes with the bare base, exactly as well
+    CHECK(is_empty(rows[5], 12));  // coloured: no exact colour
+    // the factor blends with the bare base, in the exact colour as well
     write_text(folder / "half.gltf", R"({"asset": {"version": "2.0"}, "materials": [
         {"pbrMetallicRoughness": {"metallicFactor": 0},
          "extensions": {"KHR_materials_ior": {"ior": 1.52}, "KHR_materials_iridescence":
@@ -304,7 +304,7 @@ TEST_CASE("compare holds a table of colours against the exact ones", "[cli][comp
     CHECK(number(fine[1][1]) < 0.1 * number(coarse[1][1]));
     CHECK(number(fine[1][4]) < 0.5);
     CHECK_THAT(fine[1][5], Contains("cos_theta=") && Contains("; layers.0.thickness_nm="));
-    // its own stack, point by point
+    // for the table's own stack, point by point
     const Rows points = compared({"--lut", file, "--random", "100", "--seed", "2", "--rows"});
     CHECK(points[0] == std::vector<std::string>{"cos_theta", "layers.0.thickness_nm", "r", "g", "b",
                                                 "hex", "true_r", "true_g", "true_b", "true_hex",
@@ -318,7 +318,7 @@ TEST_CASE("compare holds a table of colours against the exact ones", "[cli][comp
         run_irido({"color", stack, "--set", "layers.0.thickness_nm=" + points[1][1], "-a",
                    std::to_string(angle)});
     CHECK_THAT(number(points[1][6]), WithinAbs(number(parse_csv(exact.out)[1][7]), 1e-5));
-    // another stack than that of the table
+    // for a different stack
     CHECK(number(compared({"--lut", file, "air | 1.5@400 | 1.9+1.5i", "--random", "50"})[1][1]) >
           2);
     check_refused(compare({"--lut", file, "--fit"}), "--lut: takes a STACK");

@@ -28,7 +28,7 @@ json converted(const Words& arguments) {
     return json::parse(done(Words{"convert"} + arguments).out);
 }
 
-/// Reflectance of a stack, row by row.
+/// Reflectances of a stack, by row.
 std::vector<double> reflectance_of(const Words& stack) {
     const auto rows = parse_csv(
         done(Words{"spectrum"} + stack + Words{"-w", "400,470,550,633,700", "-a", "0,40"}).out);
@@ -92,7 +92,7 @@ TEST_CASE("COATING.DAT: k is negative there, the first layer lies outside, waves
     CHECK(two["materials"]["HIGH"]["extrapolate"] == "clamp");
     CHECK(two["materials"]["HIGH"]["table"] ==
           json::parse("[[400, 2.4, 0.001], [550, 2.3, 0], [800, 2.25, 0]]"));
-    // between its rows 2.3 + (633 - 550)/250 (2.25 - 2.3)
+    // interpolated between its rows: 2.3 + (633 - 550)/250 (2.25 - 2.3)
     const json red = converted({file, "--coating", "TWO", "--primary", "633"});
     CHECK(red["layers"][0]["thickness_nm"].get<double>() == Approx(0.25 * 633 / 2.2834));
     const Outcome mirror = done({"convert", file, "--coating", "ONE", "--mirror"});
@@ -155,11 +155,11 @@ TEST_CASE("a stack goes to COATING.DAT and back", "[cli][convert]") {
     const std::string document = folder / "back.json";
     done({"convert", file, "-o", document});
     CHECK(largest_difference(reflectance_of({stack}), reflectance_of({document})) < 2e-5);
-    // and again: nothing changes
+    // converting again changes nothing
     const std::string again = folder / "again.dat";
     done({"convert", document, "-o", again});
     CHECK(read_file(again) == text);
-    // an opaque substrate is the last layer
+    // an opaque substrate becomes the last layer
     const Outcome mirror = done({"convert", "air | SiO2@100 | Ag", "-o", folder / "m.dat"});
     CHECK(has_line(mirror.err, "it is the last layer, and the coating is for mirrors"));
     done({"convert", folder / "m.dat", "--mirror", "-o", folder / "m.json"});
@@ -194,7 +194,7 @@ TEST_CASE("an OpenFilters project runs from the substrate outwards", "[cli][conv
     CHECK(std::stod(oxide[2][1]) == Approx(2.35));
     CHECK(std::stod(oxide[2][2]) == Approx(0.005));
     CHECK(oxide[3] == Words{"600", "2.3", "0"});
-    // with its back: the last layer touches the medium behind
+    // with its back: the last layer touches the medium behind it
     std::string text = kProject;
     text.replace(text.find("ConsiderBackside: 0"), 19, "ConsiderBackside: 1");
     write_text(file, text);
@@ -280,7 +280,7 @@ TEST_CASE("OpenFilters projects and materials are refused where they cannot be r
     material("Kind: regular\nModel: constant\nProperties: 2.4-x\n", "must be an index such as");
     material("Kind: regular\nModel: Cauchy\nProperties: 1.5 0.1\n", "Cauchy must have 3 or 6");
     material("Kind: regular\nModel: table\nProperties:\n400 1.5\n", "has no End");
-    // models of n, and a tail of k
+    // dispersion models of n, and a tail of k
     write_text(folder / "x.mat",
                "Kind: regular\nModel: Cauchy\nProperties: 1.45 0.004 0.0001 0.01 1.5 4000\n");
     const auto rows = parse_csv(done({"materials", "show", folder / "x.mat", "-w", "500"}).out);
@@ -309,7 +309,7 @@ TEST_CASE("a stack goes to a list of layers and back", "[cli][convert]") {
                                      {"thickness_nm", 1e6},
                                      {"thickness_sigma_nm", 5},
                                      {"coherent", false}}));
-    // as others write them
+    // in the form that other programs write
     write_text(file, "Layer;Material;QWOT\r\n1;\"TiO2\";1,5\r\n2;1.46;2\r\n");
     const Outcome other = done({"convert", file, "--primary", "550"});
     CHECK(has_line(other.err, "the media around are not in the list: air and BK7"));

@@ -20,7 +20,7 @@ json designed(const std::vector<std::string>& more) {
     return json::parse(outcome.out);
 }
 
-/// sqrt of the mean square of what the spectrum command prints.
+/// Root mean square of the values that the spectrum command prints.
 double rms_of_spectrum(const std::string& stack, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"spectrum", "-"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -100,7 +100,7 @@ TEST_CASE("links move together, fixed values stay", "[cli][design]") {
                                                 "difference", "weight", "met"});
     CHECK(report.size() == 4);
     CHECK(read_file(folder / "plot.svg").find("<svg") != std::string::npos);
-    // the result refines again, from where it is
+    // refining the result starts from where it is
     const json again =
         json::parse(run_irido({"design", "--refine", "out.json", "--free",
                                "layers.*.thickness_nm=0:300", "--target", "R 450:650:100 = 0.1"},
@@ -120,7 +120,7 @@ TEST_CASE("colours are targets, as numbers and as hex", "[cli][design]") {
                                    "layers.0.thickness_nm=5:100", "--target", "lab = 90,0,0"});
     CHECK(far.status == 0);
     CHECK(far.err.find("the colour at 0 degrees was not reached") != std::string::npos);
-    // the colour that irido prints for a stack leads back to it
+    // the colour that irido prints for a stack leads back to that stack
     const auto printed = parse_csv(run_irido({"color", "1 | 2.45@31 | 2.6+3.6i", "-a", "0"}).out);
     std::string hex;
     for (std::size_t c = 0; c < printed[0].size(); ++c)
@@ -128,7 +128,7 @@ TEST_CASE("colours are targets, as numbers and as hex", "[cli][design]") {
     const json back = designed({"1 | 2.45@40 | 2.6+3.6i", "--method", "global", "--free",
                                 "layers.0.thickness_nm=5:100", "--target", "hex = " + hex,
                                 "--merit", "delta_e_76"});
-    CHECK(back["design"]["merit"].get<double>() < 0.6);  // of eight bits
+    CHECK(back["design"]["merit"].get<double>() < 0.6);  // 8-bit colour
     CHECK(back["layers"][0]["thickness_nm"].get<double>() == Approx(31).margin(0.3));
 }
 

@@ -8,7 +8,7 @@ using namespace irido::test;
 
 namespace {
 
-/// A table of what the program itself prints, with noise that is the same every time.
+/// A table of the program's own output with reproducible noise.
 std::string measured(const std::string& stack, const std::string& angles, double noise) {
     const Outcome outcome = run_irido({"spectrum", stack, "-w", "400:800:10", "-a", angles, "-p",
                                        "s", "--columns", "psi_deg,delta_deg"});
@@ -73,7 +73,7 @@ TEST_CASE("a fit finds thickness and dispersion, and how well they are known", "
 
 TEST_CASE("standard errors follow from the stated noise", "[cli][fit]") {
     TemporaryFolder folder;
-    // R = r^2 of one face is a function of n alone: by hand, dR/dn and sigma give the error
+    // R = r^2 of a single face depends only on n: dR/dn and sigma give the error analytically
     write_text(folder / "data.csv", "wavelength (nm), R (%)\n500, 4.1\n600, 3.9\n700, 4.05\n");
     write_text(folder / "task.json", R"({ "stack": { "incident": 1, "layers": [],
         "substrate": { "n": 1.6 } }, "free": [{ "path": "substrate.n", "name": "n" }],

@@ -103,7 +103,8 @@ TEST_CASE("means over cones", "[cli][spectrum]") {
                                  "u,s,p", "--cone", "10"});
     CHECK_THAT(number(tilted[0], "R"), WithinAbs(0.021713626324774887, 1e-12));
     CHECK_THAT(number(tilted[0], "T"), WithinAbs(0.9782863736752251, 1e-12));
-    // Gauss by 16 in v, 48 midpoints in azimuth, each ray with its own transverse vector
+    // reference: 16-point Gauss in v, 48 midpoints in azimuth, each ray with its own transverse
+    // vector
     CHECK_THAT(number(tilted[1], "R"), WithinAbs(0.04133431904619384, 1e-12));
     CHECK_THAT(number(tilted[2], "R"), WithinAbs(0.0020929336033558713, 1e-12));
     CHECK_THAT(number(rows_of({"spectrum", "1 | 1.5", "-w", "550", "--cone", "90"})[0], "R"),
@@ -173,7 +174,7 @@ TEST_CASE("light from the substrate is transmitted as light to it", "[cli][spect
     }
     check_refused(run_irido({"spectrum", "1 | 1.5@100 | 2+3i", "--reverse"}),
                   "/substrate: must be transparent");
-    // paths are those of the stack as it is written
+    // paths refer to the stack as written
     const auto swept =
         rows_of({"sweep", "1 | 2@100 | 1.4@50 | 1.5", "--vary", "layers.0.thickness_nm=100,130",
                  "--compute", "spectrum", "-w", "550", "--reverse"});
@@ -215,7 +216,7 @@ TEST_CASE("wavelengths in other units", "[cli][spectrum]") {
     check_refused(run_irido({"spectrum", kOxide, "--unit", "furlong"}), "--unit: must be one of");
     check_refused(run_irido({"spectrum", kOxide, "-w", "2000", "--unit", "eV"}),
                   "--wavelengths, eV: must be in [0.000123984, 1239.84] (got 2000)");
-    // without -w, the usual range, in the unit
+    // without -w: the usual range, converted to the unit
     const auto usual = rows_of({"spectrum", kOxide, "--unit", "um"});
     REQUIRE(usual.size() == 401);
     CHECK(usual[0].at("wavelength_um") == "0.38");
@@ -276,7 +277,7 @@ TEST_CASE("a graded layer is one layer everywhere", "[cli][spectrum]") {
     CHECK(field[0].at("medium") == "1");
     CHECK(field[1].at("medium") == "1");
     CHECK(field[2].at("medium") == "2");
-    // a thickness that varies reads the document again
+    // a varied thickness reads the document again
     const Outcome swept = run_irido({"sweep", "-", "--vary", "layers.0.thickness_nm=150,200",
                                      "--compute", "spectrum", "-w", "550", "--quiet"},
                                     graded);
@@ -292,7 +293,7 @@ TEST_CASE("delays and colours of graded layers and crystals", "[cli][spectrum]")
     const auto delays = rows_of({"spectrum", "-", "-w", "550,551", "-a", "60", "-p", "s,p",
                                  "--columns", "phase_t_deg,gd_t_fs"},
                                 crystal);
-    // the same media without dispersion: the phase is proportional to the frequency but for r
+    // the same media without dispersion: the phase is proportional to frequency except in r
     CHECK(number(delays[0], "gd_t_fs") > 4);
     CHECK(delays[0].at("gd_t_fs") != delays[2].at("gd_t_fs"));
     const Outcome color = run_irido({"color", "-", "-a", "0,60", "--stats"}, crystal);
@@ -318,7 +319,7 @@ TEST_CASE("delays and colours of graded layers and crystals", "[cli][spectrum]")
 TEST_CASE("quarter waves and mixtures on the command line", "[cli][spectrum]") {
     const auto quarter = rows_of({"spectrum", "1 | (H@1Q | L@1Q)^8 | 1.52", "--reference", "550",
                                   "--material", "H=2.35", "--material", "L=1.46", "-w", "550"});
-    // H^16 over L^16: (n0/ns) (H/L)^16 at the centre
+    // H^16 on L^16: (n0/ns) (H/L)^16 at the centre
     const double y = std::pow(2.35 / 1.46, 16) * 1.52;
     CHECK_THAT(number(quarter[0], "R"), WithinAbs(std::pow((1 - y) / (1 + y), 2), 1e-12));
     check_refused(run_irido({"spectrum", "air | 2@1Q | 1.5", "-w", "550"}),

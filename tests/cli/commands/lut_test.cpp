@@ -102,7 +102,7 @@ TEST_CASE("sensitivity at a path of 0 is the white, cumulative ends there", "[cl
                                            "Y_im", "Z_im"});
     CHECK(std::abs(number(h[1][3]) - 1) < 1e-12);
     CHECK(number(h[1][6]) == Approx(0).margin(1e-12));
-    // one wave of 550 nm is nearly in phase for all of Y; a spread of 50 nm takes some of it
+    // at one wavelength, 550 nm, Y is nearly in phase; a standard deviation of 50 nm reduces it
     CHECK(number(h[2][3]) > 0.7);
     CHECK(number(h[4][3]) < 0.9 * number(h[2][3]));
     const auto sums =
@@ -112,7 +112,7 @@ TEST_CASE("sensitivity at a path of 0 is the white, cumulative ends there", "[cl
     CHECK(std::abs(number(sums[3][2]) - 1) < 1e-12);
 }
 
-// The same noise as in the test of PerlinNoise, by its definition at (0.5, 0.5, 0).
+// The same noise as in the test of PerlinNoise, from its definition at (0.5, 0.5, 0).
 TEST_CASE("lut thickness is noise between two thicknesses", "[cli][lut]") {
     TemporaryFolder folder;
     const auto rows =
@@ -227,7 +227,7 @@ TEST_CASE("fringes that are gone end a table early, and it says so", "[cli][lut]
                Contains("layers.0.thickness_nm: no fringes are left, constant beyond "));
     const json axis = info(folder / "t.npy")["axes"][1];
     CHECK(axis["last"].get<double>() < 30000);
-    // the same of the thickness itself, once all of it is so thick
+    // the same for the thickness itself, once all of it is that thick
     const Outcome thick = run_irido({"lut", "color", "1 | 1.5@400 | 1.9+1.5i", "--theta", "0:60/8",
                                      "--vary", "layers.0.thickness_nm=60000:100000/8",
                                      "--tolerance", "1", "-o", folder / "u.npy"});

@@ -22,7 +22,7 @@ std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// The manual pages of all commands that the program has.
+/// The manual pages of all commands of the program.
 std::vector<Page> all_manual_pages() {
     const TemporaryFolder folder;
     REQUIRE(run_irido({"manual", "-o", folder.path()}).status == 0);
@@ -40,7 +40,7 @@ std::vector<Page> all_manual_pages() {
     return pages;
 }
 
-/// The lines of a section of a page.
+/// The lines of one section of a page.
 std::string section(const std::string& page, const std::string& name) {
     const std::string head = "\n.SH " + name + "\n";
     const std::size_t begin = page.find(head);
@@ -57,8 +57,8 @@ std::string help_of(const Page& page) {
     return help.out;
 }
 
-/// What completes the last of each line's words, in a real bash: one line for each, a blank between
-/// the words. The last word is empty after a trailing blank.
+/// Completions of the last word of each line in a real bash: one line each, separated by blanks.
+/// The last word is empty after a trailing blank.
 std::vector<std::string> completed(const std::vector<std::string>& lines) {
     const TemporaryFolder folder;
     std::string text;
@@ -131,7 +131,7 @@ TEST_CASE("bash completes commands, options, words and files", "[cli][manual]") 
         {"irido lut col", "color"},
         {"irido color stack.json --me", "--method"},
         {"irido color --method four", "fourier fourier-constant"},
-        {"irido color --space = di", "display-p3"},  // as bash divides --space=di
+        {"irido color --space = di", "display-p3"},  // as bash splits --space=di
         {"irido color --space = ", "srgb rec2020 display-p3 acescg xyz"},
         {"irido spectrum --columns psi_deg,delta_d", "psi_deg,delta_deg"},
         {"irido color -p ", "s p u"},
@@ -149,7 +149,7 @@ TEST_CASE("bash completes commands, options, words and files", "[cli][manual]") 
         {"irido color --illuminant sche", "schemas"},
         {"irido spectrum schemas/examples/soap-bubble.", "schemas/examples/soap-bubble.json"},
         {"irido bake x -o sche", "schemas"},
-        {"irido bake -o schemas/stack", ""},  // no folder
+        {"irido bake -o schemas/stack", ""},  // no folders match
         {"irido validate --schema ", "stack surface design scene manifest lut"},
         {"irido bench speed --cases film,500_p", "film,500_periods"},
         {"irido bench stability -r all,gain", "all,gain"},

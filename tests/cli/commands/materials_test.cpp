@@ -43,7 +43,7 @@ void write_page(const std::string& path, const std::string& text) {
     write_text(path, text);
 }
 
-/// A copy of a database without a catalogue, with names as they occur.
+/// A copy of a database without a catalogue, with realistic names.
 void write_folders(const TemporaryFolder& folder) {
     write_page(folder / "main/Ag/nk/Johnson.yml", kSilver);
     write_page(folder / "main/Ag/about.yml", "NAMES:\n  - Silver\nABOUT: |\n  text\n");
@@ -93,7 +93,7 @@ TEST_CASE("a database without a catalogue is read by its folders", "[cli][materi
           "rii:other/mixed crystals/In2O3-SnO2/K\xC3\xB6nig", "rii:specs/schott/optical/N-BK7",
           "rii:specs/schott/N-BK7"})
         CHECK(n_of(name) == "1.5");
-    // in stacks, too
+    // also in stacks
     const Words at550{"-w", "550"};
     const std::string direct =
         done(Words{"spectrum", "1 | 0.045+3.45i@20 | 1.5@100 | 1"} + at550).out;
@@ -144,7 +144,7 @@ TEST_CASE("a catalogue names the pages of a database", "[cli][materials]") {
     };
     CHECK(n_of("rii:main/Ag/Johnson") == "0.045");
     CHECK(n_of("rii:glass/BK7/SCHOTT") == "1.5");
-    CHECK(n_of("rii:glass/x y/plain") == "1.5");  // in no catalogue under that name
+    CHECK(n_of("rii:glass/x y/plain") == "1.5");  // not under that name in any catalogue
     CHECK(names_in(done(Words{"materials", "find", "silver christy"} + database).out)
               .contains("rii:main/Ag/Johnson"));
 }

@@ -20,7 +20,7 @@ Words operator+(Words words, const Words& more) {
     return words;
 }
 
-/// Command lines that draw, without -o.
+/// Command lines that draw pictures, without -o.
 std::vector<Words> drawings() {
     return {{"spectrum", kFilm, "-w", "400:700:20", "-a", "0,45", "-p", "s,p"},
             {"color", kFilm, "-a", "0:80:10", "--side", "R,T"},
@@ -86,7 +86,7 @@ TEST_CASE("colours outside of sRGB are counted", "[cli][pictures]") {
         "color", "schemas/examples/jewel-beetle-green.json", "--set", "incident=1.59", "-f", "svg"};
     const Outcome clipped = run_irido(green);
     CHECK_THAT(clipped.err, Contains("100 % of the colours lie outside sRGB and are clipped"));
-    CHECK_THAT(clipped.out, Contains("fill=\"#00570f\""));  // the hex of the rows
+    CHECK_THAT(clipped.out, Contains("fill=\"#00570f\""));  // the hex value of the rows
     const Outcome compressed = run_irido(green + Words{"--gamut", "compress"});
     CHECK_THAT(compressed.err, Contains("mixed with the grey of their luminance"));
     CHECK_THAT(compressed.out, !Contains("fill=\"#00570f\""));

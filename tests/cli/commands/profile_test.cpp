@@ -33,7 +33,7 @@ enum Quantity { z, medium, E2, Ex2, Ey2, Ez2, absorbed, flux };
 
 }  // namespace
 
-// 40-digit evaluation, rounded to double.
+// Reference: a 40-digit evaluation, rounded to double.
 TEST_CASE("a surface plasmon's field", "[cli][profile]") {
     const auto rows = profile({"1.515 | 0.06+4.2i@50 | 1", "-w", "633", "-a", "42.95", "-p", "p",
                                "--z", "-100,0,49,50,1000"});
@@ -53,7 +53,7 @@ TEST_CASE("a surface plasmon's field", "[cli][profile]") {
 }
 
 TEST_CASE("a film's field is what it is between its waves", "[cli][profile]") {
-    // a half-wave film: standing waves in it, and no reflection at all
+    // a half-wave film: a standing wave inside, and no reflection at all
     const auto rows = profile({"1 | 2@137.5 | 1", "-w", "550", "--z", "-50,0,68.75,137.5,500"});
     for (const auto& row : rows) CHECK_THAT(row[flux], WithinAbs(1, 1e-14));
     CHECK_THAT(rows[0][E2], WithinAbs(1, 1e-14));
@@ -71,8 +71,8 @@ TEST_CASE("the summary has the layers' absorptance", "[cli][profile]") {
         run_irido({"spectrum", stack, "-w", "550", "-a", "30", "--columns", "A_layers"}).out);
     CHECK_THAT(std::stod(summary[2][4]), WithinAbs(std::stod(spectrum[1][7]), 1e-14));
     CHECK(summary[1][4] == "0");
-    CHECK(summary[1][5].empty());  // light travels without loss
-    // the integral over the metal by Simpson's rule
+    CHECK(summary[1][5].empty());  // lossless
+    // the integral over the metal, by Simpson's rule
     std::string depths = "90";
     constexpr int kParts = 40;
     for (int i = 1; i <= kParts; ++i)
@@ -111,7 +111,7 @@ TEST_CASE("layers that no light reaches have no field", "[cli][profile]") {
     REQUIRE(table.size() == 1 + 1002);
     double begin = 0;
     for (std::size_t i = 1; i < table.size(); ++i) {
-        // std::stod refuses subnormal numbers
+        // std::stod rejects subnormal numbers
         const double largest = std::strtod(table[i][6].c_str(), nullptr);
         const double at = std::strtod(table[i][7].c_str(), nullptr);
         const double thickness = i > 1001 ? 0 : i == 1001 ? 71.5 : i % 2 == 1 ? 178.8 : 147.9;

@@ -33,7 +33,7 @@ std::vector<double> column_of(const Table& table, const std::string& name) {
     return values;
 }
 
-/// mean, sd, p5, p50, p95 by quantity, of a summary with one row for each.
+/// mean, sd, p5, p50, p95 by quantity, from a summary with one row per quantity.
 std::map<std::string, std::vector<double>> summary_of(const Words& arguments) {
     const Table table = parse_csv(out_of(arguments));
     REQUIRE(table[0] == Words{"quantity", "mean", "sd", "p5", "p50", "p95"});
@@ -50,7 +50,7 @@ double mean_of(const std::vector<double>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// Mean of the product of the deviations from the means.
+/// Covariance: the mean product of the deviations from the means.
 double covariance(const std::vector<double>& a, const std::vector<double>& b) {
     const double mean_a = mean_of(a), mean_b = mean_of(b);
     double sum = 0;
@@ -69,8 +69,8 @@ const Words kAt550{"--compute", "spectrum", "-w", "550"};
 
 TEST_CASE("means and standard deviations of a film's colour are those of the integral",
           "[cli][sweep][scatter]") {
-    // R(550), L, a, b of 310 nm of 1.46 on 4.08 + 0.04i with 2 %, D65, 2 degrees: Gauss-Hermite
-    // with 80 nodes, to 1e-12
+    // R(550), L, a, b of 310 nm of 1.46 on 4.08 + 0.04i with 2 %, D65, 2-degree observer:
+    // Gauss-Hermite with 80 nodes, to 1e-12
     const std::vector<std::string> names{"R", "L", "a", "b"};
     const std::vector<double> mean{0.17001138778055883, 49.2303480252528, -4.519009754739935,
                                    -28.017126359865237};
@@ -88,7 +88,7 @@ TEST_CASE("means and standard deviations of a film's colour are those of the int
     const auto x = column_of(colors, "X"), y = column_of(colors, "Y"), z = column_of(colors, "Z");
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double f_x = std::cbrt(x[i] / 0.950471), f_y = std::cbrt(y[i]),
-                     f_z = std::cbrt(z[i] / 1.088829);  // none is below 216/24389
+                     f_z = std::cbrt(z[i] / 1.088829);  // all above 216/24389
         REQUIRE(std::min({x[i], y[i], z[i]}) > 0.01);
         values["L"].push_back(116 * f_y - 16);
         values["a"].push_back(500 * (f_x - f_y));
@@ -105,7 +105,8 @@ TEST_CASE("means and standard deviations of a film's colour are those of the int
 
 TEST_CASE("a yield is the probability of the thicknesses that keep the limit",
           "[cli][sweep][scatter]") {
-    // one film: r01 and r12 have the same sign, R rises with cos 2 phi, phi = 2 pi n d/lambda
+    // a single film: r01 and r12 have the same sign, so R rises with cos 2 phi, phi = 2 pi n
+    // d/lambda
     const double n = 1.38, base = 1.52, lambda = 550, thickness = 97, sigma = 3, limit = 0.0127;
     const double r01 = (1 - n) / (1 + n), r12 = (n - base) / (n + base);
     const double squares = r01 * r01 + r12 * r12, product = r01 * r12;
@@ -130,7 +131,7 @@ TEST_CASE("a yield is the probability of the thicknesses that keep the limit",
     CHECK(found.at("R<=0.0127")[1] ==
           Approx(std::sqrt(found.at("R<=0.0127")[0] * (1 - found.at("R<=0.0127")[0]))));
     CHECK(found.at("T>0.5")[0] == 1);
-    // R + T = 1: stricter than the first limit
+    // R + T = 1: a stricter limit than the first one
     CHECK(found.at("yield")[0] == found.at("T>=0.98735")[0]);
     CHECK(found.at("yield")[0] < found.at("R<=0.0127")[0]);
 }
@@ -187,7 +188,7 @@ TEST_CASE("draws depend on seed, sample and path alone", "[cli][sweep][scatter]"
                                 more + kAt550));
     };
     const std::vector<double> some = column_of(drawn({"--samples", "3"}), "layers.2.thickness_nm");
-    // pinned: the same on every machine
+    // pinned values: the same on every machine
     CHECK(some == std::vector<double>{56.892700879417276, 58.857423771835236, 58.77343084884983});
     const std::string name = "layers.2.thickness_nm";
     const auto more = column_of(drawn({"--samples", "9"}), name);
@@ -218,7 +219,7 @@ TEST_CASE("samples are the same whatever threads, shards and formats", "[cli][sw
     }
     out_of(merge + Words{"-o", folder / "all.csv"});
     CHECK(read_file(folder / "all.csv") == whole);
-    // a shard of another seed is not one of them
+    // a shard with another seed does not belong
     out_of(arguments + Words{"--seed", "2", "--shard", "2/3", "-o", folder / "part-2.csv"});
     CHECK(run_irido(merge + Words{"-o", folder / "other.csv"}).status == 2);
     const Words summary{"--summary", "--limit", "R<0.5"};
@@ -298,7 +299,7 @@ TEST_CASE("layers of a material move together when they are linked by it",
         differs = differs || std::abs((first[i] - 60) / 1.2 - (second[i] - 94) / 1.88) > 0.1;
     }
     CHECK(differs);
-    // and a mirror stays one, whose landmarks can be found
+    // and a mirror stays a mirror, whose landmarks can be found
     const Table edges = parse_csv(out_of(
         {"sweep", "1 | (1@200 | 1.5@180)^10 | 1", "--scatter", "layers.*.thickness_nm=1%", "--link",
          "material", "--samples", "20", "--summary", "--compute", "bands", "--gaps"}));
@@ -320,7 +321,7 @@ TEST_CASE("a summary names the rows of a sample where there are several", "[cli]
     CHECK(Words(table[15].begin(), table[15].begin() + 4) == Words{"Ag", "500", "0", "R"});
     CHECK(table[13][4] == "1");
     CHECK(table[27][4] == "0");
-    // a flag is counted, a text is not a quantity
+    // a flag is counted, a string is not a quantity
     const Table color =
         parse_csv(out_of({"sweep", kCoating, "--scatter", "layers.*.thickness_nm=2%", "--samples",
                           "40", "--compute", "color", "--side", "R,T", "--summary"}));

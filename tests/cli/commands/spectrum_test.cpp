@@ -9,9 +9,9 @@ using Catch::Matchers::StartsWith;
 
 namespace {
 
-/// Rows must be equal in their text columns; numbers within 1e-14 of the larger of 1 and
-/// themselves, and within 1e-12 of themselves, which is rounding and its growth over the stacks
-/// below.
+/// Compares rows: text columns must be equal, numbers within 1e-14 of the larger of 1 and their
+/// size, and within a relative 1e-12, which allows for rounding errors and their growth over the
+/// stacks below.
 void check_same_table(const std::string& actual, const std::string& expected) {
     const auto got = parse_csv(actual), want = parse_csv(expected);
     REQUIRE(got.size() == want.size());
@@ -144,8 +144,8 @@ TEST_CASE("more columns come in the order asked for", "[cli][spectrum]") {
         CHECK(std::abs(at(11) * at(11) + at(12) * at(12) - at(3)) < 1e-14);
         CHECK(at(6) == 0);
     }
-    // the two polarizations of an angle have one psi and delta, in the rows of the first: 45 and 0
-    // at normal incidence
+    // both polarizations of an angle share psi and delta, printed in the rows of the first: 45 and
+    // 0 at normal incidence
     CHECK(table[1][7] == "0");
     CHECK(std::abs(std::stod(table[1][8]) - 45) < 1e-12);
     CHECK_FALSE(table[5][7].empty());
@@ -300,7 +300,7 @@ TEST_CASE("a failed request leaves an existing file as it was", "[cli][output]")
     write_text(folder / "out.csv", "precious");
     CHECK(run_irido({"spectrum", "1 | 1.5@-1 | 1", "-o", folder / "out.csv"}).status == 2);
     CHECK(read_file(folder / "out.csv") == "precious");
-    // a file size limit makes the write itself fail half way
+    // a file size limit makes the write itself fail midway
     const Outcome limited = run_shell(
         "trap '' XFSZ; ulimit -f 8; \"$IRIDO\" spectrum '1 | 1.5@100 | 1' -w 400:700:0.1 -o "
         "out.csv",

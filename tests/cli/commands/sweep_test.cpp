@@ -36,7 +36,7 @@ Table rows_of(const Words& arguments) {
     return parse_csv(out_of(arguments));
 }
 
-/// The command as one word a shell takes apart again.
+/// The command quoted for a shell.
 std::string in_quotes(const Words& arguments) {
     std::string text;
     for (const std::string& argument : arguments) text += " '" + argument + "'";
@@ -55,7 +55,7 @@ int count_from_environment(const char* name, int otherwise) {
     return text ? std::atoi(text) : otherwise;
 }
 
-/// Values behind one header line, with the values of the varied columns first in every row.
+/// Appends the values below a header line, each row preceded by the values of the varied columns.
 void append_rows(Table& to, const Words& leading, const Table& rows) {
     for (std::size_t row = 1; row < rows.size(); ++row) to.push_back(leading + rows[row]);
 }
@@ -94,7 +94,7 @@ TEST_CASE("angles and wavelengths are varied like values of the stack", "[cli][s
     const Words whole{"sweep",    kFilm,    "--compute",
                       "spectrum", "--vary", "layers.0.thickness_nm=100,250"};
     const Table expected = rows_of(whole + Words{"-a", "0,30,60", "-w", "500,600"});
-    // wavelength_nm, angle_deg are columns 1 and 2 there
+    // wavelength_nm and angle_deg are columns 1 and 2 of these rows
     const auto row_of = [&](const std::string& nm, const std::string& w, const std::string& a) {
         for (const auto& row : expected)
             if (row[0] == nm && row[1] == w && row[2] == a) return row;
@@ -121,7 +121,7 @@ TEST_CASE("angles and wavelengths are varied like values of the stack", "[cli][s
             seen.insert({rows[i][0], rows[i][1], rows[i][2]});
         }
         CHECK(seen.size() == 12);
-        CHECK(rows[1][2] != rows[2][2]);  // the last one changes first
+        CHECK(rows[1][2] != rows[2][2]);  // the last --vary changes fastest
     };
     check({"layers.0.thickness_nm", "wavelength_nm", "angle_deg"});
     check({"angle_deg", "layers.0.thickness_nm", "wavelength_nm"});
@@ -144,7 +144,7 @@ TEST_CASE("points are combinations that a file lists", "[cli][sweep]") {
                                   "substrate=" + index, "--set", "incident=1.33", "-a", "70",
                                   "--method", "quadrature"});
     CHECK(rows[4][0] == "250.5");
-    // the index has a comma, where parse_csv() parts it
+    // the index contains a comma, at which parse_csv() splits it
     CHECK(Words(rows[4].end() - 11, rows[4].end()) == Words(single[1].end() - 11, single[1].end()));
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("a killed sweep is resumed to the same bytes", "[cli][sweep][slow]") {
                               seconds + " \"$IRIDO\"" + in_quotes(sweep + Words{file, "--resume"}),
                           folder.path());
             if (outcome.status != 0) ++killed;
-            if (std::filesystem::exists(file)) {  // be it that it was killed right after
+            if (std::filesystem::exists(file)) {  // it may have been killed right after finishing
                 ++ended;
                 CHECK(read_file(file) == read_file(whole));
                 CHECK_FALSE(std::filesystem::exists(file + ".part"));
@@ -238,7 +238,7 @@ TEST_CASE("a part is resumed by its own command only", "[cli][sweep][slow]") {
     const std::string file = folder / "f.csv";
     const Words sweep{"sweep",     kFilm,   "--vary",   "layers.0.thickness_nm=0:1e6:20",
                       "--compute", "color", "--method", "quadrature"};
-    const Outcome stopped = run_shell(  // as soon as rows are in the part, however slow the machine
+    const Outcome stopped = run_shell(  // as soon as the part has rows, on any machine
         "env --default-signal=INT \"$IRIDO\"" + in_quotes(sweep + Words{"-o", file}) +
             " & while kill -0 $! && [ \"$(stat -c %s f.csv.part || echo 0)\" -lt 4000 ]; do "
             "sleep 0.02; done 2> /dev/null; kill -INT $!; wait $!; echo $?",
@@ -300,7 +300,7 @@ TEST_CASE("shards take about as much work each", "[cli][sweep][slow]") {
         most = std::max(most, work);
         all += work;
     }
-    // points of wavelength; they go in powers of two, which the estimate does not
+    // points of a wavelength are computed in powers of two, which the estimate does not model
     CHECK(most < 1.35 * all / kShards);
 }
 
@@ -315,19 +315,19 @@ TEST_CASE("what cannot be computed is said, or left out", "[cli][sweep]") {
     CHECK(kept.status == 0);
     CHECK(parse_csv(kept.out).size() == 4);
     CHECK(kept.err.find("left out 2 of 5; the first fails at angle_deg=60: ") != std::string::npos);
-    // whether angles come together or not
+    // whether or not the angles are given together
     const Outcome list =
         run_irido({"sweep", "1.5 | 1@300 | 1.7", "--vary", "substrate=1.7,1.6", "-a", "0:80:20",
                    "--compute", "cm", "-p", "s", "--orders", "1", "--keep-going"});
     CHECK(parse_csv(list.out).size() == 7);
     CHECK(list.err.find("the first fails at substrate=1.7, angle_deg=60: ") != std::string::npos);
-    // whichever comes first
+    // whichever value comes first
     const Outcome first =
         run_irido({"sweep", kFilm, "--vary", "layers.0.material=1.5+0.1i,1.5", "--compute", "cm",
                    "-p", "s", "--orders", "1", "--keep-going"});
     CHECK(first.status == 0);
     CHECK(parse_csv(first.out).size() == 2);
-    // whatever the parts
+    // regardless of the parts
     for (const std::string shard : {"1/2", "2/2"}) {
         const Outcome part = run_irido({"sweep", "1.6 | (1.5@100 | 1.7@150)^10 | 1.6", "--vary",
                                         "layers.0.repeat=5,10", "-a", "0,85", "--compute", "bands",
@@ -344,7 +344,7 @@ TEST_CASE("what cannot be computed is said, or left out", "[cli][sweep]") {
 }
 
 TEST_CASE("wavelengths that cannot be computed take no other with them", "[cli][sweep]") {
-    const std::string oxide = "air | SiO2@100 | Si";  // known from 210 nm
+    const std::string oxide = "air | SiO2@100 | Si";  // data from 210 nm
     const Words spectrum{"--compute", "spectrum", "--keep-going", "--quiet"};
     const Table all = rows_of(Words{"sweep", oxide, "--vary", "wavelength_nm=500,600"} + spectrum);
     REQUIRE(all.size() == 3);
@@ -396,7 +396,7 @@ TEST_CASE("a sweep in which nothing is left fails and replaces nothing", "[cli][
     check_failed({"-o", file});
     CHECK(read_file(file) == "older rows");
     CHECK(names_in(folder.path()) == std::set<std::string>{"rows.csv"});
-    // one part of a whole may be empty
+    // a part may be empty
     const Words part{
         "sweep",    "air | SiO2@100 | Si", "--vary", "wavelength_nm=150,500", "--compute",
         "spectrum", "--keep-going",        "--quiet"};
@@ -459,7 +459,7 @@ TEST_CASE("a value inside of another that varies is refused", "[cli][sweep][refu
     check_refused(run_irido({"sweep", kFilm, "--points", folder / "p.csv", "--vary",
                              "layers.0=" + layer, "--compute", "color"}),
                   "--points: layers.0.thickness_nm is inside layers.0");
-    // neighbours are no parts of each other
+    // neither is inside the other
     CHECK(run_irido({"sweep", kFilm, "--vary", "layers.0.material=1.4,1.5", "--vary",
                      "layers.0.thickness_nm=1,2", "--compute", "color"})
               .status == 0);

@@ -214,7 +214,7 @@ TEST_CASE("own files and named media are taken everywhere", "[cli]") {
     const auto rows = parse_csv(swept);
     REQUIRE(rows.size() == 3);
     CHECK(rows[1][4] == rows[2][4]);
-    // names of files stay right when a stack moves
+    // relative file names stay valid when a stack moves to another folder
     run_shell("mkdir in out", folder.path());
     write_text(folder / "in/stack.json",
                R"({"incident": 1, "layers": [], "substrate": {"file": "../glass.csv"}})");

@@ -27,13 +27,13 @@ TEST_CASE("long work is known from a trial of a tenth of a second", "[cli][long-
     CHECK(trials.back() == 128);  // the first power of two that takes a tenth of a second
     CHECK(tried_seconds(1e6, 1, with(1e-6)) < kLongWork_s);
     CHECK(trials.size() == 1);
-    // a unit that is long itself is tried in part
+    // if a single unit is slow, a fraction of it is timed
     CHECK_THAT(tried_seconds(20, kFirstShare, with(100)), WithinRel(2000.0, 1e-12));
     CHECK(trials == std::vector{kFirstShare, 2 * kFirstShare});
-    // a trial is never much of the work
+    // a trial is never a large part of the work
     CHECK(tried_seconds(3, 1, with(1e3)) == 0);
     CHECK(trials.empty());
-    // errors are left for the work
+    // errors are left to the work itself
     CHECK(tried_seconds(1e6, 1, [](double) -> double { throw std::runtime_error(""); }) == 0);
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("what is not long is not announced", "[cli][long-work]") {
 
 namespace {
 
-// Requests of many hours, ended as soon as they have said so.
+// Requests of many hours, stopped once they have announced it.
 class Long {
 public:
     Long() {
@@ -85,7 +85,7 @@ public:
         CHECK(std::ranges::count(err, '\n') == 1);
     }
 
-    /// What a command says in its first seconds.
+    /// The output of a command in its first seconds.
     std::string begun(const std::string& command, const std::string& tries = "100") const {
         run_shell("rm -f said\n\"$IRIDO\" " + command + " > out 2> said &\np=$!\nfor i in $(seq " +
                       tries + "); do [ -s said ] && break; sleep 0.02; done\nkill -9 $p",

@@ -12,7 +12,7 @@ struct Powers {
     Power s, p, u;
 };
 
-/// Both polarizations at one wavelength and angle, by the public way through core.
+/// Powers of both polarizations at one wavelength and angle, through core's public interface.
 inline Powers ask(const Stack& stack, double wavelength_nm, double angle_deg) {
     const IndexTable table(stack, {wavelength_nm});
     const double cosine = cos_of_incidence(angle_deg);

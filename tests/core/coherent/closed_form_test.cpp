@@ -14,7 +14,7 @@ using oracle::StackBuilder;
 
 namespace {
 
-/// A few dozen operations in double on either side.
+/// Rounding error of a few dozen operations in double on each side.
 constexpr double kRounding = 1e-14;
 
 Stack bare(Complex incident, Complex substrate) {
@@ -33,7 +33,7 @@ Complex normal_index(Complex n, double n0, double angle_deg) {
     return std::sqrt(n * n - sine * sine);
 }
 
-/// Fresnel's amplitude from medium a to b; for p that of the magnetic field.
+/// Fresnel amplitude from medium a to b; for p, of the magnetic field.
 Complex fresnel(Complex na, Complex nb, double n0, double angle_deg, Polarization polarization) {
     const Complex qa = normal_index(na, n0, angle_deg), qb = normal_index(nb, n0, angle_deg);
     if (polarization == Polarization::s) return (qa - qb) / (qa + qb);
@@ -61,7 +61,7 @@ TEST_CASE("a single interface reflects as Fresnel says") {
 TEST_CASE("nothing of p is reflected at Brewster's angle") {
     for (const double n : {1.1, 1.52, 4.0}) {
         const double angle = std::atan(n) * 180 / kPi;
-        // r is proportional to the angle's error, a few 1e-16 rad, and R to its square
+        // r is proportional to the error of the angle, a few 1e-16 rad, and R to its square
         CHECK(ask(bare(1, n), 550, angle).p.R < 1e-30);
         CHECK(ask(bare(1, n), 550, angle).s.R > 1e-3);
     }
@@ -108,7 +108,7 @@ TEST_CASE("one film is Airy's sum") {
                 std::exp(Complex(0, 4 * kPi * d / wavelength) * normal_index(n1, n0, angle));
             const Complex r01 = fresnel(n0, n1, n0, angle, polarization);
             const Complex r12 = fresnel(n1, n2, n0, angle, polarization);
-            // the phase 4 pi d n / lambda, up to 250, is rounded here and there
+            // the phase 4 pi d n / lambda, up to 250, is rounded in both computations
             CHECK_THAT(R, WithinAbs(std::norm((r01 + r12 * x) / (1.0 + r01 * r12 * x)), 2e-13));
         }
     }
@@ -118,11 +118,11 @@ TEST_CASE("a thick absorber follows Beer and Lambert") {
     const Complex n(2, 2);
     const double wavelength = 550;
     const auto T = [&](double d) { return ask(one_film(1, n, d, 1.5), wavelength, 0).s.T; };
-    // the leading term; the next is exp(-2 * 45.7) smaller
+    // only the leading term; the next is exp(-2 * 45.7) smaller
     const double amplitude = std::norm(2.0 / (1.0 + n) * (2.0 * n) / (n + 1.5));
     const double d = 1000;
     CHECK_THAT(T(d), WithinRel(1.5 * amplitude * std::exp(-8 * kPi * d / wavelength), 1e-12));
-    // 60-digit evaluation of 1 | 2+2i@10000 | 1.5; the exponent 457 is good to 6e-14
+    // 60-digit evaluation of 1 | 2+2i@10000 | 1.5; the exponent 457 is accurate to 6e-14
     CHECK_THAT(T(10000), WithinRel(3.1897903076684135e-199, 2e-13));
     CHECK(T(1e6) == 0);
     const Power thick = ask(one_film(1, n, 1e9, 1.5), wavelength, 0).s;
@@ -150,8 +150,8 @@ namespace {
 
 using Wide = long double;
 
-/// R of N two-layer periods in their first material, P. Yeh, Optical Waves in Layered Media (1988),
-/// eq. 6.3-9: 1/R = 1 + (sin K / sin NK)^2 / |C|^2, in long double.
+/// R of N two-layer periods embedded in their first material, in long double: P. Yeh, Optical Waves
+/// in Layered Media (1988), eq. 6.3-9: 1/R = 1 + (sin K / sin NK)^2 / |C|^2.
 Wide yeh(double n1, double d1, double n2, double d2, double wavelength, double angle_deg,
          Polarization polarization, int periods) {
     const Wide k0 = 2 * std::numbers::pi_v<Wide> / wavelength;
@@ -187,8 +187,8 @@ TEST_CASE("a Bragg mirror is Yeh's closed form") {
             for (const double angle : {0.0, 33.0, 80.0}) {
                 CAPTURE(periods, wavelength, angle);
                 const Powers power = ask(mirror, wavelength, angle);
-                // the Bloch phase is good to a few 1e-16 a period, and counted N times; beside a
-                // band edge it is a root of what is rounded
+                // the Bloch phase is accurate to a few 1e-16 per period, multiplied by N; next to a
+                // band edge it is the square root of a rounded quantity
                 const double tolerance = 1e-13 * (1 + periods);
                 CHECK_THAT(power.s.R,
                            WithinAbs(static_cast<double>(yeh(1.46, 94, 2.3, 60, wavelength, angle,

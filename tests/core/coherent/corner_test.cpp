@@ -12,14 +12,14 @@ using oracle::StackBuilder;
 
 namespace {
 
-/// What the kernel's own roundings may add to the scatter of the exact answer under shifts of the
-/// inputs by half an ulp: of R absolute, of T and A relative.
+/// Allowance for the kernel's own rounding, on top of the scatter of the exact result when inputs
+/// shift by half an ulp: absolute for R, relative for T and A.
 constexpr double kRounding = 1e-13;
 
-/// A handful of random shifts does not find the worst one.
+/// A few random shifts do not find the worst one.
 constexpr double kScatterMargin = 16;
 
-/// An A below this is what 100 digits left over of none.
+/// Below this, A is a residue of the 100-digit computation.
 constexpr double kNone = 1e-60;
 
 void check_polarization(const Stack& stack, const Power& power, const Query& query,
@@ -95,7 +95,7 @@ TEST_CASE("the critical angle and a few ulps around it") {
 }
 
 TEST_CASE("a layer's q2 may be anything near zero") {
-    // the kernel's own arguments, so that nothing is rounded before it
+    // in the kernel's own form, so that nothing is rounded beforehand
     const Medium above = medium(2, 2, 0.8), below = medium(1.9, 2, 0.8);
     for (const double q2 : {0.0, 1e-300, -1e-300, 1e-20, -1e-20, 1e-9, -1e-9}) {
         for (const double q2_imag : {0.0, 1e-30, 1e-10}) {
@@ -112,7 +112,7 @@ TEST_CASE("a layer's q2 may be anything near zero") {
                         oracle::coherent(above, elements, below, media, 0.01, polarization);
                     CHECK(std::abs(power.R - exact.R) < kRounding);
                     CHECK(std::abs(power.T - exact.T) < kRounding * exact.T);
-                    // a little q2_imag with a smaller q2 absorbs by itself
+                    // a small q2_imag with a smaller q2 absorbs by itself
                     if (q2_imag > 0)
                         CHECK(std::abs(power.A - exact.A) < kRounding * std::abs(exact.A));
                 }
@@ -180,7 +180,7 @@ TEST_CASE("a billion periods") {
 }
 
 TEST_CASE("periods much thinner than the wavelength") {
-    // M is close to I, and what counts is the difference
+    // M is close to I, and only the difference matters
     check(periods(1000000, 2, 1e-4, 1.5, 1e-4, 1.5), 550, 30);
     check(periods(1000000000, 2, 1e-7, 1.5, 1e-7, 1.5), 550, 30);
     check(periods(1000000, {2, 1e-3}, 1e-4, 1.5, 1e-4, 1.5), 550, 30);
@@ -194,7 +194,7 @@ TEST_CASE("periods with a layer near its critical angle") {
 }
 
 TEST_CASE("band edges") {
-    // (1@200 | 1.5@180)^N, 20 degrees, p: edges by a 60-digit evaluation of their equation
+    // (1@200 | 1.5@180)^N, 20 degrees, p: edges from a 60-digit evaluation of their equation
     for (const double edge : {810.7370516292337, 463.9706698284487, 437.75048963180257})
         for (const std::uint64_t repeat : {10U, 1000U})
             for (const double off : {0.0, 1e-12, -1e-9, 1e-5}) {

@@ -46,7 +46,7 @@ TEST_CASE("faces at normal incidence, Brewster's angle and near grazing", "[fres
         CHECK(std::norm(face(1, n2, incident_angle(brewster_deg)).p.r) < 1e-30);
         CHECK_THAT(std::norm(face(1, n2, incident_angle(89.9999)).s.r), WithinAbs(1, 1e-4));
     }
-    const Both nearly = face(1.5, 1.5 * (1 + 1e-12), incident_angle(30));  // no digits are lost
+    const Both nearly = face(1.5, 1.5 * (1 + 1e-12), incident_angle(30));  // no loss of precision
     const double cosine = std::cos(30 * kDegree);
     CHECK_THAT(nearly.s.r.real(), WithinRel(-1e-12 / (2 * cosine * cosine), 1e-3));
 }

@@ -78,7 +78,8 @@ TEST_CASE("the mean over a group's phase is that of numbers of periods close by"
         const std::vector<Medium> media = media_of(stack, nm, random.uniform(0, 80));
         const auto polarization = random.one_in(2) ? Polarization::s : Polarization::p;
         const FringeMean mean = fringe_mean(stack, 1, media, k0, polarization);
-        // numbers of periods take all phases, unless K is nearly a rational part of pi
+        // varying the number of periods samples all phases, unless K is close to a rational
+        // multiple of pi
         const double K = mean.phase / (2 * 100000 * kPi);
         bool is_rational = mean.swing_R > 0.8;
         for (double q = 1; q <= 12; ++q)
@@ -103,7 +104,7 @@ TEST_CASE("the mean over a group's phase is that of numbers of periods close by"
 TEST_CASE("next to the edge of a gap there is no mean") {
     irido::StackBuilder b;
     b.add(irido::StackBuilder::group(20, {b.layer(2.3, 60), b.layer(1.4, 95)}));
-    const Stack stack = b.over(1.5);  // as few periods as are next to an edge wherever they are
+    const Stack stack = b.over(1.5);  // so few periods that every wavelength is near an edge
     for (double nm = 400; nm < 700; nm += 7) {
         const std::vector<Medium> media = media_of(stack, nm, 20);
         const double k0 = 2 * kPi / nm;

@@ -39,7 +39,7 @@ Spectra spectra_of(const Stack& stack, double nm, double angle_deg, const Needs&
     return spectra(StackPower(stack), table, {&at, 1}, needs);
 }
 
-/// r by the fields' equations, dB/dz = i k0 G C, dC/dz = i k0 Q B downwards, in classical
+/// r from the field equations, dB/dz = i k0 G C, dC/dz = i k0 Q B integrated downwards in classical
 /// Runge-Kutta steps; s: G = 1, Q = eps - S^2; p: G = 1 - S^2/eps, Q = eps.
 Complex by_runge_kutta(double n0, Complex n1, Complex n2, GradedProfile profile, double d,
                        Complex ns, double nm, double angle_deg, bool is_s) {
@@ -73,7 +73,7 @@ Complex by_runge_kutta(double n0, Complex n1, Complex n2, GradedProfile profile,
 }  // namespace
 
 TEST_CASE("a layer whose 1/n is linear has a closed form", "[graded]") {
-    // Lord Rayleigh, Proc. London Math. Soc. 11, 51 (1880), between media of the end indices
+    // Lord Rayleigh, Proc. London Math. Soc. 11, 51 (1880), between media with the end indices
     const double n1 = 1.5, n2 = 2.5, d = 150, nm = 550;
     const double kappa = kTwoPi * n1 / (nm * std::abs(n1 / n2 - 1) / d);
     const double m = std::sqrt(kappa * kappa - 0.25);
@@ -145,7 +145,7 @@ TEST_CASE("graded layers of materials with dispersion", "[graded]") {
     CHECK(range_of(part) == WavelengthRange{400, 700});
     CHECK(kinks(part, {300, 800}) == std::vector<double>{400, 500, 700});
     CHECK_THROWS_WITH(index_at(part, 800), Catch::Contains("t is known from 400 to 700 nm"));
-    // at one wavelength the same as constants
+    // at a single wavelength the same as constants
     const Material held =
         graded_layer(constant(index_at(glass, 600)), constant(index_at(table, 600)),
                      GradedProfile::exp, 300, 1, "")
@@ -156,7 +156,7 @@ TEST_CASE("graded layers of materials with dispersion", "[graded]") {
     CHECK(std::abs(index_at(part, 600) - std::sqrt(eps[0])) < 1e-15);
     CHECK(std::abs(extraordinary_index_at(part, 600) - std::sqrt(eps[1])) < 1e-15);
     CHECK(std::abs(index_at(held, 600).real() - index_at(glass, 600).real()) < 0.1);
-    // series: derivatives of both indices
+    // derivatives of both indices
     for (const auto& [at, series] : {std::pair{&index_at, &index_series},
                                      std::pair{&extraordinary_index_at, &extraordinary_series}}) {
         const auto value = [&, f = at](double x) { return f(part, 600 / (1 + x)); };

@@ -14,7 +14,7 @@ using oracle::StackBuilder;
 
 namespace {
 
-/// Phases of a few hundred radians in double, sharpened by resonances.
+/// Rounding error of phases of a few hundred radians, amplified by resonances.
 constexpr double kRounding = 1e-11;
 
 void check_same(const Power& a, const Power& b, double tolerance = kRounding) {
@@ -56,7 +56,7 @@ TEST_CASE("power is conserved and nothing is negative") {
     for_random_stacks(1, [](const Stack& stack, double wavelength, double angle) {
         const Powers both = ask(stack, wavelength, angle);
         for (const Power& power : {both.s, both.p}) {
-            // 30 periods of 1e-15 each, and resonances that sharpen them
+            // 30 periods of 1e-15 each, amplified by resonances
             CHECK_THAT(power.R + power.T + power.A, WithinAbs(1, 1e-12));
             CHECK(power.R >= 0);
             CHECK(power.T >= 0);
@@ -180,7 +180,7 @@ TEST_CASE("at exactly 90 degrees everything is reflected") {
 TEST_CASE("an angle outside 0 to 90 degrees is refused") {
     CHECK(cos_of_incidence(90) == 0);
     CHECK(cos_of_incidence(0) == 1);
-    // sin(90 - angle) of an exact difference: 1e-9 degrees to the last digit
+    // sin(90 - angle) from an exact difference: accurate to the last digit at 1e-9 degrees
     CHECK_THAT(cos_of_incidence(90 - 0x1p-30),
                Catch::WithinRel(0x1p-30 * 3.14159265358979324 / 180, 4e-16));
     CHECK_THROWS_AS(cos_of_incidence(-1e-300), DomainError);

@@ -31,14 +31,16 @@ double sum(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Every layer against 100 digits, relative; `scale` is what a cancelling sum is measured by.
+/// Compares every layer with 100 digits, relatively; `scale` is the reference size for sums that
+/// cancel.
 void check_layers(const Stack& stack, const Query& query, double relative) {
     const std::vector<double> got = layers_of(stack, query);
     const std::vector<double> exact = oracle::layer_absorption(stack, query);
     REQUIRE(got.size() == exact.size());
     for (std::size_t i = 0; i < got.size(); ++i) {
         CAPTURE(oracle::text_of(stack), query.wavelength_nm, query.angle_deg, i, got[i], exact[i]);
-        // without absorption 100 digits leave 1e-90 of a difference; subnormals have few digits
+        // without absorption, 100 digits leave a difference of 1e-90; subnormal numbers have few
+        // digits
         if (std::abs(exact[i]) < 1e-80) {
             CHECK(std::abs(got[i]) < 1e-80);
         } else {
@@ -52,7 +54,7 @@ void check_both(const Stack& stack, double wavelength_nm, double angle_deg, doub
         check_layers(stack, {wavelength_nm, angle_deg, polarization}, relative);
 }
 
-/// A few dozen operations, and phases of some hundred radians that are rounded.
+/// Rounding error of a few dozen operations and of phases of some hundred radians.
 constexpr double kRelative = 1e-12;
 
 }  // namespace
@@ -75,7 +77,7 @@ TEST_CASE("a layer that takes 1e-12 of the light keeps its digits") {
     b.add(b.layer({1.5, 1e-13}, 100));
     b.add(b.layer({2.2, 1e-3}, 60));
     b.add(b.layer({1.38, 3e-14}, 1));
-    b.add(b.layer({0.2, 3.4}, 200));  // the last one lies in the dark
+    b.add(b.layer({0.2, 3.4}, 200));  // hardly any light reaches the last one
     b.add(b.layer({1.5, 1e-6}, 100));
     const Stack stack = b.over(1.52);
     const std::vector<double> layers = layers_of(stack, {550, 50, Polarization::s});
@@ -96,7 +98,7 @@ TEST_CASE("thick absorbers, gain and total reflection layer by layer") {
     check_both(gain.over(1.5), 550, 30, 1e-12);
     CHECK(layers_of(gain.over(1.5), {550, 30, Polarization::p})[0] < 0);
     StackBuilder gap(1.8);
-    gap.add(gap.layer({1, 1e-9}, 2000));  // total reflection, light tunnels
+    gap.add(gap.layer({1, 1e-9}, 2000));  // total reflection, with tunnelling
     gap.add(gap.layer({0.2, 3.4}, 30));
     check_both(gap.over(1.8), 550, 60, 1e-12);
     check_both(gap.over(1), 550, 60, 1e-12);
@@ -113,7 +115,7 @@ TEST_CASE("repeated groups are written out") {
     check_both(stack, 550, 20, 1e-12);
     StackBuilder many;
     many.add(StackBuilder::group(500, {many.layer({2.3, 1e-3}, 60), many.layer(1.46, 94)}));
-    // 1000 layers deep, where the light of the gap is 1e-190
+    // 1000 layers deep, where the light in the gap is 1e-190
     check_both(many.over(1.52), 550, 20, 1e-11);
     StackBuilder more;
     more.add(StackBuilder::group(1001, {more.layer({2.3, 1e-3}, 60)}));
@@ -147,7 +149,8 @@ TEST_CASE("the layers' absorptions are all of A") {
 }
 
 TEST_CASE("layers around an incoherent one are means over its phase") {
-    // coherent answers at thicknesses spread over one fringe; R R' is below 0.6, 0.6^64 is 1e-14
+    // coherent results at thicknesses distributed over one fringe; R R' is below 0.6, 0.6^64 is
+    // 1e-14
     constexpr int points = 64;
     const double angle = 35, n = 1.5;
     const double fringe =
@@ -185,7 +188,7 @@ TEST_CASE("layers of a spread stack are means over the thickness") {
         return b.over(1.5);
     };
     const Query query{550, 35, Polarization::p};
-    // trapezoid rule over 8 standard deviations, exact to 1e-16 for a function so smooth
+    // trapezoid rule over 8 standard deviations, accurate to 1e-16 for such a smooth function
     std::vector<double> mean(3);
     double weight = 0;
     for (int i = -40; i <= 40; ++i) {
@@ -228,7 +231,7 @@ TEST_CASE("amplitudes agree with 100 digits") {
 }
 
 TEST_CASE("groups of groups in gaps absorb what their layers absorb") {
-    // fields cancel in what the inner groups, deep in a gap, do to a band of the outer one
+    // fields cancel when the inner groups, deep in a gap, act on a band of the outer one
     StackBuilder b(2);
     const Element inner = StackBuilder::group(
         8, {b.layer({1.8663439197464142, 1.2593598230183976e-06}, 226.61934406930504),

@@ -35,7 +35,7 @@ Spectra spectra_of(const Stack& stack, const std::vector<double>& nm,
     return spectra(StackPower(stack), table, angles, needs, {1, simd});
 }
 
-/// Layers of all sorts, some of them uniaxial, some repeated.
+/// Layers of all kinds, some of them uniaxial, some repeated.
 Stack random_axial_stack(Random& random, bool absorbs) {
     StackBuilder b(random.uniform(1, 1.6));
     const auto index = [&]() -> Complex {

@@ -53,7 +53,7 @@ Stack mirror(std::uint64_t repeat) {
     return b.over(1.52);
 }
 
-/// Two mirrors of quarter waves around a half wave: one line at 550 nm inside their gap.
+/// Two quarter-wave mirrors around a half wave: one line at 550 nm inside their gap.
 Stack cavity(std::uint64_t repeat) {
     StackBuilder b;
     const Element high = b.layer(2.35, 550 / 4.0 / 2.35), low = b.layer(1.38, 550 / 4.0 / 1.38);
@@ -70,7 +70,7 @@ Table rows(std::vector<double> wavelength_nm, std::vector<double> value) {
 }  // namespace
 
 TEST_CASE("colours agree with exact integrals to 12 digits") {
-    // Exact integrals of the piecewise linear tables, good to 1e-12: D65, 2 degrees
+    // exact integrals of the piecewise linear tables, accurate to 1e-12: D65, 2-degree observer
     struct Golden {
         Stack stack;
         double angle_deg;
@@ -92,7 +92,7 @@ TEST_CASE("colours agree with exact integrals to 12 digits") {
         };
         CHECK(error(1e-12) < 1e-12);
         CHECK(error(1e-6) < 1e-6);
-        // the second opinion of the tests below is held to the same numbers
+        // the independent method used below is checked against the same numbers
         CHECK(largest_error(oracle::stack_xyz(golden.stack, observer(2), illuminant("D65"),
                                               golden.angle_deg, false, 1e-13),
                             golden.xyz) < 1e-12);
@@ -141,7 +141,7 @@ TEST_CASE("the error stays below the tolerance", "[slow]") {
     }
     CAPTURE(worst_stack);
     CHECK(worst <= tolerance);
-    CHECK(worst_estimate <= tolerance);  // none of these stacks is out of reach
+    CHECK(worst_estimate <= tolerance);  // all of these stacks can be resolved
 }
 
 TEST_CASE("a cavity's narrow line is not missed") {
@@ -184,7 +184,7 @@ TEST_CASE("the result does not depend on the number of threads") {
                 CHECK(many[i].evaluations == one[i].evaluations);
             }
         }
-        // [angle][side], each as it is alone
+        // [angle][side], each the same as when computed alone
         for (std::size_t a = 0; a < angles.size(); ++a) {
             const std::vector<StackColor> alone =
                 stack_color(ColorTables(d65()), stack, kQuadrature, {.sides = sides},
@@ -254,7 +254,7 @@ TEST_CASE("layers that do not vary are computed once") {
                 CHECK(largest_error(of_stack(j)[c].xyz, one_by_one[c].xyz) < 1e-12);
                 CHECK(of_stack(j)[c].error <= 1e-6);
             }
-            // alone, and the angles backwards
+            // alone, and with the angles in reverse order
             const auto fresh = color_algorithm(tables, stack, kQuadrature, varied);
             for (std::size_t a = angles.size(); a-- > 0;) {
                 std::vector<StackColor> alone(2);
@@ -323,7 +323,7 @@ TEST_CASE("auto sums the series where quadrature would take long") {
 }
 
 TEST_CASE("fringes past all resolution are an honest failure", "[slow]") {
-    StackBuilder b;  // two thick layers: the mean over one phase still has the other's fringes
+    StackBuilder b;  // two thick layers: averaging over one phase leaves the other's fringes
     b.add(b.layer(1.5, 1e9));
     b.add(b.layer(2, 1e9));
     const StackColor result = color(b.over(2.5), 0, Side::reflected, 1e-6);
@@ -408,7 +408,8 @@ Stack copper_in_glass(std::uint64_t repeat) {
     return b.over(1.5);
 }
 
-/// Two or three layers up to 1e6 times, some of them absorbing, so that nothing comes through.
+/// Two or three layers repeated up to 1e6 times, some of them absorbing, so that nothing is
+/// transmitted.
 Stack opaque_periods(oracle::Random& random) {
     StackBuilder b;
     std::vector<Element> period;
@@ -424,7 +425,7 @@ Stack opaque_periods(oracle::Random& random) {
 }  // namespace
 
 TEST_CASE("what is attenuated out of the spectrum stands in no one's way") {
-    // black, and the same as fewer periods
+    // black, and the same as for fewer periods
     const StackColor black = color(copper_in_glass(200), 30, Side::transmitted, 1e-6);
     CHECK(black.error <= 1e-6);
     CHECK(largest_error(black.xyz, {}) < 1e-8);
@@ -454,7 +455,7 @@ TEST_CASE("periods that absorb are resolved at every tolerance") {
 }
 
 TEST_CASE("a line in front of an opaque mirror is not missed") {
-    // a cavity whose second mirror is followed by periods that nothing passes
+    // a cavity whose second mirror is followed by opaque periods
     StackBuilder b;
     const Element high = b.layer({2.35, 1e-5}, 550 / 4.0 / 2.35);
     const Element low = b.layer(1.38, 550 / 4.0 / 1.38);
@@ -479,7 +480,7 @@ TEST_CASE("a line in front of an opaque mirror is not missed") {
 }
 
 TEST_CASE("fringes too fine for the wavelengths are the mean of those that are not", "[slow]") {
-    // with few wavelengths they are left out, with many they are resolved
+    // with few wavelengths they are missed, with many they are resolved
     oracle::Random random(7);
     const ColorTables tables(d65());
     for (int i = 0; i < 3; ++i) {
@@ -530,7 +531,7 @@ TEST_CASE("a billion periods and a metre of glass have their colours") {
 }
 
 TEST_CASE("periods of gaps that light tunnels through have bands for any number of them") {
-    // by the number of periods that attenuates most they seemed opaque
+    // judged by the number of periods that attenuate most, they seemed opaque
     StackBuilder b(3.3495425358877062);
     b.add(StackBuilder::group(1000000000, {b.layer(1.1785254882857115, 134.78659564924556),
                                            b.layer(3.3495425358877062, 297.83398846170667)}));
@@ -544,8 +545,8 @@ TEST_CASE("periods of gaps that light tunnels through have bands for any number 
 }
 
 TEST_CASE("stacks of every regime have their colour within the tolerance", "[slow]") {
-    // IRIDO_TEST_TOLERANCES: stacks of each regime, 400 of which take hours. "nested" has three
-    // places with fringes that a million wavelengths do not resolve; two take seconds a stack.
+    // IRIDO_TEST_TOLERANCES: stacks of each regime; 400 take hours. "nested" has three places with
+    // fringes that a million wavelengths do not resolve; two take seconds per stack.
     const bool is_long_run = stacks_to_try() > 0;
     const auto is_left_out = [&](std::string_view name) {
         return name == "nested" ||

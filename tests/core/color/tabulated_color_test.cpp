@@ -20,7 +20,7 @@ namespace {
 
 const ColorMethod kQuadrature{ColorMethod::Kind::quadrature};
 
-/// IRIDO_TEST_TOLERANCES: stacks to try, 100000 of which take a night.
+/// IRIDO_TEST_TOLERANCES: number of stacks to try; 100000 take a night.
 std::size_t stacks_to_try() {
     const char* const text = std::getenv("IRIDO_TEST_TOLERANCES");
     return text ? std::strtoull(text, nullptr, 10) : 0;
@@ -110,7 +110,7 @@ Light random_light(Random& random) {
 }  // namespace
 
 TEST_CASE("kinks of tables cost and lose no more than the tolerance asks for", "[slow]") {
-    // against other ways to compute: few by an oracle, many by the rows themselves
+    // against other methods: a few by an oracle, many by the rows themselves
     for (std::uint64_t i = 0; i < 3; ++i) {
         Random random(i);
         const Stack stack = tabulated_stack(random);
@@ -145,7 +145,7 @@ TEST_CASE("kinks of tables cost and lose no more than the tolerance asks for", "
 }
 
 TEST_CASE("absorbing stacks have their colour within the error", "[slow]") {
-    // equal wavelengths 0.05 nm apart, which hold every kink of the light, are good to 1e-7
+    // equal wavelengths 0.05 nm apart, which include every kink of the light, are accurate to 1e-7
     const ColorMethod equal{ColorMethod::Kind::equal, 9401};
     for (std::uint64_t i = 0; i < std::max<std::size_t>(stacks_to_try(), 100); ++i) {
         Random random(Random(i).bits());
@@ -169,7 +169,7 @@ TEST_CASE("an incoherent layer follows every row of its k") {
         n.value.push_back(1.5);
         k.value.push_back(row % 5 == 0 ? 0 : 1e-3);
     }
-    // equal wavelengths that hold every row and resolve the windows between them to 2e-5
+    // equal wavelengths that include every row and resolve the windows between them to 2e-5
     const ColorMethod equal{ColorMethod::Kind::equal, 470001};
     const auto [thickness_nm, repeat] =
         GENERATE(table<double, std::uint64_t>({{1e4, 1}, {1e5, 1}, {1e4, 3}}));

@@ -86,8 +86,8 @@ TEST_CASE("observers hold the tables of CIE 15 and ISO/CIE 11664-1", "[color]") 
 }
 
 TEST_CASE("observer curves are smooth: a mistyped row would stand out", "[color]") {
-    // Fourth differences amplify an error of one row by 6. The largest that occurs is the kink of
-    // the published 10-degree ybar near 490 nm.
+    // Fourth differences amplify an error in one row by a factor of 6. The largest one is the kink
+    // of the published 10-degree ybar near 490 nm.
     for (const int degrees : {2, 10}) {
         const Observer& eye = observer(degrees);
         for (const auto& c : {eye.x, eye.y, eye.z}) {
@@ -128,8 +128,8 @@ TEST_CASE("illuminants are valid tables", "[color]") {
 TEST_CASE("illuminant A follows its formula in full precision", "[color]") {
     const Table a = illuminant("A");
     CHECK(a.value.size() == 531);
-    // 17 digits by 30-digit arithmetic. The exponent, up to 17, carries two roundings of 2^-53,
-    // which exp turns into 17 * 2 * 1.1e-16 = 4e-15 of its value.
+    // 17 digits from 30-digit arithmetic. The exponent, up to 17, carries two roundings of 2^-53,
+    // which exp turns into a relative 17 * 2 * 1.1e-16 = 4e-15.
     CHECK_THAT(power_at(a, 300), WithinRel(0.93048270561648393, 4e-15));
     CHECK_THAT(power_at(a, 400), WithinRel(14.708038449875502, 4e-15));
     CHECK_THAT(power_at(a, 700), WithinRel(198.261223231287, 4e-15));
@@ -176,7 +176,7 @@ TEST_CASE("1 nm sums agree with 30-digit arithmetic", "[color]") {
     for (const Reference& row : rows) {
         INFO(row.name << ", " << row.degrees << " degrees");
         const auto [x, y] = chromaticity(row.name, row.degrees, kFine);
-        CHECK_THAT(x, WithinAbs(row.x, 6e-11));  // the rounding of the figures above
+        CHECK_THAT(x, WithinAbs(row.x, 6e-11));  // rounding of the figures above
         CHECK_THAT(y, WithinAbs(row.y, 6e-11));
     }
 }

@@ -78,7 +78,7 @@ TEST_CASE("purples have the complementary wavelength", "[colorimetry]") {
         const DominantWavelength found = dominant_wavelength(purple, kD65, eye);
         CHECK_THAT(found.purity, WithinAbs(1, 1e-12));
         REQUIRE(found.wavelength_nm.value() < 0);
-        // Its complement, mixed with it, gives the white.
+        // Mixed with its complement it gives white.
         const double nm = -*found.wavelength_nm;
         const auto row = static_cast<std::size_t>(nm - kFirstRow_nm);
         const double part = nm - kFirstRow_nm - static_cast<double>(row);
@@ -108,7 +108,7 @@ TEST_CASE("every colour has a dominant or a complementary wavelength", "[colorim
                 CHECK(std::abs(*found.wavelength_nm) >= 380);
                 CHECK(std::abs(*found.wavelength_nm) <= 699);
                 CHECK(found.purity > 0);
-                CHECK(found.purity < 1 + 2e-3);  // beyond 699 nm the table's digits run out
+                CHECK(found.purity < 1 + 2e-3);  // beyond 699 nm the table lacks digits
             }
         }
 }

@@ -19,7 +19,7 @@ struct Pair {
 };
 
 /// G. Sharma, W. Wu, E. N. Dalal, Color Res. Appl. 30, 21 (2005), table I: the 34 pairs, four
-/// decimals. Pairs 9 to 15 stand on either side of opposite hues, 10 and 14 on it.
+/// decimals. Pairs 9 to 15 are on either side of opposite hues, 10 and 14 exactly opposite.
 constexpr std::array<Pair, 34> kPairs{{
     {{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},
     {{50, 3.1571, -77.2803}, {50, 0, -82.7485}, 2.8615},
@@ -86,7 +86,8 @@ TEST_CASE("CIEDE2000 of greys is their weighted lightness difference", "[color]"
 }
 
 TEST_CASE("exactly opposite hues are 180 degrees apart whatever the rounding", "[color]") {
-    // The formula jumps where the hues are opposite; opposite ones belong to the side before.
+    // The formula jumps where the hues are opposite; exactly opposite ones belong to the lower
+    // side.
     for (int i = 1; i < 90; ++i) {
         const double a = 3 * std::cos(i * 0.0349), b = 3 * std::sin(i * 0.0349);
         const double opposite = ciede2000({50, a, b}, {50, -a, -b});
@@ -119,7 +120,7 @@ TEST_CASE("CIELAB of white, black and the mid grey", "[color]") {
     // L* = 50 where Y = (66/116)^3.
     const double y = std::pow(66.0 / 116, 3);
     CHECK_THAT(lab({y * 0.9504, y, y * 1.0888}, white)[0], WithinAbs(50, 1e-13));
-    // L* = 8 and slope 24389/27 where the cube root meets the line, Y = (6/29)^3 = 216/24389.
+    // L* = 8 and slope 24389/27 where the cube root joins the line, Y = (6/29)^3 = 216/24389.
     CHECK_THAT(lab({0, 216.0 / 24389, 0}, white)[0], WithinAbs(8, 1e-13));
     CHECK_THAT(lab({0, 0.001, 0}, white)[0], WithinAbs(24.389 / 27, 1e-14));
     CHECK_THAT(lab({0, 216.0 / 24389 + 1e-9, 0}, white)[0] - 8,

@@ -14,13 +14,13 @@ using Catch::WithinAbs;
 
 namespace {
 
-/// Two orders of summing some 500 cells in double.
+/// Rounding difference between two orders of summing some 500 cells in double.
 constexpr double kRounding = 2e-14;
 
 constexpr double kLast_nm = 830;
 
 /// Integral of the sensitivity times T_k(x) = cos(k phi) by Gauss-Legendre in phi, cell by cell, on
-/// pieces where cos(k phi) turns by less than 1: x = 1 at the panel's short end, linear in
+/// pieces over which k phi changes by less than 1: x = 1 at the panel's short end, linear in
 /// 1/lambda.
 Triple chebyshev_moment(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t k) {
     static const oracle::LegendreRule<double> rule(10);
@@ -85,7 +85,7 @@ TEST_CASE("the support is where observer and illuminant both are") {
     CHECK_THROWS_AS(Sensitivity(observer(2), Table({900, 1000}, {1, 1})), DomainError);
     CHECK_THROWS_AS(Sensitivity(observer(2), Table({830, 1000}, {1, 1})), DomainError);
     CHECK_THROWS_AS(Sensitivity(observer(2), Table({400, 500}, {0, 0})), DomainError);
-    // two rows, off the observer's own
+    // two rows, offset from the observer's
     const Sensitivity narrow(observer(2), Table({500.25, 500.75}, {0, 3}));
     CHECK(narrow.support() == WavelengthRange{500.25, 500.75});
     CHECK(narrow.white()[1] == 1);
@@ -139,7 +139,7 @@ TEST_CASE("moments of a panel are the integrals of Chebyshev polynomials") {
                 const Triple brute = chebyshev_moment(sensitivity, panel, k);
                 CAPTURE(panel.first_nm, panel.last_nm, degree, k);
                 for (std::size_t c = 0; c < 3; ++c)
-                    // 1e-12 of a cell's share is the smallest Gauss rule's stated error
+                    // the smallest error that the Gauss rule states is 1e-12 of a cell's share
                     CHECK_THAT(rule.moment[c][k], WithinAbs(brute[c], 1e-13));
             }
         }

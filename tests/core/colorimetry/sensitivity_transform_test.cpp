@@ -18,7 +18,8 @@ const Sensitivity& d65() {
     return sensitivity;
 }
 
-/// By the oracle's own quadrature of the tables, on pieces over which the wave turns by a radian.
+/// By the oracle's own quadrature of the tables, on pieces over which the phase changes by a
+/// radian.
 ComplexTriple brute(double opd_nm, double variance_nm2, std::string_view light) {
     const auto part = [&](bool sine) {
         return oracle::integrate(
@@ -53,7 +54,7 @@ TEST_CASE("sums over the points are the integrals of the tables", "[sensitivity_
             const SensitivityPoints points = sensitivity_points(sensitivity, opd);
             for (const double variance : {0.0, 3e3}) {
                 CAPTURE(light, opd, variance);
-                // the brute sums of 1e5 points have their own rounding
+                // brute-force sums of 1e5 points have rounding errors of their own
                 CHECK(largest_difference(transform_at(points, opd, variance),
                                          brute(opd, variance, light)) < 1e-12);
             }
@@ -107,8 +108,8 @@ TEST_CASE("no value from a path on is above its bound", "[sensitivity_transform]
     }
 }
 
-// BB17 section 5 calls iridescence negligible where |H| <= 0.05 and gives 25 um, which is 4.2 um
-// with D65 and 4.6 um with the bare observer in terms of the path itself.
+// BB17 section 5 calls iridescence negligible where |H| <= 0.05 and gives 25 um; in terms of the
+// optical path difference that is 4.2 um with D65 and 4.6 um with the observer alone.
 TEST_CASE("fringes are lost where the transform has faded", "[sensitivity_transform]") {
     const auto last_above = [](std::string_view light, double level) {
         const SensitivityTransform table({observer(2), illuminant(light)}, 1e5, 1e-8);

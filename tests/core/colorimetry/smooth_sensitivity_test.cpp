@@ -13,7 +13,7 @@ using namespace irido;
 
 namespace {
 
-/// Midpoints over the reach: its tails are small there, so they are as good as any rule.
+/// Midpoint rule over the whole support: with such small tails it is as good as any.
 Triple wave_of(const SmoothSensitivity& smooth, double opd_nm) {
     constexpr int kPoints = 20000;
     const auto [low, high] = smooth.reach();
@@ -36,7 +36,7 @@ TEST_CASE("what is left of the sensitivity integrates slow waves as all of it", 
     CHECK(largest_difference(wave_of(smooth, 0), sensitivity.white()) < 1e-7);
     for (const double opd : {500.0, 3e3, 2e4, 7e4}) {
         const ComplexTriple h = transform(opd);
-        // the table's cubics are worst for the fastest waves, of which there is little
+        // the table's cubics are worst for the fastest waves, which are weak
         CHECK(largest_difference(wave_of(smooth, opd), {h[0].real(), h[1].real(), h[2].real()}) <
               3e-6);
     }
@@ -52,7 +52,7 @@ TEST_CASE("no wave of the sensitivity is larger than its bound", "[smooth]") {
         const ComplexTriple h = transform(opd);
         const double bound = decay(opd);
         CHECK(bound <= before);
-        // tabulated at steps of half a micrometre: the largest one may lie in between
+        // tabulated in steps of half a micrometre: the maximum may lie in between
         for (const Complex& channel : h)
             CHECK(std::abs(channel) <= 1.1 * decay(std::max(0.0, opd - 600)) + 1e-13);
         before = bound;

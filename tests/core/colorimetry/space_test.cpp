@@ -47,7 +47,7 @@ void check_close(const ColorMatrix& got, const ColorMatrix& expected, double tol
     for (std::size_t i = 0; i < 3; ++i) check_close(got[i], expected[i], tolerance);
 }
 
-/// White by sums at the 5 nm rows from 380 to 780 nm, Y = 1.
+/// White from sums over the 5 nm rows from 380 to 780 nm, Y = 1.
 Triple white(std::string_view name, int degrees) {
     const Table table = illuminant(name);
     const Observer& eye = observer(degrees);
@@ -106,8 +106,8 @@ TEST_CASE("matrices have the digits of their standards", "[color]") {
 }
 
 TEST_CASE("matrices equal the exact fractions", "[color]") {
-    // W3C, CSS Color Module Level 4, sample code for color conversions. All entries are below 4,
-    // so a few units of 2^-53 * 4.
+    // W3C, CSS Color Module Level 4, sample code for color conversions. All entries are below 4, so
+    // the error is a few units of 2^-53 * 4.
     check_close(xyz_from_rgb(rgb_space("srgb")),
                 {{{506752. / 1228815, 87881. / 245763, 12673. / 70218},
                   {87098. / 409605, 175762. / 245763, 12673. / 175545},
@@ -181,7 +181,7 @@ TEST_CASE("the adapted transform is the product of its matrices", "[color]") {
         INFO(name);
         const RgbSpace& space = rgb_space(name);
         const Triple adapted = times(bradford(under, space.white), xyz);
-        // Values of order 1, some ten roundings of 2^-53 * 4 each.
+        // Values of order 1, with some ten roundings of 2^-53 * 4 each.
         check_close(RgbTransform(space, under, Adaptation::bradford)(xyz),
                     times(rgb_from_xyz(space), adapted), 4e-15);
         const Triple back = times(bradford(space.white, under),
@@ -227,7 +227,7 @@ TEST_CASE("encoding curves at known points", "[color]") {
         }
     }
     SECTION("value and slope join") {
-        // IEC 61966-2-1 rounds its constants: the sRGB branches differ by 3e-8 at the joint.
+        // IEC 61966-2-1 rounds its constants: the sRGB branches differ by 3e-8 where they join.
         const double up = std::nextafter(0.0031308, 1);
         CHECK_THAT(encoded(srgb, up), WithinAbs(encoded(srgb, 0.0031308), 4e-8));
         const double beta = 0.01805396851080781;

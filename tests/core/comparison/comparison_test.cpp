@@ -36,7 +36,7 @@ std::vector<ComparedEngine> all_formulas() {
     return all;
 }
 
-/// Exact colours: integrals of the CIE tables in double, good to 1e-12.
+/// Exact colours: integrals of the CIE tables in double, accurate to 1e-12.
 struct ExactFilm {
     double film_n, thickness_nm, angle_deg, base_n, base_k;
     Triple xyz_d65, xyz_e;
@@ -87,8 +87,8 @@ const std::array kExact = std::to_array<ExactFilm>({
      {0.0457362743499, 0.0489404204008, 0.0475062598077}},
 });
 
-/// CIEDE2000 of engines compiled in double: under D65, each against its own white; under E,
-/// adapted; and as CIE RGB where the engine claims that, else -1.
+/// CIEDE2000 of engines compiled in double: under D65, each relative to its own white; under E,
+/// adapted; and as CIE RGB if the engine claims that, else -1.
 struct ExactDifference {
     std::size_t film;
     std::string_view engine;
@@ -190,7 +190,7 @@ TEST_CASE("what engines are given of a stack", "[comparison]") {
         CHECK_THAT(given.film.base_f0[0], WithinAbs(0.042579994960947345, 1e-15));
         CHECK(given.film.base_f82_tint == Triple{1, 1, 1});
     }
-    {  // gold: F0 is the colour of the bare metal, n and k those of three wavelengths
+    {  // gold: F0 is the colour of the bare metal, n and k those at three wavelengths
         StackBuilder b;
         b.add(b.layer(1.3, 300));
         const Stack stack = b.over_material(b.material(library("Au")));
@@ -206,7 +206,7 @@ TEST_CASE("what engines are given of a stack", "[comparison]") {
         CHECK(given.film.base_f0[0] > 0.99);
         CHECK(given.film.base_f0[2] < 0.45);
     }
-    {  // everything that has to go
+    {  // everything that engines cannot take
         StackBuilder b;
         b.add(StackBuilder::layer_of(b.material(library("TiO2")), 50));
         b.add(b.layer({1.5, 0.1}, 80));
@@ -215,7 +215,7 @@ TEST_CASE("what engines are given of a stack", "[comparison]") {
                                    "dispersion of the film", "absorption of the film",
                                    "all layers but the first (1 more)", "dispersion of the base"});
     }
-    {  // an incident medium is divided out, exactly
+    {  // the index of the incident medium is divided out, exactly
         const auto in_water = [](double n0) {
             StackBuilder b(n0);
             b.add(b.layer(1.5 * n0, 300 / n0));
@@ -306,7 +306,7 @@ TEST_CASE("statistics of differences", "[comparison]") {
     CHECK(summary_of(std::vector<std::optional<double>>{std::nullopt}).count == 0);
 }
 
-// The numbers of a film at a time, as the formulas have them.
+// Numbers for single films, in the form of the formulas.
 TEST_CASE("random films err as they did", "[comparison]") {
     const ColorTables& tables = tables_under("D65");
     const EngineDifference difference({}, tables.sensitivity().white());
@@ -361,7 +361,7 @@ TEST_CASE("fits of glTF come as near as is known to be possible", "[comparison][
     CHECK(fit.delta_e_mean < 1.32);
     CHECK_THAT(fit.value_of("iridescenceIor"), WithinAbs(1.47, 0.05));
     CHECK_THROWS_AS(fit.value_of("ior"), DomainError);
-    // an engine's own film is found again
+    // an engine's own film is recovered
     CHECK(fitted("cycles", oil).delta_e_mean < 0.2);
 }
 

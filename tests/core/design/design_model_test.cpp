@@ -10,8 +10,8 @@ using namespace irido;
 
 namespace {
 
-/// The largest difference between the Jacobian and central differences of exact values, relative to
-/// the column's largest entry.
+/// The largest deviation of the Jacobian from central differences of exact values, relative to the
+/// column's largest entry.
 double jacobian_error(const DesignProblem& problem, const std::vector<double>& x) {
     DesignModel model(problem);
     REQUIRE(model.is_analytic());
@@ -120,7 +120,7 @@ TEST_CASE("derivatives of every quantity by every kind of value are those of dif
             problem.targets[0].angle_deg = {55};
         problem.targets[0].target.resize(entry_count(problem.targets[0]));
         INFO("quantity " << static_cast<int>(quantity));
-        CHECK(jacobian_error(problem, start_of(problem)) < 1e-6);  // of the differences
+        CHECK(jacobian_error(problem, start_of(problem)) < 1e-6);  // limited by the differences
     }
 }
 
@@ -145,7 +145,8 @@ TEST_CASE("the model's values are those of the spectra, and its objective that o
 }
 
 TEST_CASE("the gradient of a scalar merit by thicknesses", "[design]") {
-    // of merit^2, by an independent program with complex transfer matrices and 1e-7 nm differences
+    // derivatives of merit^2 from an independent program with complex transfer matrices and
+    // differences of 1e-7 nm
     const DesignProblem problem = coating(
         {92, 60, 35, 14},
         {.quantity = DesignQuantity::R, .wavelength_nm = steps(400, 700, 10), .angle_deg = {45}});
@@ -188,7 +189,7 @@ TEST_CASE("the total thickness may be bounded", "[design]") {
     CHECK(jacobian_error(problem, start_of(problem)) < 1e-6);
     DesignRows rows;
     exact_merit(problem, start_of(problem), &rows);
-    CHECK(rows.value.back() == 120 + 3 * (60 + 120) + 12 + 70);  // of linked layers
+    CHECK(rows.value.back() == 120 + 3 * (60 + 120) + 12 + 70);  // with linked layers
     problem.targets[1].side = TargetSide::at_most;
     problem.targets[1].target = {1000};
     exact_merit(problem, start_of(problem), &rows);

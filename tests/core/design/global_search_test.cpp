@@ -19,8 +19,8 @@ DesignProblem near_best() {
     return antireflection({96.1, 115.7, 49.5, 24.6, 38.3, 132.2, 41.3, 15.1});
 }
 
-/// A mirror of n = 1 and 1.5, N and all else free, whose colours are those of 8 periods of 152 and
-/// 96 nm (Lab rounded to 1e-6).
+/// A mirror of n = 1 and 1.5, with N and everything else free; the target colours are those of 8
+/// periods of 152 and 96 nm (Lab rounded to 1e-6).
 DesignProblem mirror() {
     DesignProblem problem;
     StackBuilder builder;
@@ -134,7 +134,7 @@ TEST_CASE("a search ends when it is asked to", "[design]") {
 }
 
 TEST_CASE("the colour of an oxide on titanium comes as near as it can", "[design][slow]") {
-    // constant indices stand for the metal and its oxide; a scan over thickness is the reference
+    // constant indices stand in for the metal and its oxide; a scan over thickness is the reference
     DesignProblem problem;
     StackBuilder builder;
     builder.add(builder.layer(2.45, 100));

@@ -40,7 +40,7 @@ SlopeCase random_case(Random& random, bool absorbs) {
     return one;
 }
 
-/// All of a case: slots of layers, then of materials.
+/// All results for a case: slots of layers, then of materials.
 struct Computed {
     WrittenOut written;
     SlopeSlots slots;
@@ -60,7 +60,7 @@ struct Computed {
     }
 };
 
-/// What a slope may be off by.
+/// Allowed error of a slope.
 double tolerance(double exact) {
     return 1e-10 * (1 + std::abs(exact));
 }
@@ -111,7 +111,7 @@ TEST_CASE("slopes by thicknesses and indices are those of the 50-digit adjoint",
                     CHECK(std::abs(n - by_n[m].R) < tolerance(by_n[m].R));
                     CHECK(std::abs(nT - power.T * by_n[m].log_T) <
                           tolerance(power.T * by_n[m].log_T));
-                    if (computed.grid.n_im[m][w] == 0) continue;  // x d/dx tells nothing there
+                    if (computed.grid.n_im[m][w] == 0) continue;  // x d/dx is trivial there
                     CHECK(std::abs(k - by_k[m].R) < tolerance(by_k[m].R));
                     CHECK(std::abs(kT - power.T * by_k[m].log_T) <
                           tolerance(power.T * by_k[m].log_T));

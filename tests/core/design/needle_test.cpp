@@ -33,7 +33,7 @@ TEST_CASE("slopes of needles are those of thin layers", "[design]") {
     const std::vector<NeedleLayer> layers = layers_of(problem);
     const auto slopes =
         needle_slopes(problem, layers, {layers[0].material, layers[1].material}, best_simd_level());
-    // at the upper faces, of merit^2 per nm: an independent program, as above
+    // derivatives of merit^2 per nm at the upper faces, from an independent program, as above
     const std::vector<double> exact{-0.0006697417993653577, -0.00015778527331376742,
                                     -4.7380099368561275e-05, 4.548896676734069e-05};
     std::size_t found = 0;
@@ -43,7 +43,7 @@ TEST_CASE("slopes of needles are those of thin layers", "[design]") {
             CHECK(needle.slope == Approx(exact[needle.layer]).epsilon(1e-9));
             ++found;
         }
-        // differences of a layer in the middle
+        // finite differences for a layer in the middle
         if (needle.depth_nm == 0 || found % 3 != 0) continue;
         const auto objective = [&](double thickness) {
             std::vector<NeedleLayer> with = layers;
@@ -69,7 +69,7 @@ TEST_CASE("layers come and go until a coating is good", "[design][slow]") {
     NeedleSettings settings;
 
     problem.stack.materials.push_back(cauchy(2.25, 0.03));
-    // the materials stand where coating() has put them
+    // the materials are where coating() has put them
     const std::size_t low = std::get<Layer>(problem.stack.elements[0].value).material;
     const std::size_t high = problem.stack.materials.size() - 1;
     settings.materials = {low, high};

@@ -12,7 +12,7 @@ inline Material cauchy(double a, double b) {
     return {"cauchy", RefractiveIndex{Formula{5, {a, b, -2}, kAllWavelengths}, Constant{0}}};
 }
 
-/// Borosilicate crown, n^2 = 1 + sum B L^2/(L^2 - C): Schott's catalogue, N-BK7.
+/// Borosilicate crown glass, n^2 = 1 + sum B L^2/(L^2 - C), from Schott's catalogue: N-BK7.
 inline Material crown_glass() {
     return {"crown", RefractiveIndex{Formula{2,
                                              {0, 1.03961212, 0.00600069867, 0.231792344,
@@ -27,7 +27,7 @@ inline std::vector<double> steps(double first, double last, double step) {
     return values;
 }
 
-/// Low and high indices by turns on glass, all thicknesses free in [0, 250] nm.
+/// Alternating low and high indices on glass, all thicknesses free in [0, 250] nm.
 inline DesignProblem coating(const std::vector<double>& thickness_nm, DesignTarget target) {
     DesignProblem problem;
     StackBuilder builder;

@@ -41,7 +41,7 @@ const std::array kFilms = std::to_array<Film>({
     {1.6, 250.0, 40, {0.18, 0.42, 1.37}, {3.42, 2.35, 1.77}},  // n, k per channel
 });
 
-/// r, g, b of the engines' own shader sources (versions as in each engine's entry), compiled in
+/// r, g, b from the engines' own shader sources (versions as in each engine's entry), compiled in
 /// double precision.
 struct EngineColor {
     std::size_t film;
@@ -111,7 +111,7 @@ TEST_CASE("engines return what their own sources do", "[engines]") {
     for (const EngineColor& row : kColors) {
         const Triple rgb = engine_named(row.engine).reflectance(kFilms[row.film].for_engines());
         INFO(row.engine << " of film " << row.film);
-        // their table has 8 digits, that of irido is made anew
+        // their table has 8 digits, irido recomputes it
         const double tolerance = row.engine.starts_with("cycles") ? 5e-8 : 1e-12;
         CHECK(distance(rgb, row.rgb) < tolerance);
     }
@@ -143,7 +143,7 @@ TEST_CASE("without a film engines have the bare base, but for what their texts l
         CHECK(distance(materialx_gltf_reflectance(film), {schlick, schlick, schlick}) < 1e-14);
         CHECK(distance(three_reflectance(film), {schlick, schlick, schlick}) < 3e-3);
     }
-    // the README has no rule for d = 0: fringes of both faces remain
+    // the README says nothing about d = 0: fringes of both faces remain
     const Film none{1.38, 0, 0, {1.5, 1.5, 1.5}, {}};
     CHECK(distance(gltf_reflectance(none.for_engines()), {0.0428, 0.0394, 0.0389}) < 5e-5);
     // metals
@@ -167,7 +167,7 @@ TEST_CASE("a film of index 1 is no film, except where engines show one", "[engin
     // the halved reflectance of generalized_schlick
     const Film glass{1, 300, 0, {1.5, 1.5, 1.5}, {}};
     CHECK(distance(materialx_gltf_reflectance(glass.for_engines()), {0.02, 0.02, 0.02}) < 1e-6);
-    // fringes without an interface
+    // fringes despite a missing interface
     const Triple gltf = gltf_reflectance(glass.for_engines());
     CHECK(distance(gltf, {0.04, 0.04, 0.04}) > 1e-4);
 }
@@ -195,10 +195,10 @@ TEST_CASE("at grazing incidence and under total reflection films reflect all", "
         if (engine->title.find("MaterialX") == std::string_view::npos)
             CHECK(engine->reflectance(total.for_engines()) == Triple{1, 1, 1});
     }
-    // MaterialX takes no film index below 1
+    // MaterialX does not accept a film index below 1
     const Film total{0.7, 300, 60, {1.6, 1.6, 1.6}, {}}, air{1, 300, 60, {1.6, 1.6, 1.6}, {}};
     CHECK(materialx_reflectance(total.for_engines()) == materialx_reflectance(air.for_engines()));
-    // the film in front of a thinner medium
+    // a film on a less dense medium
     const Film inside{1.8, 300, 60, {1, 1, 1}, {}};
     for (const char* const name : {"materialx", "cycles"})
         CHECK(engine_named(name).reflectance(inside.for_engines())[1] < 1);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kBoth{Polarization::s, Polarization::p};
 
-/// The series summed until nothing changes any more.
+/// The series, summed until it no longer changes.
 Power summed(const FilmSeries& series, double wavelength_nm) {
     const double turns = series.opd_nm / wavelength_nm;
     const double phase = 2 * std::numbers::pi * (turns - std::round(turns)) + series.phase_rad();
@@ -60,8 +60,8 @@ TEST_CASE("a film's series is the power of the general kernel", "[film]") {
             CAPTURE(film.incident, film.film, film.base, film.thickness_nm, cosine);
             const Power sum = summed(*series, wavelength);
             const Power power = kernel(film, wavelength, cosine, polarization);
-            // the phase of a film of d / lambda waves has as many times the rounding of its turn,
-            // and rho^m has that of rho m times
+            // a film d / lambda waves thick has that many times the rounding error of a single
+            // phase, and rho^m has m times that of rho
             const double rounding = 1e-14 + 2e-15 * series->opd_nm / wavelength;
             CHECK(std::abs(sum.R - power.R) < rounding / (1 - series->ratio()));
             CHECK(std::abs(sum.T - power.T) < rounding / (1 - series->ratio()));
@@ -104,7 +104,7 @@ TEST_CASE("light that cannot enter the base is all reflected", "[film]") {
         CHECK(frustrated->R == 1);
         CHECK(frustrated->T == 0);
         CHECK(std::abs(frustrated->coefficient(false, 1)) == 0);
-        // at 90 degrees, unless there is nothing to reflect
+        // at 90 degrees everything is reflected, unless there is no interface
         for (const double film : {1.0, 1.4}) {
             const auto grazing = film_series({1, film, 1.5, 300}, 0, polarization);
             CHECK(grazing->R == 1);
@@ -119,7 +119,7 @@ TEST_CASE("a film past its critical angle has no series", "[film]") {
         CHECK_FALSE(film_series({1.5, 1.2, 2, 300}, cos_of_incidence(60), polarization));
         CHECK_FALSE(film_series({1.5, 1.2, 2, 300}, 0, polarization));
         CHECK(film_series({1.5, 1.2, 2, 300}, cos_of_incidence(50), polarization));
-        // nor one that returns all that comes, between a base that amplifies and a mirror
+        // nor has a film that returns all of its light, between an amplifying base and a mirror
         CHECK_FALSE(film_series({1, 3, {0.01, -3}, 300}, cos_of_incidence(89.999), polarization));
     }
 }

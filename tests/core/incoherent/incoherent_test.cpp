@@ -44,7 +44,7 @@ void check_same(const Powers& a, const Powers& b, double tolerance) {
     check_same(a.p, b.p, tolerance);
 }
 
-/// k of every size, or none.
+/// k of any order of magnitude, or 0.
 double random_k(Random& random) {
     switch (random.below(5)) {
         case 0:
@@ -78,8 +78,8 @@ double random_thickness(Random& random) {
     }
 }
 
-/// Incoherent layers with films, metals and periods around and between them; light often comes from
-/// a dense medium, near the critical angle of one of the layers.
+/// Incoherent layers with films, metals and periods around and between them; often the light comes
+/// from a dense medium, near the critical angle of one of the layers.
 struct Question {
     Stack stack;
     double wavelength_nm, angle_deg;
@@ -130,13 +130,13 @@ std::string text_of(const Question& question) {
            std::to_string(question.angle_deg);
 }
 
-/// Layers written as coherent ones.
+/// The stack with all layers coherent.
 Stack all_coherent(Stack stack) {
     for (Element& element : stack.elements) std::get<Layer>(element.value).coherent = true;
     return stack;
 }
 
-/// An incoherent layer between a film and a base that both have something of everything.
+/// An incoherent layer between a film and a base that both reflect, transmit and absorb.
 Stack plate_between(Complex index, double thickness_nm, double n0 = 1) {
     StackBuilder b(n0);
     b.add(b.layer({2.2, 0.01}, 70));
@@ -167,7 +167,7 @@ TEST_CASE("no stack with incoherent layers gains or loses light", "[incoherent]"
                     std::max(std::abs(power.R - expected.R), std::abs(power.T - expected.T));
                 worst = std::max(worst, off);
                 lowest = std::min(lowest, low);
-                // there kz is the root of a difference that is rounded
+                // there kz is the square root of a rounded difference
                 const double tolerance = question.near_critical ? 1e-6 : 1e-10;
                 if (!question.near_critical) apart = std::max(apart, differs);
                 if (!(low >= 0 && off < 1e-12 && differs < tolerance))
@@ -222,8 +222,8 @@ TEST_CASE("a layer that is not too thin is the mean over its phase", "[incoheren
 }
 
 TEST_CASE("a layer that is too thin has the admittance of one that is not", "[incoherent]") {
-    // a layer that takes as much of a pass, and has the limited Y of the thin one: with kz of its
-    // own it is k0 d Im kz / Im kz' thick, and by then just thick enough
+    // a layer with the same single-pass attenuation and the limited Y of the thin one: with its own
+    // kz it is k0 d Im kz / Im kz' thick, and then just thick enough
     Random random(154);
     for (int i = 0; i < 100; ++i) {
         const double nm = random.uniform(400, 700), angle = i % 3 ? random.uniform(0, 60) : 0;
@@ -240,7 +240,7 @@ TEST_CASE("a layer that is too thin has the admittance of one that is not", "[in
             const Complex y = s ? kz : inside.eps / kz;
             if (std::abs(y.imag()) < limit * y.real()) continue;
             const Complex limited = y.real() * Complex(1, std::copysign(limit, y.imag()));
-            // of p: Y kz = eps = kz^2 + S^2
+            // for p: Y kz = eps = kz^2 + S^2
             const Complex root = std::sqrt(limited * limited - 4 * sine * sine);
             const Complex sum = (limited + root) / 2.0, difference = (limited - root) / 2.0;
             const bool first = std::abs(sum - kz) < std::abs(difference - kz);
@@ -262,11 +262,11 @@ TEST_CASE("a thin absorber neither jumps nor amplifies", "[incoherent]") {
             const Powers clear = ask(plate_between(1.5, thickness), 550, angle);
             for (const double k : {1e-300, 1e-30, 1e-18})
                 check_same(ask(plate_between({1.5, k}, thickness), 550, angle), clear, 1e-14);
-            // the first order in k: it vanishes with it
+            // first order in k: vanishes with it
             check_same(ask(plate_between({1.5, 1e-6}, thickness), 550, angle), clear,
                        1e-6 * (1 + thickness / 50));
         }
-        // over the thickness at which the limit begins
+        // across the thickness at which the limit sets in
         for (const double k : {1e-3, 0.1, 0.6}) {
             const double begin = 550 / (2 * std::numbers::pi * 1.5);
             Powers before = ask(plate_between({1.5, k}, begin / 2), 550, angle);
@@ -277,7 +277,7 @@ TEST_CASE("a thin absorber neither jumps nor amplifies", "[incoherent]") {
             }
         }
     }
-    // 1 nm that gained 0.002 of the light
+    // 1 nm that used to amplify by 0.002 of the light
     StackBuilder b;
     b.add(incoherent(b.layer({1.5, 0.1}, 1)));
     const Power thin = ask(b.over(1.5), 550, 0).s;
@@ -327,7 +327,7 @@ TEST_CASE("where light does not travel a layer is coherent", "[incoherent]") {
                       .s.A_layers);
         }
     }
-    // nothing comes through what is thick: the film above is on a substrate of that medium
+    // an opaque thick layer acts as a substrate for the film above it
     StackBuilder b(1.5), c(1.5);
     for (StackBuilder* s : {&b, &c}) s->add(s->layer({2.2, 0.01}, 70));
     b.add(incoherent(b.layer({1, 1e-9}, 1e5)));
@@ -352,7 +352,7 @@ TEST_CASE("an absorbing slab is what its surfaces leave of what it lets through"
 }
 
 TEST_CASE("a gap of air is the same on both sides of its critical angle", "[incoherent]") {
-    // 1 mm: hardly anything passes within 1e-6 of the angle, whether it travels or tunnels
+    // 1 mm: hardly any light passes within 1e-6 of the angle, whether propagating or tunnelling
     const double critical = std::asin(1 / 1.5) * 180 / std::numbers::pi;
     for (const double k : {0.0, 1e-300, 1e-12, 1e-9}) {
         StackBuilder b(1.5);
@@ -362,7 +362,7 @@ TEST_CASE("a gap of air is the same on both sides of its critical angle", "[inco
             CAPTURE(k, off);
             const Power inside = ask(stack, 550, critical - off).s;
             const Power beyond = ask(stack, 550, critical + off).s;
-            // the surfaces let through what goes with kz, that is with the root of the angle
+            // the surfaces transmit in proportion to kz, that is to the square root of the angle
             CHECK(inside.T < std::sqrt(off) + 1e-6);
             CHECK(beyond.T < 1e-6);
             for (const Power& power : {inside, beyond}) {
@@ -398,7 +398,7 @@ TEST_CASE("a spread incoherent layer is the mean of its thicknesses", "[incohere
                 std::get<Layer>(sharp.elements[1].value).thickness_sigma_nm = 0;
                 return ask(sharp, 550, angle).p;
             };
-            // midpoint rule: the ends count for less than 1e-7 of it
+            // midpoint rule: the ends contribute less than 1e-7 of the total
             const double from = std::max(0.0, c.thickness_nm - 8 * c.sigma_nm);
             const double width = (c.thickness_nm + 8 * c.sigma_nm - from) / 4000;
             Power sum;

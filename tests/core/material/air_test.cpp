@@ -8,8 +8,8 @@ using namespace irido;
 using Catch::Matchers::WithinAbs;
 
 TEST_CASE("the index of air agrees with published values", "[air]") {
-    // P. E. Ciddor, Appl. Opt. 35, 1566 (1996), table 1: dry air at 633 nm and 100 kPa; n - 1 goes
-    // with the pressure to a few parts in 1e4.
+    // P. E. Ciddor, Appl. Opt. 35, 1566 (1996), table 1: dry air at 633 nm and 100 kPa; n - 1 is
+    // proportional to the pressure to a few parts in 1e4.
     constexpr double kPressures = 101325.0 / 100000;
     CHECK_THAT(index_of_air(633, 20) - 1, WithinAbs(26824.4e-8 * kPressures, 5e-8));
     CHECK_THAT(index_of_air(633, 10) - 1, WithinAbs(27774.7e-8 * kPressures, 5e-8));
@@ -21,7 +21,7 @@ TEST_CASE("the index of air agrees with published values", "[air]") {
 }
 
 TEST_CASE("wavelengths in air and in vacuum are each other's", "[air]") {
-    // The lines of sodium in standard air and in vacuum, NIST: 588.9950 and 589.1583 nm.
+    // The sodium lines in standard air and in vacuum, NIST: 588.9950 and 589.1583 nm.
     CHECK_THAT(vacuum_wavelength(588.9950, 15), WithinAbs(589.1583, 1e-4));
     for (const double nm : {150.0, 231.0, 400.0, 700.0, 2000.0, 1e5})
         CHECK_THAT(air_wavelength(vacuum_wavelength(nm, 22), 22), WithinAbs(nm, 1e-11 * nm));
@@ -47,7 +47,7 @@ TEST_CASE("a formula and a table in air are taken to vacuum alike", "[air]") {
 }
 
 TEST_CASE("catalogue glasses among the built-in materials are converted", "[air]") {
-    // n_d of SCHOTT's data sheets at the line's wavelength in air, times the index of air.
+    // n_d from SCHOTT's data sheets at the line's wavelength in air, times the index of air.
     const double d_line = vacuum_wavelength(587.5618, 20), air = index_of_air(d_line, 20);
     struct Glass {
         const char* name;

@@ -47,7 +47,7 @@ TEST_CASE("glasses have the n_d and the Abbe number of their catalogue", "[libra
 
 TEST_CASE("formulas of crystals and semiconductors give the n that their sources imply",
           "[library]") {
-    // computed apart from this program from the printed coefficients, rounded to 6 decimals
+    // computed separately from the printed coefficients, rounded to 6 decimals
     struct Spot {
         const char* name;
         double nm, n;
@@ -76,7 +76,7 @@ TEST_CASE("Lorentz-Drude metals have the indices that their parameters imply", "
         const char* name;
         double nm, n, k;
     };
-    // of a table made from the same model, rounded to 4 decimals
+    // from a table made with the same model, rounded to 4 decimals
     const auto spot =
         GENERATE(Spot{"Ag-LD", 400, 0.1579, 1.8274}, Spot{"Ag-LD", 700, 0.1543, 4.3047},
                  Spot{"Au-LD", 500, 0.7864, 1.8964}, Spot{"Au-LD", 700, 0.2570, 3.7176},

@@ -49,8 +49,8 @@ Material built_in(std::string_view name) {
 
 // --- dispersion formulas ---------------------------------------------------------------------
 
-// The right-hand sides are written out in long double, term by term; a few roundings of double
-// separate them from the evaluation by loops and std::pow.
+// The right-hand sides are written out in long double, term by term; they differ from the
+// evaluation by loops and std::pow only by a few roundings of double.
 constexpr double kFewRoundings = 4e-15;
 
 TEST_CASE("formula 1 is Sellmeier with the poles as wavelengths", "[material]") {
@@ -84,7 +84,7 @@ TEST_CASE("formula 4 has two rational terms and a polynomial", "[material]") {
 }
 
 TEST_CASE("formula 4 with an unused second pole is finite at 1 um", "[material]") {
-    // 0^0 = 1 would put the pole of the unused term at exactly 1 um.
+    // 0^0 = 1 would put the unused term's pole at exactly 1 um.
     const Material material = with_formula(4, {2, 0.8, 2, 0.01, 1, 0, 0, 0, 0, -0.01, 2});
     CHECK_THAT(n_of(material, 1000), WithinRel(std::sqrt(2 + 0.8 / 0.99 - 0.01), 1e-15));
 }
@@ -444,8 +444,8 @@ TEST_CASE("every name that is promised is there", "[library]") {
 
 TEST_CASE("closed formulas give the n of the lines F, d and C that their sources imply",
           "[library]") {
-    // Computed apart from this program from the printed coefficients, rounded to 6 decimals. Of
-    // catalogue glasses they are relative to air, and of the lines in air.
+    // Computed separately from the printed coefficients, rounded to 6 decimals. For catalogue
+    // glasses the indices are relative to air, and the lines' wavelengths are those in air.
     struct Lines {
         const char* name;
         double n_f, n_d, n_c;

@@ -28,7 +28,7 @@ Complex mixed(MixingRule rule, double fraction, Complex inclusion, Complex host)
     return index_at(mixture(rule, fraction, constant(inclusion), constant(host)), 500);
 }
 
-/// What Bruggeman's condition leaves, over the size of its terms.
+/// Residual of Bruggeman's condition, relative to the size of its terms.
 double residual(double f, Complex e1, Complex e2, Complex e) {
     const Complex a = f * (e1 - e) * (e2 + 2.0 * e), b = (1 - f) * (e2 - e) * (e1 + 2.0 * e);
     const double size = (std::abs(e1) + std::abs(e)) * (std::abs(e2) + 2 * std::abs(e)) +
@@ -141,7 +141,7 @@ TEST_CASE("the series of a mixture has its derivatives", "[material]") {
             const Material mixed = mixture(rule, 0.3, metal, glass);
             const Series<Complex> series = index_series(mixed, nm);
             CHECK(series[0] == index_at(mixed, nm));
-            // x = w/w0 - 1; central differences of two steps, extrapolated
+            // x = w/w0 - 1; central differences at two step sizes, extrapolated
             const auto at = [&](double x) { return index_at(mixed, nm / (1 + x)); };
             const auto first = [&](double h) { return (at(h) - at(-h)) / (2 * h); };
             const auto second = [&](double h) {

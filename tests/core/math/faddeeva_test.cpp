@@ -36,7 +36,7 @@ TEST_CASE("the Faddeeva function agrees with its integral", "[faddeeva]") {
     Random random(3);
     double worst = 0;
     for (int i = 0; i < 120; ++i) {
-        // so that the integral itself has 16 digits
+        // limited so that the integral itself has 16 digits
         const Complex z(random.uniform(-7, 7),
                         i % 3 ? random.uniform(0, 7) : random.log_uniform(1e-9, 7));
         const LongComplex exact = integrated(z), value(faddeeva(z));

@@ -10,7 +10,7 @@ using namespace irido;
 
 namespace {
 
-/// Cumulative probability of the standard normal distribution, of either tail.
+/// Tail probability of the standard normal distribution, for either tail.
 double tail(double x) {
     return 0.5 * std::erfc(x / std::sqrt(2.0));
 }
@@ -22,7 +22,7 @@ TEST_CASE("normal quantiles have their cumulative probability", "[math]") {
     for (int i = 1; i < 4000; ++i) {
         const double p = i / 8000.0;
         const double x = normal_quantile(p);
-        // what an ulp of x is worth in p
+        // the change of p for one ulp of x
         worst = std::max(worst, std::abs(tail(-x) - p) / p / (1 + x * x));
         CHECK(normal_quantile(1 - p) == Approx(-x).epsilon(1e-13).margin(1e-15));
     }

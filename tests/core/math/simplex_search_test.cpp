@@ -7,7 +7,7 @@ using namespace irido;
 using Catch::WithinAbs;
 
 TEST_CASE("simplices descend to minima inside the cube and on its faces", "[math]") {
-    const auto valley = [](std::span<const double> x) {  // Rosenbrock's, at 0.3, 0.09
+    const auto valley = [](std::span<const double> x) {  // Rosenbrock's function, at 0.3, 0.09
         const double a = x[0] - 0.3, b = x[1] - x[0] * x[0];
         return a * a + 100 * b * b;
     };

@@ -13,7 +13,7 @@ using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<
 
 namespace {
 
-/// Si and F by their power series, which lose x/2.3 of 100 digits.
+/// Si and F from their power series, which lose x/2.3 of 100 digits.
 struct SineSeries {
     Wide si, f;
 };
@@ -63,7 +63,7 @@ TEST_CASE("far out the sine integral meets its limits", "[sine-integral]") {
     CHECK(slit_integral(-kInfinity, kInfinity) == kPi);
     CHECK(std::abs(slit_integral(1e6, kInfinity) - 1e-6) < 1e-12);
     CHECK(std::abs(sine_integral(1e9) - kPi / 2) < 2e-9);
-    // the two sides of the seams
+    // both sides of the seams between methods
     for (const double x : {4.0, 40.0}) {
         const double below = std::nextafter(x, 0);
         CHECK(std::abs(slit_integral(x) - slit_integral(below)) < 1e-15);

@@ -28,7 +28,7 @@ Complex direct_sum(const std::vector<double>& turns, const std::vector<double>& 
 TEST_CASE("sums over scattered points are those of the definition", "[transform]") {
     Random random(5);
     for (const std::size_t count : {1U, 2U, 37U, 2500U}) {
-        std::vector<double> turns{-0.5, 0.5, 0, 1e-9};  // the ends of the range among them
+        std::vector<double> turns{-0.5, 0.5, 0, 1e-9};  // including the ends of the range
         while (turns.size() < 301) turns.push_back(random.uniform(-0.5, 0.5));
         std::vector<std::vector<double>> weights(2);
         std::vector<double> size(2, 0.0);
@@ -47,7 +47,7 @@ TEST_CASE("sums over scattered points are those of the definition", "[transform]
                                  std::abs(sums[c][k] - direct_sum(turns, weights[c], k)) / size[c]);
         }
         CAPTURE(count, worst);
-        CHECK(worst < 1e-13);  // as its docstring promises
+        CHECK(worst < 1e-13);  // as documented
     }
 }
 

@@ -53,7 +53,7 @@ TEST_CASE("T by Bloch waves is that of the whole stack", "[bloch]") {
         const double nm = random.uniform(360, 830);
         const Powers want = ask(mirror.stack(), nm, mirror.angle_deg);
         CAPTURE(i, mirror.repeat, nm, mirror.angle_deg);
-        // the phases of 60 periods carry the roundings of 60
+        // the phases of 60 periods carry 60 roundings
         CHECK(std::abs(bloch_transmittance(mirror.in(Polarization::s), kTurn / nm) - want.s.T) <
               1e-11);
         CHECK(std::abs(bloch_transmittance(mirror.in(Polarization::p), kTurn / nm) - want.p.T) <

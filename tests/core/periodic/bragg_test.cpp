@@ -16,12 +16,12 @@ namespace {
 
 using Digits50 = boost::multiprecision::cpp_bin_float_50;
 
-/// Relative error of omega: a few roundings of the period's share and of the answer.
+/// Relative error of omega: a few roundings of the period's share and of the result.
 constexpr double kTolerance = 2e-15;
 
 const Digits50 kPi50 = boost::math::constants::pi<Digits50>();
 
-/// The point of [low, high] where a function that changes sign there is zero, by halving.
+/// The zero of a function that changes sign in [low, high], by bisection.
 template <class Number, class Function>
 Number halved(Number low, Number high, const Function& f, int steps) {
     const bool rises = f(high) > 0;
@@ -33,7 +33,7 @@ Number halved(Number low, Number high, const Function& f, int steps) {
 }
 
 /// Edges and Airy points from the factors of 1 - cos KL and 1 + cos KL and from cos KL itself, all
-/// in h = (a + b)/2 and in 50 digits.
+/// as functions of h = (a + b)/2 in 50 digits.
 struct Oracle {
     Digits50 path1, path2, q;
 
@@ -129,12 +129,13 @@ TEST_CASE("halving cos KL finds the edges of open gaps", "[bragg]") {
             const auto past_edge = [&](double omega) {
                 return side * cosine_of_bloch_phase(period, omega) - 1;
             };
-            // between the Airy points cos KL passes 1 at the edges alone
+            // between the Airy points, cos KL passes 1 only at the edges
             const double centre = gap.centre_per_nm();
             const double low = halved(omega_of_airy(period, m - 1), centre, past_edge, 60);
             const double high = halved(centre, omega_of_airy(period, m), past_edge, 60);
             CAPTURE(period.path1_nm, period.path2_nm, period.admittance_ratio, m);
-            // its roundings over its slope at the edge, which falls with the gap's width
+            // its rounding error divided by its slope at the edge, which decreases with the gap's
+            // width
             const double tolerance = 1e-14 * centre / (gap.high_per_nm - gap.low_per_nm);
             CHECK(std::abs(low / gap.low_per_nm - 1) < tolerance);
             CHECK(std::abs(high / gap.high_per_nm - 1) < tolerance);
@@ -168,7 +169,7 @@ TEST_CASE("a closed gap has two equal edges at its mode", "[bragg]") {
         const auto j = static_cast<double>(1 + random.below(9));
         const auto k = static_cast<double>(1 + random.below(9));
         const double q = random.log_uniform(1e-3, 1e3);
-        // j and k quarter waves: gap j + k of half waves is closed
+        // j and k quarter waves: gap j + k, of half waves, is closed
         const BraggPeriod commensurate{j * unit, k * unit, q};
         const BraggPeriod matched{unit, random.uniform(1, 999), 1 + 2e-16};
         for (const BraggPeriod& period : {commensurate, matched}) {
@@ -181,7 +182,7 @@ TEST_CASE("a closed gap has two equal edges at its mode", "[bragg]") {
             }
         }
     }
-    // and a layer of no thickness closes all of them
+    // and a layer of zero thickness closes all gaps
     for (const double m : {1.0, 2.0, 77.0}) CHECK_FALSE(band_gap({0, 200, 1.5}, m).is_open());
 }
 
@@ -190,7 +191,7 @@ TEST_CASE("the width of a narrow gap has its digits", "[bragg]") {
     const BandGap gap = band_gap({100, 100, 1 + 1e-6}, 1);
     const double share = (gap.high_per_nm - gap.low_per_nm) / gap.centre_per_nm();
     CHECK(std::abs(share / (2e-6 / std::numbers::pi) - 1) < 1e-6);
-    // of any q: 4/pi asin((q - 1)/(q + 1))
+    // for any q: 4/pi asin((q - 1)/(q + 1))
     const BandGap wide = band_gap({100, 100, 2.0}, 1);
     const double width = (wide.high_per_nm - wide.low_per_nm) / wide.centre_per_nm();
     CHECK(std::abs(width - 4 / std::numbers::pi * std::asin(1.0 / 3)) < 1e-15);
@@ -244,7 +245,7 @@ TEST_CASE("a range holds all its landmarks in order", "[bragg]") {
 }
 
 TEST_CASE("with dispersion every landmark has the indices at its own place", "[bragg]") {
-    // Cauchy's n = A + B omega^2 in both layers, seen at 40 degrees
+    // Cauchy's n = A + B omega^2 in both layers, at 40 degrees
     const PeriodAt period = [](double omega) {
         const RealLayer first{2.2 + 300 * omega * omega, 300},
             second{1.45 + 60 * omega * omega, 500};
@@ -276,7 +277,7 @@ TEST_CASE("what is no period is refused", "[bragg]") {
         return bragg_period(first, second, n0, cosine, Polarization::s);
     };
     CHECK_THROWS_AS(at({1, 100}, {1.5, 100}, 1.5, 0.5), DomainError);  // evanescent
-    CHECK_THROWS_AS(at({1, 100}, {1.5, 100}, 1, 0), DomainError);      // grazing along a layer
+    CHECK_THROWS_AS(at({1, 100}, {1.5, 100}, 1, 0), DomainError);      // grazing in a layer
     CHECK_THROWS_AS(at({1, 0}, {1.5, 0}, 1, 1), DomainError);
     CHECK_THROWS_AS(at({1, -1}, {1.5, 100}, 1, 1), DomainError);
     CHECK_THROWS_AS(at({1, 100}, {1.5, 100}, 1, std::nan("")), DomainError);

@@ -77,7 +77,7 @@ TEST_CASE("directions are drawn as their density says, and more often where it i
     CHECK_FALSE(sky.is_uniform());
     Random random(8);
     const Environment light = named_environment("sky");
-    // the mean of 1 / density is the whole sphere, that of light / density all light
+    // the mean of 1 / density is the whole sphere, that of light / density the total light
     double sphere = 0, drawn = 0, even = 0, even_square = 0, drawn_square = 0;
     constexpr int kDraws = 200'000;
     for (int i = 0; i < kDraws; ++i) {

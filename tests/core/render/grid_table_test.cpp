@@ -17,7 +17,7 @@ double largest(std::span<const float> a, std::span<const float> b) {
     return most;
 }
 
-/// Two channels of `fringes` in the thickness.
+/// Two channels with `fringes` over the thickness.
 GridTable::Function waves(double fringes) {
     return [fringes](double nm, std::span<const double> cosines, std::span<float> values) {
         for (std::size_t i = 0; i < cosines.size(); ++i) {

@@ -21,14 +21,14 @@ ThicknessField unit_field(double scale, std::uint64_t seed, unsigned octaves) {
 
 }  // namespace
 
-// The value that Perlin's Java program prints, as Rosetta Code has it for "Perlin noise".
+// The value printed by Perlin's Java program, as given by Rosetta Code under "Perlin noise".
 TEST_CASE("seed 0 is Perlin's improved noise", "[render]") {
     const PerlinNoise noise;
     CHECK(noise(3.14, 42, 7) == 0.13691995878400012);
     CHECK(noise(3.14 + 256, 42 - 512, 7 + 256) == Approx(0.13691995878400012).epsilon(1e-12));
 }
 
-// From the definition: slopes at whole points are vectors to the edges of a cube.
+// From the definition: gradients at lattice points are vectors to the edges of a cube.
 TEST_CASE("noise vanishes at whole points and has an edge's slope there", "[render]") {
     Random random(7);
     constexpr double kStep = 1e-5;

@@ -78,7 +78,7 @@ std::span<const float> pixel(const Picture& picture, std::size_t x, std::size_t 
     return std::span(picture.rgba).subspan(4 * (y * picture.width + x), 4);
 }
 
-/// Of opaque pixels.
+/// Over opaque pixels.
 double largest_difference(const Picture& a, const Picture& b) {
     double most = 0;
     for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
@@ -154,7 +154,7 @@ TEST_CASE("what does not absorb is white in white surroundings", "[render]") {
     CHECK(shown > 800);
 }
 
-// Two walls with an incoherent gap between them are what a bubble is, seen along one line.
+// Along a line of sight, a bubble is two walls with an incoherent gap between them.
 TEST_CASE("a bubble that absorbs is two walls with an incoherent gap", "[render]") {
     const Complex wall{1.5, 0.08};
     Drawing drawing{scene_of(ShapeKind::bubble, "white"), film_between(1, wall, 350, 1)};
@@ -260,8 +260,9 @@ TEST_CASE("layers are counted through groups, and a missing one is refused", "[r
 
 namespace {
 
-/// Directional albedo of a rough stack by midpoints in spherical coordinates of the light: the
-/// integral of D G1 G1 R / (4 cos_o), `colors` being R over equal steps of the half angle's cosine.
+/// Directional albedo of a rough stack by the midpoint rule in spherical coordinates of the light:
+/// the integral of D G1 G1 R / (4 cos_o), where `colors` is R at equal steps of the half angle's
+/// cosine.
 Triple rough_albedo(double alpha, double theta_o, std::span<const Triple> colors) {
     constexpr int kThetas = 400, kPhis = 400;
     const double last = static_cast<double>(colors.size() - 1);
@@ -271,7 +272,7 @@ Triple rough_albedo(double alpha, double theta_o, std::span<const Triple> colors
         const double theta = (i + 0.5) * kPi / 2 / kThetas;
         const double masking = smith_masking(alpha, o.z) * smith_masking(alpha, std::cos(theta));
         for (int j = 0; j < kPhis; ++j) {
-            const double phi = (j + 0.5) * kPi / kPhis;  // both halves are alike
+            const double phi = (j + 0.5) * kPi / kPhis;  // both halves are equal
             const Vector3 l{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                             std::cos(theta)};
             const Vector3 h = normalized(o + l);
@@ -327,7 +328,7 @@ TEST_CASE("a rough sphere becomes the smooth one", "[render]") {
     CHECK_THROWS_WITH(drawing.draw(), Contains("only spheres and planes can be rough"));
 }
 
-// The lights are found by facets, by themselves or by both: the mean is the same.
+// The light is sampled by facets, by its own brightness or by both: the mean is the same.
 TEST_CASE("a rough sphere under the sky has the light of its BRDF", "[render]") {
     Drawing drawing{scene_of(ShapeKind::plane, "sky", 4), film_between(1, 1.38, 420, {1.9, 1.5})};
     drawing.scene.alpha = 0.4;
@@ -337,7 +338,7 @@ TEST_CASE("a rough sphere under the sky has the light of its BRDF", "[render]") 
     std::array<double, 3> mean{}, wanted{};
     for (std::size_t i = 0; i < 64; ++i)
         if (i % 4 < 3) mean[i % 4] += static_cast<double>(picture.rgba[i]) / 16;
-    // midpoints of the sphere of directions
+    // midpoint rule over the sphere of directions
     const Vector3 n = plane_shape(-30)->first_hit(drawing.scene.camera.ray(1, 1))->normal;
     const Vector3 to{0, 0, 1};
     std::vector<Triple> colors;

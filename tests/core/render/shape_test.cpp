@@ -20,7 +20,7 @@ Vector3 random_direction(Random& random) {
     }
 }
 
-/// A ray that begins outside the unit sphere and passes through it.
+/// A ray that starts outside the unit sphere and passes through it.
 Ray random_ray(Random& random) {
     const Vector3 from = 3 * random_direction(random), to = 0.6 * random_direction(random);
     return {from, normalized(to - from), 0};
@@ -89,7 +89,7 @@ TEST_CASE("a ray inside a convex shape meets it once more, from inside", "[rende
             const auto in = shape->first_hit(ray);
             if (!in) continue;
             const auto out = shape->first_hit({in->point, ray.direction, 1e-9});
-            if (!out) continue;  // a graze
+            if (!out) continue;  // only grazes
             CHECK(dot(out->normal, ray.direction) > 0);
             CHECK_FALSE(shape->first_hit({out->point, ray.direction, 1e-9}));
         }

@@ -18,16 +18,16 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// The albedo of a perfect mirror's facets, by AlbedoNodes.
+/// The albedo of perfectly reflecting facets, by AlbedoNodes.
 double mirror(double alpha, double theta_i_deg) {
     double sum = 0;
     for (const double weight : AlbedoNodes(alpha, theta_i_deg)(0, 90).weight) sum += weight;
     return sum;
 }
 
-/// The albedo as it is defined: over all directions o, by Gauss panels that crowd towards grazing
-/// theta_o = pi/2 (1 - (1 - v)^2) and towards the specular plane, phi_o = pi u^3.
-/// `reflectance` is of the half angle in degrees.
+/// The albedo by definition: over all directions o, by Gauss panels that concentrate towards
+/// grazing, theta_o = pi/2 (1 - (1 - v)^2), and towards the plane of incidence, phi_o = pi u^3.
+/// `reflectance` is a function of the half angle in degrees.
 template <class Reflectance>
 double over_directions(double alpha, double theta_i_deg, int panels,
                        const Reflectance& reflectance) {
@@ -49,7 +49,7 @@ double over_directions(double alpha, double theta_i_deg, int panels,
                                         reflectance(std::acos(c_half) / kDegree);
                     sum += a.weight * b.weight * brdf * co * so * kPi * (1 - v) * 3 * kPi * u * u;
                 }
-    // both halves of phi; each weight sums to 2
+    // both halves of phi; the weights of each sum to 2
     return 2 * sum / (4 * panels * panels);
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("no surface reflects more than all light", "[rough]") {
             CAPTURE(alpha, theta);
             CHECK(E > 0);
             CHECK(E <= 1 + 1e-11);
-            // panels cut elsewhere give the same
+            // panels cut differently give the same
             const AlbedoNodes nodes(alpha, theta);
             double parts = 0;
             for (const auto& [begin, end] :
@@ -137,7 +137,7 @@ TEST_CASE("a smooth surface has the stack's colour, a rough one that of all dire
         CHECK_THAT(
             rough.xyz[c],
             WithinAbs(over_directions(0.6, theta, 5, [&](double half) { return color(half)[c]; }),
-                      2e-5));  // of the Gauss panels
+                      2e-5));  // error of the Gauss panels
 }
 
 TEST_CASE("the error of an albedo falls with its tolerance", "[rough]") {

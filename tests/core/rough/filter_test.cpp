@@ -25,7 +25,7 @@ struct Angles {
     double i, d;
 };
 
-/// Angles strictly between 0 and 90: anywhere, in the peak, at the kink, at grazing, near normal.
+/// Angles strictly between 0 and 90: random, in the peak, at the kink, at grazing, near normal.
 std::vector<Angles> angles(double alpha, int count) {
     std::vector<Angles> all;
     Random random(11);
@@ -55,7 +55,7 @@ const std::vector<double> kAlphas{1e-4, 1e-3, 0.01, 0.1, 0.2, 0.5, 0.999, 1};
 
 TEST_CASE("the transmission filter has the values of a 60-digit evaluation", "[rough]") {
     const TransmissionFilter filter(0.2);
-    // computed independently to 60 digits
+    // computed independently in 60 digits
     const std::vector<std::pair<Angles, double>> expected{
         {{20, 15}, 1.8901438839298736},   {{20, 45}, 0.2722569611850245},
         {{20, 75}, 0.023254638025755423}, {{60, 15}, 0.07600163461048545},
@@ -89,13 +89,13 @@ TEST_CASE("the filter has its limits", "[rough]") {
         const TransmissionFilter filter(alpha);
         for (const double theta : {0.001, 1.0, 44.0, 89.0}) {
             const double c = cos_of_incidence(theta), s = std::sin(theta * kDegree);
-            // normal incidence: theta_m is theta_d all around
+            // normal incidence: theta_m is theta_d for every azimuth
             CHECK_THAT(filter(0, theta), WithinRel(2 * kPi * c * s * ggx_distribution(alpha, c),
                                                    alpha < 0.01 ? 1e-7 : 1e-11));
             CHECK(filter(theta, 0) == 0);
             CHECK(filter(theta, 90) == 0);
             CHECK(filter(90, theta) == 0);
-            // the kink is none of the value
+            // the value itself is continuous at the kink
             CHECK_THAT(filter(theta, 90 - theta), WithinRel(filter(theta, 90.00000000001 - theta),
                                                             alpha < 0.01 ? 1e-2 : 1e-4));
         }
@@ -118,7 +118,7 @@ TEST_CASE("the filter integrates to the masking function", "[rough]") {
             double sum = 0;
             for (const double weight : nodes.weight) sum += weight;
             CAPTURE(alpha, theta);
-            // angles near theta_i are known to 1e-14 degrees: to 1e-12 of the narrowest peak
+            // angles near theta_i are accurate to 1e-14 degrees, so to 1e-12 of the narrowest peak
             CHECK_THAT(sum, WithinRel(smith_masking(alpha, cos_of_incidence(theta)),
                                       alpha < 0.01 ? 3e-12 : 1e-13));
         }

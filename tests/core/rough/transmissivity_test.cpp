@@ -33,7 +33,13 @@ double T_of(const Stack& stack, double theta_deg, double wavelength_nm) {
     return 0.5 * (out.s.T[0] + out.p.T[0]);
 }
 
-/// The integral over theta_d by tanh-sinh between `cuts`, the kink and points around the peak.
+/// The integral over theta_d by tanh-sinh between `cuts`, which are the kink and points around the
+/// peak.
+///   stack          the stack of the facets
+///   alpha          roughness
+///   theta_i        angle of incidence, degrees
+///   wavelength_nm  vacuum wavelength, nm
+///   cuts           ends of panels
 double by_tanh_sinh(const Stack& stack, double alpha, double theta_i, double wavelength_nm,
                     std::vector<double> cuts) {
     const TransmissionFilter filter(alpha);
@@ -93,7 +99,7 @@ TEST_CASE("integrated transmissivities are those of tanh-sinh, within their stat
                 const double G1 = smith_masking(alpha, cos_of_incidence(theta_i));
                 CAPTURE(text, alpha, theta_i);
                 CHECK(error < 1e-9);
-                // tanh-sinh itself is good to 1e-10 here
+                // tanh-sinh itself is accurate to 1e-10 here
                 CHECK_THAT(value, WithinAbs(by_tanh_sinh(stack, alpha, theta_i, 550, cuts),
                                             (error + 1e-9) * G1));
             }
@@ -105,7 +111,7 @@ TEST_CASE("a nearly smooth layer transmits as the stack does", "[rough]") {
     const RoughTransmissivity layer(stack, Light::unpolarized);
     for (const double theta : {5.0, 40.0, 70.0})
         CHECK_THAT(layer(1e-4, std::vector<double>{theta}, kGreen)[0].value,
-                   WithinAbs(T_of(stack, theta, 550), 1e-5));  // T curves within alpha
+                   WithinAbs(T_of(stack, theta, 550), 1e-5));  // T varies within alpha
 }
 
 TEST_CASE("unpolarized light transmits as the mean of s and p", "[rough]") {

@@ -58,8 +58,8 @@ TEST_CASE("scratches are reciprocal, and amplitudes of one have the power of its
     }
 }
 
-// Over the whole sky, seen along the normal, what a vertical scratch reflects is rho |d|^2 times
-// the part of sinc^2 before the horizon, (2/pi) F(k W).
+// Seen along the normal under the whole sky, a scratch with vertical depth phase reflects rho |d|^2
+// times the part of sinc^2 within the horizon, (2/pi) F(k W).
 TEST_CASE("the light of a scratch over the hemisphere has its closed total", "[scratch]") {
     const UnitVector view{0, 0, 1};
     for (const double width : {0.8, 2.0})
@@ -112,7 +112,7 @@ TEST_CASE("a long finite scratch is an infinite one, and parts add up coherently
             point_brdf(infinite, optics, {-view[0], -view[1], view[2]}, view, wavelength);
         CHECK(std::abs(point_brdf(finite, optics, light, view, wavelength) - exact) <=
               1e-12 * scale);
-        // cut anywhere, the parts' amplitudes are the whole's
+        // wherever a scratch is cut, the amplitudes of its parts add to that of the whole
         Scratch first = finite, second = finite;
         first.end_um = second.start_um = random.uniform(-100, 100);
         const auto amplitude = [&](const Scratch& scratch) {
@@ -123,7 +123,7 @@ TEST_CASE("a long finite scratch is an infinite one, and parts add up coherently
         CHECK(std::abs(amplitude(first) + amplitude(second) - amplitude(finite)) <=
               1e-12 * std::sqrt(scale) + 1e-13);
     }
-    // the integral of a short one by points, with signs and oscillations
+    // the integral along a short one by points, with signs and oscillations
     for (int i = 0; i < 200; ++i) {
         const double start = random.uniform(-9, 8), end = start + random.uniform(0, 6),
                      y = random.uniform(-30, 30);

@@ -12,7 +12,7 @@ using namespace irido;
 using namespace irido::test;
 
 TEST_CASE("a mirror and its scratches reflect all light between them", "[scratch]") {
-    // masks of a discrete Fourier transform: the mirror's power is the mean amplitude squared, the
+    // masks of a discrete Fourier transform: the mirror's power is the squared mean amplitude, the
     // rest is diffracted (Parseval)
     Random random(41);
     for (int i = 0; i < 400; ++i) {
@@ -59,7 +59,7 @@ TEST_CASE("balances hold where grooves cover everything or nothing", "[scratch]"
         CHECK((balance.scratches >= 0 && balance.scratches <= 1));
     }
     CHECK_THROWS_AS(scratch_balance(std::vector<GrooveShare>{{-1, 0}}, 2, false), DomainError);
-    // VWH18's blend at 25 % of the area: between half and one and a half of the light
+    // VWH18's blend at 25 % of the area: between half and one and a half times the light
     double least = 9, most = 0;
     for (double path = 0; path < 1; path += 0.01) {
         const std::vector<GrooveShare> quarter{{0.25, path}};

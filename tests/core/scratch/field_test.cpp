@@ -42,7 +42,7 @@ TEST_CASE("a field is the same from everywhere, and for the same seed", "[scratc
                      scratches_near(kField, 7, 0, {}, 300).front()));
     CHECK_FALSE(same(scratches_near(kField, 7, 1, {}, 300).front(),
                      scratches_near(kField, 7, 0, {}, 300).front()));
-    // written down, so that other machines draw the same
+    // fixed values, so that other machines must draw the same
     const std::vector<Scratch> fixed = scratches_near(kField, 1, 0, {500, 500}, 60);
     REQUIRE(fixed.size() == 7);
     CHECK(std::abs(fixed[0].point.x_um - 697.2411817839) < 1e-9);
@@ -51,7 +51,7 @@ TEST_CASE("a field is the same from everywhere, and for the same seed", "[scratc
 }
 
 TEST_CASE("a field has the count and the ranges asked for", "[scratch]") {
-    // those whose middle lies in 20 mm x 20 mm
+    // scratches whose midpoint lies in 20 mm x 20 mm
     ScratchField field = kField;
     field.count_per_mm2 = 12.5;
     double count = 0, length = 0;
@@ -68,7 +68,7 @@ TEST_CASE("a field has the count and the ranges asked for", "[scratch]") {
     CHECK(std::abs(length / count - 1600) < 5 * 808 / std::sqrt(5000.0));
     field.count_per_mm2 = 0;
     CHECK(scratches_near(field, 3, 2, {}, 5000).empty());
-    field.count_per_mm2 = 700;  // several parts of the Poisson number
+    field.count_per_mm2 = 700;  // the Poisson number is drawn in several parts
     field.length_um = {1, 1};
     const double many = static_cast<double>(scratches_near(field, 3, 2, {0, 0}, 3000).size());
     CHECK(std::abs(many - 700 * kPi * 9) < 5 * std::sqrt(700 * kPi * 9));
@@ -102,7 +102,7 @@ TEST_CASE("a grid finds every scratch in reach", "[scratch]") {
             if (distance_um(scratches[k], at) <= reach) CHECK(std::ranges::binary_search(near, k));
     }
     CHECK(missed == 0);
-    // and few others
+    // and few more
     CHECK(static_cast<double>(grid.entries().size()) <
           32 * 24 * 0.35 * static_cast<double>(scratches.size()));
     CHECK(grid.offsets().size() == 32 * 24 + 1);
@@ -117,7 +117,7 @@ TEST_CASE("an ensemble is the mean of many scratches", "[scratch]") {
         const UnitVector light{-view[0] + off * 0.6, -view[1] + off * 0.8, 0.8};
         ScratchEnsemble ensemble{0.01, 1, 0.2};
         const double f = ensemble_brdf(ensemble, optics, light, view, 0.55);
-        // places: the mean of exp(-s_b^2/sigma^2) is rho sqrt(pi) sigma/W; angles: equal steps
+        // positions: the mean of exp(-s_b^2/sigma^2) is rho sqrt(pi) sigma/W; angles: equal steps
         double sum = 0;
         constexpr int kAngles = 40000;
         for (int i = 0; i < kAngles; ++i) {
@@ -138,7 +138,7 @@ TEST_CASE("an ensemble is the mean of many scratches", "[scratch]") {
                                groove_power(0.2 * (light[2] + view[2]), nu) / (kPi * off);
             CHECK(relative(f, far) < 1e-2);
         }
-        // a quarter of the angles around those that reflect: twice the density
+        // a quarter of the angles, around those that reflect: twice the density
         const double across = std::atan2(0.8, 0.6) / kDegree + 90;
         ensemble.angle_low_deg = across - 45;
         ensemble.angle_high_deg = across + 45;

@@ -30,8 +30,7 @@ TEST_CASE("a footprint's mean has the values of a 40-digit evaluation", "[scratc
     CHECK(relative(seen.share(), 0.012719706554316024) < 1e-13);
 }
 
-// Slips of VWH18: eq. 16 loses a factor pi where footprints are small, eq. 18 counts the area
-// twice.
+// Errors in VWH18: eq. 16 lacks a factor pi for small footprints, eq. 18 counts the area twice.
 TEST_CASE("published footprint formulas are what they are", "[scratch]") {
     const Scratch scratch = worked_scratch();
     const auto eta2 = [&](FootprintFormula formula, const Footprint& footprint) {
@@ -50,7 +49,7 @@ TEST_CASE("published footprint formulas are what they are", "[scratch]") {
 }
 
 TEST_CASE("the mean over an ellipse is right for every size", "[scratch]") {
-    // many points of a rule that is exact for polynomials, where it is in reach
+    // many points of a rule that is exact for polynomials, where that is practicable
     Random random(8);
     for (int i = 0; i < 300; ++i) {
         const double h = random.log_uniform(1e-3, 60), s = random.uniform(-1, 1) * (h + 3);

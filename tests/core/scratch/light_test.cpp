@@ -30,7 +30,7 @@ double dot(const Place& a, const Place& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Whether a ray from the origin meets a triangle (Moeller and Trumbore), a sphere.
+/// Whether a ray from the origin hits a triangle (Moeller and Trumbore) or a sphere.
 bool meets(const UnitVector& ray, const Place& a, const Place& b, const Place& c) {
     const Place e1 = minus(b, a), e2 = minus(c, a), p = cross(ray, e2);
     const double determinant = dot(e1, p);
@@ -50,7 +50,7 @@ bool meets(const UnitVector& ray, const AreaLight& light) {
     return false;
 }
 
-/// A convex polygon: points of an ellipse in a random plane.
+/// A convex polygon: points on an ellipse in a random plane.
 AreaLight random_polygon(Random& random) {
     const UnitVector a = random_direction(random), b = random_direction(random);
     const Place center{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-1, 4)};
@@ -81,7 +81,7 @@ TEST_CASE("slices of lights hold the directions that rays hit", "[scratch]") {
         try {
             cone.emplace(light);
         } catch (const DomainError&) {
-            continue;  // around the point
+            continue;  // surrounds the point
         }
         const double angle = random.uniform(0, kTwoPi);
         const std::array tangent{std::cos(angle), std::sin(angle)};
@@ -158,7 +158,7 @@ TEST_CASE("reflected area lights have the values of a 40-digit evaluation", "[sc
     }
 }
 
-// A second way: the light's directions on a grid of xi_1 and q, against the BRDF itself.
+// An independent method: the light's directions on a grid of xi_1 and q, with the BRDF itself.
 TEST_CASE("area lights are sums of point lights", "[scratch]") {
     Random random(22);
     for (int i = 0; i < 12; ++i) {
@@ -169,7 +169,7 @@ TEST_CASE("area lights are sums of point lights", "[scratch]") {
         const ScratchOptics optics{8, i % 2 ? DepthPhase::slanted : DepthPhase::vertical};
         const UnitVector view = direction_of(random.uniform(0, 60), random.uniform(-180, 180));
         const VisibleScratch seen(scratch, optics, SurfacePoint{});
-        // around the mirror direction, and somewhat off
+        // around the mirror direction, and slightly off it
         const AreaLight light = SphereLight{
             {-view[0] + random.uniform(-0.1, 0.1), -view[1] + random.uniform(-0.1, 0.1), view[2]},
             random.uniform(0.05, 0.3)};
@@ -214,7 +214,7 @@ TEST_CASE("area lights are sums of point lights", "[scratch]") {
 }
 
 TEST_CASE("the whole sky as a light reflects the closed total", "[scratch]") {
-    // six triangles around the zenith, each a light of its own
+    // six triangles around the zenith, as separate lights
     Random random(23);
     for (int i = 0; i < 10; ++i) {
         Scratch scratch = random_scratch(random);
@@ -233,12 +233,12 @@ TEST_CASE("the whole sky as a light reflects the closed total", "[scratch]") {
         const double r = std::sqrt(1 - along * along), turn = kTwoPi * scratch.width_um / 0.55;
         const double exact = seen.share() * groove_power(2 * scratch.depth_um, 1 / 0.55) / kPi *
                              slit_integral(turn * (across - r), turn * (across + r));
-        CHECK(relative(sum, exact) < 1e-4);  // the lobe has a width, r changes over it
+        CHECK(relative(sum, exact) < 1e-4);  // the lobe has a width over which r varies
     }
 }
 
-// VWH18 eq. 31 takes a disc through the centre of the sphere, across the way to it: its half-angle
-// has the tangent that the cone's has as its sine.
+// VWH18 eq. 31 uses a disc through the centre of the sphere, perpendicular to the direction to it:
+// the tangent of its half-angle equals the sine of the cone's.
 TEST_CASE("the published disc in the place of a sphere is too small", "[scratch]") {
     for (const auto& [angle_deg, missing] : {std::pair(10.0, 0.03), {20.0, 0.11}, {45.0, 0.37}}) {
         const double sine = std::sin(angle_deg * kPi / 180);
@@ -258,7 +258,7 @@ TEST_CASE("lights that are none are refused", "[scratch]") {
     CHECK_THROWS_AS(LightCone(PolygonLight{{{0, 0, 1}, {2, 0, 1}, {0.2, 0.2, 1}, {0, 2, 1}}}),
                     DomainError);
     CHECK_THROWS_AS(LightCone(PolygonLight{{{0, 0, 0}, {2, 0, 1}, {0, 2, 1}}}), DomainError);
-    // below the horizon there is no light
+    // there is no light from below the horizon
     const LightCone below(SphereLight{{0, 1, -3}, 1});
     CHECK(LightSlices(below, {1, 0}).breaks().empty());
     const VisibleScratch seen(worked_scratch(), kVertical, SurfacePoint{});

@@ -58,7 +58,7 @@ TEST_CASE("a base multiplies by its reflectance and its share of the light", "[s
     const Stack film = b.over(Complex(2, 3));
     ScratchedSurface surface = worked_surface();
     surface.base = film;
-    surface.scratches.front().width_um = 12;  // a share of 11 %
+    surface.scratches.front().width_um = 12;  // 11 % of the area
     const std::vector<double> wavelength_nm{430, 610};
     const ScratchedScattering scattering = seen_from(surface, SurfacePoint{});
     const std::vector<double> f = scattering.brdf(std::array{kPair}, wavelength_nm);
@@ -76,7 +76,7 @@ TEST_CASE("a base multiplies by its reflectance and its share of the light", "[s
         const double reflectance = (spectrum.s.R[0] + spectrum.p.R[0]) / 2;
         CHECK(relative(f[i], alone[i] * reflectance * (1 - scattering.density())) < 1e-12);
     }
-    // a rough base adds facets, weakened by what the scratches take
+    // a rough base adds facets, attenuated by the light that the scratches take
     surface.alpha = 0.3;
     const std::vector<double> rough =
         seen_from(surface, SurfacePoint{}).brdf(std::array{kPair}, wavelength_nm);
@@ -90,7 +90,7 @@ TEST_CASE("a base multiplies by its reflectance and its share of the light", "[s
         CHECK(facets[i] > 0);
         CHECK(relative(rough[i] - f[i], facets[i] * kept) < 1e-10);
     }
-    // under a light small enough to be one direction
+    // for a light small enough to be a single direction
     const LightCone star(SphereLight{{kPair.light[0], kPair.light[1], kPair.light[2]}, 1e-5});
     surface.alpha.reset();
     const std::vector<double> ratio =
@@ -115,7 +115,7 @@ TEST_CASE("coherent sums of one scratch are its power, of many at a point their 
                                   .brdf(std::array{kPair}, wavelength_nm);
         for (std::size_t i = 0; i < 3; ++i) CHECK(relative(coherent[i], separate[i]) < 1e-9);
     }
-    // two of the same at one place: twice the amplitude
+    // two identical scratches at one place: twice the amplitude
     ScratchedSurface twins = worked_surface();
     twins.scratches.push_back(twins.scratches.front());
     const auto one =
@@ -123,7 +123,7 @@ TEST_CASE("coherent sums of one scratch are its power, of many at a point their 
     const auto two = seen_from(twins, SurfacePoint{}, {ScratchSum::Kind::coherent})
                          .brdf(std::array{kPair}, wavelength_nm);
     CHECK(relative(two[0], 4 * one[0]) < 1e-12);
-    // the colour of two apart, by a sum over many wavelengths
+    // the colour of two at a distance, by a sum over many wavelengths
     twins.scratches.back().point = {-60, 40};
     const auto scattering = seen_from(twins, SurfacePoint{}, {ScratchSum::Kind::coherent});
     const Triple xyz = scattering.colors(std::array{kPair}, noon())[0];
@@ -234,7 +234,7 @@ TEST_CASE("the mean over places of a field is its ensemble", "[scratch]") {
     surface.optics = {30, DepthPhase::slanted};
     surface.fields = {{60, {2000, 2000}, {0.8, 2}, {0.1, 0.3}, {-90, 90}}};
     const std::vector<double> wavelength_nm{550};
-    // off the mirror by so much that lobes are far wider than the gaps between angles
+    // so far from the mirror direction that lobes are much wider than the gaps between angles
     const SkyPair pair{{-kPair.view[0] + 0.02, -kPair.view[1] + 0.01, kPair.light[2]}, kPair.view};
     const ScratchedScattering mean =
         seen_from(surface, SurfacePoint{}, {ScratchSum::Kind::ensemble});

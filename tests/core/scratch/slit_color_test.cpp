@@ -132,7 +132,8 @@ TEST_CASE("few nodes are as exact as stated", "[scratch]") {
     CHECK(equal < 2e-2);
 }
 
-// The fit of VWH18 eq. 29: its largest error, its slope at 0, its tail, and that it falls.
+// The fit of VWH18 eq. 29: its largest error, its slope at 0, its tail, and the share of x where it
+// decreases.
 TEST_CASE("the published fit of the sine integral is what it is", "[scratch]") {
     double largest = 0, falls = 0;
     constexpr double kStep = 1e-3;

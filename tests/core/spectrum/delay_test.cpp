@@ -29,13 +29,13 @@ Material formula(int number, std::vector<double> coefficients) {
     return material;
 }
 
-/// Schott's N-BK7 as the formula stands, without the air that it is measured in.
+/// Schott's N-BK7 by its plain formula, ignoring that it was measured in air.
 Material glass() {
     return formula(
         2, {0, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653});
 }
 
-/// Nanometres of optical path, groups written out.
+/// Optical path in nm, with groups expanded.
 double path_of(std::span<const Element> elements, const Stack& stack, double nm) {
     double path = 0;
     for (const Element& element : elements) {
@@ -49,7 +49,11 @@ double path_of(std::span<const Element> elements, const Stack& stack, double nm)
     return path;
 }
 
-/// Errors in units of (tau/|a|)^m, tau the path's delay and a period of light, or of the value.
+/// Checks errors in units of (tau/|a|)^m, where tau is the path's delay plus a period of light, or
+/// relative to the value.
+///   got, want  the delays to compare
+///   tau_fs     tau, fs
+///   modulus    |a|
 void check_delay(const Delay& got, const Delay& want, double tau_fs, double modulus) {
     constexpr double kMost = 1e-11;
     const double scale = tau_fs / std::min(1.0, modulus);
@@ -83,7 +87,7 @@ TEST_CASE("a millimetre of BK7 delays and disperses a pulse as published") {
     stack.incident = material;
     const Delays at = delays_of(stack, 800, 0, Polarization::s);
     CHECK_THAT(at.t.gd_fs, WithinAbs(5092.355, 5e-4));
-    CHECK_THAT(at.t.gdd_fs2, WithinAbs(44.652, 5e-4));  // 44.65 fs^2/mm in tables of glasses
+    CHECK_THAT(at.t.gdd_fs2, WithinAbs(44.652, 5e-4));  // tables of glasses give 44.65 fs^2/mm
     CHECK_THAT(at.t.tod_fs3, WithinAbs(32.10, 5e-3));
     CHECK(std::isnan(at.r.phase_deg));  // nothing is reflected
     CHECK(std::isnan(at.r.gd_fs));
@@ -109,8 +113,8 @@ TEST_CASE("a mirror's delays agree with 40-digit values") {
 }
 
 TEST_CASE("delays of random stacks agree with differences of 100 digits") {
-    // resonances and periods exactly at critical angles are left out: there inputs' own roundings,
-    // or the oracle's square roots, decide
+    // resonances and periods exactly at critical angles are omitted: there rounding of the inputs,
+    // or the oracle's square roots, dominate
     for (const char* name :
          {"ordinary", "grazing", "evanescent", "dense_metal", "near_equal", "repeats_pair",
           "repeats_absorbing", "thin", "brewster", "metal_cavity", "absorbing_gap", "small_index",

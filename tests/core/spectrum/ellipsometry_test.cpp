@@ -28,7 +28,7 @@ TEST_CASE("psi and delta of bare glass") {
     CHECK_THAT(angles_of(glass, 550, 0).psi_deg, WithinAbs(45, 1e-12));
     CHECK(angles_of(glass, 550, 0).delta_deg == 0);
     for (const double angle : {10.0, 40.0, 56.0, 57.0, 70.0, 89.0}) {
-        // Fresnel: |rho| = |cos(i + t) / cos(i - t)|, and r_p changes its sign at Brewster's angle
+        // Fresnel: |rho| = |cos(i + t) / cos(i - t)|, and r_p changes sign at Brewster's angle
         const double i = angle * kPi / 180, t = std::asin(std::sin(i) / 1.5);
         const EllipsometricAngles at = angles_of(glass, 550, angle);
         CAPTURE(angle);
@@ -41,8 +41,8 @@ TEST_CASE("psi and delta of bare glass") {
 }
 
 TEST_CASE("psi and delta of a metal give back its index") {
-    // eps = sin^2 (1 + tan^2 ((1 - rho)/(1 + rho))^2) for the rho of the other convention, Azzam
-    // and Bashara (1977), eq. 4.2; ours has the other sign
+    // eps = sin^2 (1 + tan^2 ((1 - rho)/(1 + rho))^2) for rho in the other convention, Azzam and
+    // Bashara (1977), eq. 4.2; ours has the opposite sign
     const Complex index(0.27, 2.95);
     const Stack gold = StackBuilder(1).over(index);
     for (const double angle : {30.0, 60.0, 72.0}) {
@@ -82,7 +82,7 @@ TEST_CASE("a quarter-wave film reflects half a turn") {
     const double r = (1.52 - 1.38 * 1.38) / (1.52 + 1.38 * 1.38);
     CHECK(std::abs(at.s.r[0] - r) < 1e-15);
     CHECK(at.p.r[0] == at.s.r[0]);
-    // |t| from T, a quarter turn later: t = 2 i n0 n1 / (...)
+    // |t| from T, with a phase of a quarter period: t = 2 i n0 n1 / (...)
     CHECK(std::abs(at.s.t[0] - Complex(0, 2 * 1.38 / (1.52 + 1.38 * 1.38))) < 1e-15);
 }
 

@@ -1,5 +1,5 @@
-// Stacks of everything that may stand in one: coherent and incoherent layers, spread thicknesses,
-// groups and groups in groups, metals, gaps past their critical angles.
+// Stacks that combine everything: coherent and incoherent layers, thickness distributions, groups
+// and nested groups, metals, gaps past their critical angles.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,7 +14,7 @@ using oracle::StackBuilder;
 
 namespace {
 
-/// IRIDO_TEST_MIXED=10000 is the long run, minutes.
+/// IRIDO_TEST_MIXED=10000 selects the long run, which takes minutes.
 std::size_t stacks_to_try() {
     const char* const text = std::getenv("IRIDO_TEST_MIXED");
     return text ? std::strtoull(text, nullptr, 10) : 400;
@@ -25,7 +25,7 @@ struct Question {
     double wavelength_nm, angle_deg;
 };
 
-/// Adds elements to a stack; at most one of its layers is spread.
+/// Adds elements to a stack; at most one of its layers has a thickness distribution.
 class Mixer {
 public:
     explicit Mixer(Random& random)
@@ -118,7 +118,7 @@ TEST_CASE("mixed stacks keep energy, and all levels agree", "[levels]") {
                 off = std::max(off, sum);
                 lowest = std::min(lowest, low);
                 apart = std::max(apart, differs);
-                // resonances of up to 100 layers sharpen roundings that much
+                // resonances of up to 100 layers amplify rounding errors that much
                 if (low >= 0 && sum < 1e-12 && differs < 1e-9) continue;
                 CAPTURE(i, oracle::text_of(question.stack), question.wavelength_nm,
                         question.angle_deg, name_of(level), expected.R, expected.T);

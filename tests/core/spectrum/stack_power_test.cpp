@@ -144,7 +144,7 @@ TEST_CASE("a small spread bends, a large one forgets the phase") {
         b.add(spread(b.layer(1.5, thickness), sigma));
         return ask(b.over(3), 550, 30).s.R;
     };
-    // sigma^2 R''/2, by differences; the next term is (2 k0 n sigma)^4 / 8 = 2e-7
+    // sigma^2 R''/2, by finite differences; the next term is (2 k0 n sigma)^4 / 8 = 2e-7
     const double h = 1, sigma = 1;
     const double bend = (film(400 + h, 0) - 2 * film(400, 0) + film(400 - h, 0)) / (h * h);
     CHECK_THAT(film(400, sigma) - film(400, 0), WithinAbs(sigma * sigma / 2 * bend, 1e-6));
@@ -157,10 +157,10 @@ TEST_CASE("a small spread bends, a large one forgets the phase") {
 }
 
 TEST_CASE("a sharp resonance in a spread layer is not missed") {
-    // A half-wave layer between two mirrors of p quarter-wave pairs. Seen from the layer a mirror
+    // A half-wave layer between two mirrors of p quarter-wave pairs. Seen from the layer, a mirror
     // has the admittance (1.46/2.3)^(2p), so r1 is real and T = (1 - r1^2)^2 / |1 - r1^2 exp(i
-    // Phi)|^2, a geometric Fourier series in the round trip's phase Phi = 2 pi on average. A
-    // Gaussian spread s of Phi damps its m-th term by exp(-m^2 s^2/2).
+    // Phi)|^2, a geometric Fourier series in the round-trip phase Phi, with mean 2 pi. A Gaussian
+    // distribution of Phi with standard deviation s damps the m-th term by exp(-m^2 s^2/2).
     const double high = 550 / 2.3 / 4, low = 550 / 1.46 / 4;
     for (const int pairs : {3, 8, 12, 20}) {
         for (const double sigma : {1e-3, 1.0, 10.0}) {
@@ -177,7 +177,7 @@ TEST_CASE("a sharp resonance in a spread layer is not missed") {
             for (long double m = 1; m * s < 9 && m < 40 / (1 - r2); ++m)
                 series += 2 * std::pow(r2, m) * std::exp(-m * m * s * s / 2);
             CAPTURE(pairs, sigma);
-            // a resonance's width 1 - r2 is rounded to some 1e-15 and T with it, relatively
+            // a resonance's width 1 - r2 is rounded to about 1e-15, and so is T, relatively
             const double T = static_cast<double>((1 - r2) / (1 + r2) * series);
             const double rounding = T * 1e-14 / static_cast<double>(1 - r2);
             CHECK_THAT(ask(b.over(1), 550, 0).s.T, WithinAbs(T, 1e-13 + rounding));
@@ -240,7 +240,8 @@ TEST_CASE("a metre of glass with a spread is an incoherent layer") {
 }
 
 TEST_CASE("repetitions of a group share the deviation, incoherent layers or not") {
-    // a plate between two equal spread films; the mean over their thickness by the trapezoid rule
+    // a plate between two films with equal distributions; the mean over their thickness by the
+    // trapezoid rule
     const auto film = [](StackBuilder& b, double sigma, double thickness) {
         return sigma > 0 ? spread(b.layer(2.2, thickness), sigma) : b.layer(2.2, thickness);
     };

@@ -14,7 +14,7 @@ using Catch::WithinAbs;
 
 namespace {
 
-/// The same by quadrature.
+/// The same mean by quadrature.
 MeanFringes quadrature(const Fringes& f, double mean_nm, double sigma_nm) {
     std::array<double, 2> mean{};
     const ThicknessFunction at = [&](double d, double phase, std::span<double> values) {

@@ -47,7 +47,7 @@ TEST_CASE("means of fringes are geometric series") {
                 const double exact = poisson_mean(rho, mean, sigma);
                 CHECK_THAT(mean_of(poisson(rho), {mean, sigma, 1}),
                            WithinAbs(exact, kThicknessMeanError));
-                // a trace of absorption takes the other ways, which must agree
+                // with a trace of absorption other methods are used, which must agree
                 if (sigma > 1e3 || (rho > 0.9 && sigma > 3)) continue;
                 CHECK_THAT(mean_of(poisson(rho), {mean, sigma, {1, 1e-30}}),
                            WithinAbs(exact, kThicknessMeanError));
@@ -61,7 +61,7 @@ TEST_CASE("means of fringes are geometric series") {
 TEST_CASE("a line of 1e-9 of the spread is found") {
     for (const double width : {1e-3, 1e-6, 1e-9}) {
         for (const double centre : {0.0, 0.777, -2.5}) {
-            // Lorentzian under a Gaussian: width pi density(centre), to (width)^2 and to width
+            // a Lorentzian under a Gaussian: width pi density(centre), to (width)^2 and to width
             const auto f = [&](double d, double, std::span<double> values) {
                 const Complex denominator(d - 100 - centre, width);
                 values[0] = width * width / std::norm(denominator);

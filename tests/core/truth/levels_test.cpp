@@ -1,4 +1,5 @@
-// Every instruction set against the others, in every regime: what all but one get right shows here.
+// Compares the instruction sets with each other in every regime: an error in only one of them shows
+// here.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -13,17 +14,17 @@ using namespace irido;
 
 namespace {
 
-/// Answers that differ by less are not looked at more closely.
+/// Smaller differences are not examined.
 constexpr double kSame = 1e-12;
 
-/// IRIDO_TEST_LEVELS=100000 is the long run.
+/// IRIDO_TEST_LEVELS=100000 selects the long run.
 std::uint64_t stacks_of(const Regime& regime) {
     const char* wanted = std::getenv("IRIDO_TEST_LEVELS");
     const std::uint64_t count = wanted ? std::strtoull(wanted, nullptr, 10) : 60;
     return regime.name == "thousand_layers" ? 1 + count / 100 : count;
 }
 
-/// {s, p} of one level; nothing at a laser threshold.
+/// {s, p} at one level; nothing at a laser threshold.
 std::vector<Power> powers(const StackCase& c, SimdLevel level) {
     const IndexTable table(c.stack, std::vector<double>{c.wavelength_nm});
     const IncidentAngle angle = incident_angle(c.angle_deg);

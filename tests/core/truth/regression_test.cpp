@@ -1,5 +1,5 @@
-// Questions that one of the kernels once answered wrongly, each named by what went wrong. They came
-// out of `irido bench stability`, whose bounds they are held to.
+// Cases that one of the kernels once got wrong, each named after the failure. They were found by
+// `irido bench stability` and must meet its bounds.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -34,7 +34,11 @@ Stack periods(std::uint64_t repeat, Complex n1, double d1, Complex n2, double d2
     return b.over(substrate);
 }
 
-/// A spacer between two quarter-wave mirrors that end with the high index on both sides.
+/// A spacer between two quarter-wave mirrors, each of which begins and ends with the high index.
+///   pairs            pairs per mirror
+///   high, high_nm    index and thickness of the high layers
+///   low, low_nm      of the low layers
+///   spacer_nm        thickness of the spacer
 Stack resonator(std::uint64_t pairs, Complex high, double high_nm, double low, double low_nm,
                 double spacer_nm) {
     StackBuilder b;
@@ -51,7 +55,7 @@ Stack resonator(std::uint64_t pairs, Complex high, double high_nm, double low, d
 }  // namespace
 
 TEST_CASE("an absorber of 1e-300 nm is no laser", "[regression]") {
-    // its absorbed power was so small that scaling it up gave infinity
+    // its absorbed power was so small that rescaling it gave infinity
     check(film(1, {2.15, 1.3e-11}, 1e-300, 1.3), 505.4, 13.4);
     StackBuilder b;
     b.add(b.layer(1.6186214766470433, 1e-30));
@@ -76,7 +80,7 @@ TEST_CASE("a weakly absorbing resonator keeps its reflectance", "[regression]") 
 }
 
 TEST_CASE("an index near zero does not amplify", "[regression]") {
-    // at normal incidence q2 must be eps to its last digit, or q2/eps gains for p
+    // at normal incidence q2 must equal eps to the last digit, or q2/eps amplifies p
     const Complex tiny{3.2342473360681147e-05, 1.4443720094961313e-07};
     check(film(1, tiny, 3.6549212039744376, 1.8540047459233573), 706.63500212636654, 0);
     check(film(1, tiny, 3.6549212039744376, 1.8540047459233573), 706.63500212636654, 1e-9);
@@ -136,7 +140,7 @@ TEST_CASE("mixed lossless groups neither gain nor lose", "[regression]") {
 }
 
 TEST_CASE("ten thousand nested absorbing periods have a power", "[regression]") {
-    // refused as a laser
+    // was rejected as amplifying
     StackBuilder b;
     const Element inner = StackBuilder::group(
         16, {b.layer({1.8960880181583137, 1.0192322538727899e-07}, 58.823794992060627),
@@ -147,7 +151,7 @@ TEST_CASE("ten thousand nested absorbing periods have a power", "[regression]") 
 }
 
 TEST_CASE("T through hundreds of thin periods keeps its digits", "[regression]") {
-    // what a period adds to the identity was rounded as part of it
+    // the difference of a period's matrix from the identity was lost to rounding
     check(periods(676, 1.8454380228804372, 0.076327791770973846,
                   {1.705923088302673, 0.020442077241298109}, 0.076327791770973846,
                   1.2281225952236494),
@@ -190,7 +194,7 @@ TEST_CASE("A of an evanescent absorber of many wavelengths keeps its digits", "[
 }
 
 TEST_CASE("opaque periods with groups in them are no lasers", "[regression]") {
-    // matrices whose logarithm overestimates them vanished when they were squared
+    // matrices whose logarithm overestimates them vanished when squared
     StackBuilder b;
     const Element inner =
         StackBuilder::group(3, {b.layer(1.875, 228.78), b.layer({1.371, 0.00213}, 141.81)});
@@ -210,12 +214,12 @@ TEST_CASE("opaque periods with groups in them are no lasers", "[regression]") {
 }
 
 TEST_CASE("a mirror past its critical angle reflects all", "[regression]") {
-    // gaps were told from bands by sizes, which are equal past exp(37): R = 0, T = 1
+    // gaps were distinguished from bands by magnitudes, which are equal past exp(37): R = 0, T = 1
     StackBuilder b(2);
     b.add(StackBuilder::group(100, {b.layer(1, 3718), b.layer(2.4, 379)}));
     const Stack stack = b.over(2);
     for (const double nm : {400.0, 450.0, 500.0, 550.0, 600.0, 650.0, 700.0}) check(stack, nm, 55);
-    // the general path, and groups in groups
+    // the general path, and nested groups
     StackBuilder other(2);
     other.add(other.layer(1.5, 40));
     other.add(StackBuilder::group(100, {other.layer(1, 3718), other.layer(2.4, 379)}));
@@ -228,7 +232,7 @@ TEST_CASE("a mirror past its critical angle reflects all", "[regression]") {
 }
 
 TEST_CASE("twin mirrors keep their digits at resonance", "[regression]") {
-    // the smaller entry of a power is the difference of two that grow
+    // the smaller entry of a power is the difference of two growing ones
     StackBuilder b;
     const double high = 2.35, low = 1.46, nm = 550;
     const Element h = b.layer(high, nm / (4 * high)), l = b.layer(low, nm / (4 * low));
@@ -240,7 +244,7 @@ TEST_CASE("twin mirrors keep their digits at resonance", "[regression]") {
 }
 
 TEST_CASE("T of periods of metal is there as long as a double can hold it", "[regression]") {
-    // exp(-2 log_scale) was 0 before the fields, as small as they were, made up for it
+    // exp(-2 log_scale) underflowed to 0 before the equally small fields could compensate for it
     for (const std::uint64_t repeat : {40U, 70U, 99U}) {
         StackBuilder b;
         b.add(
@@ -250,8 +254,8 @@ TEST_CASE("T of periods of metal is there as long as a double can hold it", "[re
 }
 
 TEST_CASE("a small index near normal incidence keeps its digits", "[regression]") {
-    // 1 - cos(theta)^2 of a cosine that is nearly 1; the bounds take the rounding of the cosine for
-    // a part of the question, so this is held to less
+    // 1 - cos(theta)^2 with a cosine close to 1; the bounds count the rounding of the cosine as
+    // part of the inputs, so this test is stricter
     for (const SimdLevel level : tested_levels()) {
         const Stack stack = film(1.5, 0.001, 500, 1.5);
         for (const double angle_deg : {0.001, 0.01, 0.02, 0.03, 0.05, 1.0}) {
@@ -274,7 +278,7 @@ TEST_CASE("n = 1 under n = 2 is at its critical angle at 30 degrees", "[regressi
 }
 
 TEST_CASE("light that grows through media of one index keeps its digits", "[regression]") {
-    // the wave that is weak was the difference of fields that the strong one fills: 9e-8 of T
+    // the weak wave was computed as the difference of fields dominated by the strong one: 9e-8 of T
     const double n = 1.7967246026521306;
     const Complex gain{n, -4.9961967009292845e-08};
     StackBuilder b(n);
@@ -296,8 +300,8 @@ TEST_CASE("light that grows through media of one index keeps its digits", "[regr
 
 TEST_CASE("pairs keep their Bloch phase where a cosine of a half layer is nearly 0",
           "[regression]") {
-    // it was formed as cos - 1 + 1: R was off by 6.5e-9, and by 4e-11 where phase and matrix had
-    // each its own rounding
+    // it was formed as cos - 1 + 1: R was off by 6.5e-9, and by 4e-11 where phase and matrix were
+    // rounded separately
     check(periods(1322, 1.674166829456732, 102.92476342882063, 1.5929069785245762,
                   55.065063474623713, 2.4221369405843145),
           147.03935520647966, 60.611385922236174);

@@ -29,13 +29,13 @@ Stack bare(Complex incident, Complex substrate) {
     return StackBuilder(incident).over(substrate);
 }
 
-/// What double leaves of a closed form.
+/// Rounding error of a closed form in double.
 constexpr double kRounding = 4e-16;
 
 constexpr Precision kPrecisions[] = {Precision::double_, Precision::extended, Precision::digits50,
                                      Precision::digits100};
 
-/// |f(1 + h) - f(1 - h)| / 2h where f moves one number of a stack by that factor.
+/// |f(1 + h) - f(1 - h)| / 2h, where f scales one number of a stack by its argument.
 template <class F>
 double slope(F f) {
     constexpr double kStep = 0x1p-20;  // error h^2 = 1e-12
@@ -77,7 +77,8 @@ TEST_CASE("the reference knows quarter waves, mirrors, and depths", "[reference]
         const double f = 1.5 * std::pow(2 / 1.5, 20);
         CHECK_THAT(at_normal(b.over(1.5)).R, WithinAbs(std::pow((1 - f) / (1 + f), 2), 1e-13));
     }
-    // T of a thick absorber of the substrate's index is that of its face times exp(-4 pi k d/nm)
+    // T of a thick absorber on a substrate of the same index: that of its face times exp(-4 pi k
+    // d/nm)
     const Complex index{2, 2};
     const double face = reference_power(bare(1, index), 600, 0, Polarization::s).T;
     const double depth =
@@ -136,8 +137,8 @@ TEST_CASE("the reference refuses what has no answer", "[reference]") {
 }
 
 TEST_CASE("conditions are slopes summed over the inputs", "[reference]") {
-    // n, k, d of the film, n, k of the substrate, and d once more for the wavelength; n0 and
-    // cos(theta) add as much again
+    // n, k, d of the film, n, k of the substrate, and d again for the wavelength; n0 and cos(theta)
+    // contribute the same amount again
     const auto power = [](double n, double k, double d, double ns, double ks) {
         const Stack stack = one_film(1, {1.7 * n, 0.02 * k}, 230 * d, {2 * ns, 0.5 * ks});
         return reference_power(stack, 550, 30, Polarization::p);
@@ -168,17 +169,18 @@ TEST_CASE("conditions bound the scatter under shifted inputs, and by not too muc
         const ConditionedPower at = conditioned_power(c.stack, c.wavelength_nm, c.angle_deg)[0];
         const oracle::Scatter scatter =
             oracle::scatter(c.stack, {c.wavelength_nm, c.angle_deg, Polarization::s});
-        // second order where the first is large, and the last digit of a double
+        // second order where the first order is large, and the last digit of a double
         const double linear = at.condition.R * kUnitRoundoff;
         if (linear < 1e-6) CHECK(scatter.R <= 1.01 * linear + kRounding * at.power.R);
-        // the condition looks further around than shifts of half an ulp: at narrow peaks it is more
+        // the condition number looks at larger shifts than half an ulp: at narrow peaks it is
+        // larger
         if (regime.name == "band_edge" || regime.name == "resonator") continue;
         if (linear < 1e-6 && linear > 1e-13) CHECK(scatter.R > 1e-4 * linear);
     }
 }
 
 TEST_CASE("answers nearby are those of inputs some roundings away", "[reference]") {
-    // quarter waves: R is least, so that no shift makes it less; a fringe's flank takes any value
+    // quarter waves: R is minimal, so no shift reduces it; the flank of a fringe takes any value
     const Stack quarter = one_film(1, 1.25, 120, 1.5625), flank = one_film(1, 2.1, 100000037, 1.5);
     const auto nearby = [](const Stack& stack, double R, double roundings) {
         return is_answer_nearby(stack, 600, 0, Polarization::s, &Power::R, R, roundings);
@@ -192,7 +194,7 @@ TEST_CASE("answers nearby are those of inputs some roundings away", "[reference]
         CHECK(nearby(flank, at.power.R + sign * one, 10));
         CHECK_FALSE(nearby(flank, at.power.R + sign * 11 * one, 10));
     }
-    // fringes of 1e9 periods at the edge of a gap: roundings pass several of them
+    // fringes of 1e9 periods at the edge of a gap: rounding errors span several of them
     StackBuilder b;
     b.add(StackBuilder::group(1000000000, {b.layer(1.9414075972902767, 276.97186290031675),
                                            b.layer(1.571263563779457, 230.45921505710186)}));
@@ -202,7 +204,7 @@ TEST_CASE("answers nearby are those of inputs some roundings away", "[reference]
     };
     CHECK(at_edge(3.9e-11));
     CHECK(at_edge(1e-2));
-    CHECK_FALSE(at_edge(0.9));  // where sin NK = 0 the substrate alone is left, T = 0.62
+    CHECK_FALSE(at_edge(0.9));  // where sin NK = 0 only the substrate matters, T = 0.62
     CHECK_THROWS_AS(nearby(bare(1, {-1, 0}), 0.5, 10), DomainError);
 }
 

@@ -1,4 +1,5 @@
-// Groups with absorbing layers in closed form, beside the plain kernel, which multiplies them out.
+// Groups with absorbing layers in closed form, compared with the plain kernel, which multiplies
+// them out.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -38,7 +39,7 @@ TEST_CASE("groups that absorb agree with the plain kernel at every level") {
             const Spectra plain = spectra(power, table, cosines, needs, {1, SimdLevel::plain});
             for (std::size_t point = 0; point < plain.s.R.size(); ++point) {
                 CAPTURE(i, point);
-                // up to 720 periods of up to 10 rad, each rounded once, and fringes of high finesse
+                // up to 720 periods of up to 10 rad, each rounded once, and high-finesse fringes
                 CHECK(std::abs(fast.s.R[point] - plain.s.R[point]) < 1e-10);
                 CHECK(std::abs(fast.p.T[point] - plain.p.T[point]) < 1e-10);
                 if (needs.A) CHECK(std::abs(fast.s.A[point] - plain.s.A[point]) < 1e-10);

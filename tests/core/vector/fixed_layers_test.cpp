@@ -17,7 +17,7 @@ namespace {
 
 constexpr Needs kAlmostEverything{.A = false, .amplitudes = true, .denominators = true};
 
-/// Layers that a stack of the test is made of.
+/// Kinds of layers in the test's stacks.
 enum class Sort { transparent, absorbing, mixed, frustrated, periods, gain, count };
 
 Stack random_layers(Sort sort, std::size_t count, Random& random) {
@@ -127,7 +127,8 @@ TEST_CASE("stored layers do what they do one by one", "[slow]") {
                 const Spectra a = compute(kernel, table, cosines);
                 const Spectra b = spectra(power, table, cosines, kAlmostEverything, {1, level});
                 CAPTURE(oracle::text_of(other), factor, name_of(level));
-                // resonances, gain and evanescent periods sharpen roundings of 1e-15 that much
+                // resonances, gain and evanescent periods amplify rounding errors of 1e-15 that
+                // much
                 const double tolerance = sort == Sort::transparent ? 1e-11 : 1e-9;
                 check_close(a.s, b.s, tolerance);
                 check_close(a.p, b.p, tolerance);
@@ -159,7 +160,7 @@ TEST_CASE("stored layers agree to 1e-13 where nothing resonates") {
 }
 
 TEST_CASE("stored layers of many decades are scaled") {
-    // exponents of 1700 and more, below and above what varies
+    // exponents of 1700 and more, above and below the layers that vary
     StackBuilder b;
     for (int i = 0; i < 3; ++i) b.add(b.layer({1.5, 1}, 30000));
     b.add(b.layer(1.4, 120));
@@ -178,7 +179,7 @@ TEST_CASE("stored layers of many decades are scaled") {
             CHECK((c.*of).log_scale[i] > 1700);
             CHECK_THAT((a.*of).R[i], WithinAbs((c.*of).R[i], 1e-13));
             CHECK((a.*of).T[i] == 0);
-            // logarithms of thousands have roundings of 1e-12
+            // logarithms of thousands are rounded to 1e-12
             const double size = std::log(std::abs(denominator(a.*of, i))) + (a.*of).log_scale[i];
             const double same = std::log(std::abs(denominator(c.*of, i))) + (c.*of).log_scale[i];
             CHECK_THAT(size, WithinAbs(same, 1e-10));
@@ -253,10 +254,10 @@ TEST_CASE("layers are shared where that saves work and loses nothing") {
     CHECK(shares(lossless, {1, 9}));
     CHECK(shares(lossy, {4}));
     CHECK_FALSE(shares(lossless, {}));
-    CHECK_FALSE(shares(lossless, {0, 2, 4, 6, 8, 9}));  // single layers are left between
+    CHECK_FALSE(shares(lossless, {0, 2, 4, 6, 8, 9}));  // single layers are left in between
     CHECK_FALSE(shares(random_layers(Sort::transparent, 2, random), {1}));
     CHECK_FALSE(shares(lossless, {4}, kAlmostEverything, SimdLevel::plain));
-    // absorption of its own digits is summed over the layers
+    // absorptance at full precision is a sum over the layers, which cannot be shared
     CHECK(shares(lossless, {4}, {}));
     CHECK_FALSE(shares(lossy, {4}, {}));
     const Needs powers{.A = false};
@@ -303,7 +304,7 @@ TEST_CASE("an updated kernel is the same as a new one") {
     const IndexTable table(stacks[0], {400, 433, 521, 650, 711});
     const std::vector<double> cosines{1, 0.7, 0};
     StackPower power(stacks[0]);
-    // absorption as in the last of the materials
+    // absorption only in the last material
     const std::vector<bool> absorbs = table.absorbs(), amplifies = table.amplifies();
     SpectrumKernel kernel(power, absorbs, amplifies, needs, best_simd_level());
     Random random(36);

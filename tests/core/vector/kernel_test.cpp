@@ -18,7 +18,7 @@ namespace {
 
 constexpr Needs kEverything{.amplitudes = true, .denominators = true};
 
-/// Films of every sort that the kernel has a path for.
+/// All kinds of film for which the kernel has its own path.
 enum class Sort {
     transparent,
     absorbing,
@@ -78,7 +78,7 @@ void for_random_films(std::uint64_t seed, int count, const F& f) {
 }
 
 void check_close(const Spectrum& a, const Spectrum& b, std::size_t i, Sort sort) {
-    // resonances, gain and grazing periods sharpen roundings of 1e-15 that much
+    // resonances, gain and grazing periods amplify rounding errors of 1e-15 that much
     const double scale = std::max(1.0, b.R[i] + b.T[i]);
     CHECK_THAT(a.R[i], WithinAbs(b.R[i], 1e-10 * scale));
     CHECK_THAT(a.T[i], WithinAbs(b.T[i], 1e-10 * b.T[i]));
@@ -131,7 +131,8 @@ TEST_CASE("incoherent layers between vector blocks agree with the plain kernel")
         const auto sort = static_cast<Sort>(random.below(static_cast<std::uint64_t>(Sort::count)));
         if (sort == Sort::gain) continue;
         Stack stack = random_films(sort, random);
-        // a plate somewhere, one more on the substrate; some absorb a little, some are evanescent
+        // a plate somewhere, another one on the substrate; some absorb slightly, some are
+        // evanescent
         for (const double k : {0.0, random.below(2) == 0 ? 0.0 : 1e-8}) {
             StackBuilder b;
             stack.materials.push_back(b.over({random.uniform(1.3, 1.7), k}).materials.back());
@@ -171,7 +172,7 @@ TEST_CASE("a point's result does not depend on its company") {
             const Spectra all =
                 spectra(power, IndexTable(stack, wavelengths), cosines, kEverything, {1, level});
             for (std::size_t w = 0; w < wavelengths.size(); ++w) {
-                // one wavelength: other angles are its neighbours
+                // one wavelength: then other angles are processed together with it
                 const Spectra across = spectra(power, IndexTable(stack, {wavelengths[w]}), cosines,
                                                kEverything, {1, level});
                 for (std::size_t a = 0; a < cosines.size(); ++a) {
@@ -207,7 +208,7 @@ TEST_CASE("what is not needed is not computed, and the rest keeps its value") {
         const std::vector<double> cosines{0.4, 1};
         const Spectra all = spectra(power, table, cosines, {});
         const Spectra only_R = spectra(power, table, cosines, {.s = false, .T = false, .A = false});
-        for (std::size_t i = 0; i < all.p.R.size(); ++i)  // A takes its share of roundings
+        for (std::size_t i = 0; i < all.p.R.size(); ++i)  // A has its share of rounding errors
             CHECK_THAT(only_R.p.R[i], WithinAbs(all.p.R[i], 1e-12 * std::max(1.0, all.p.R[i])));
         CHECK(only_R.p.T.empty());
         CHECK(only_R.p.A.empty());
@@ -284,7 +285,7 @@ TEST_CASE("work says which path a stack takes") {
 }
 
 TEST_CASE("closed powers and written-out periods agree", "[program]") {
-    // 20 periods are written out, 21 raised to their power
+    // 20 periods are multiplied out, 21 are raised to their power
     for (const double cosine : {1.0, 0.7, 0.2}) {
         const auto R = [&](std::uint64_t repeat, bool grouped) {
             StackBuilder b;
@@ -324,7 +325,7 @@ TEST_CASE("thicknesses whose phases are too large for the vector sine go the pla
 }
 
 TEST_CASE("a laser threshold is an error at every level") {
-    // (n - 1)/(n + 1) exp(gain) = 1 at normal incidence is met by scanning the gain of a film
+    // (n - 1)/(n + 1) exp(gain) = 1 at normal incidence, found by scanning the gain of a film
     for (const SimdLevel level : tested_vector_levels()) {
         StackBuilder b;
         b.add(b.layer({1.5, -1e300}, 100));

@@ -1,4 +1,4 @@
-// Yeh's closed form of mirrors in their host, beside the general kernel and 50 digits.
+// Yeh's closed form of embedded mirrors, compared with the general kernel and with 50 digits.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -35,7 +35,7 @@ Stack stack_of(const Mirror& mirror) {
     return b.over(mirror.host.n);
 }
 
-/// The same for the general kernel, which does not know that the substrate is the host.
+/// The same stack for the general kernel, hiding that the substrate is the host.
 Stack without_host(Stack stack) {
     stack.materials.push_back(stack.materials[stack.substrate]);
     stack.substrate = stack.materials.size() - 1;
@@ -75,7 +75,7 @@ std::size_t mirrors_to_try() {
 }  // namespace
 
 TEST_CASE("mirrors in their host are what the general kernel says", "[mirror]") {
-    // compared where the question keeps its digits: 90 roundings of its inputs are 1e-14
+    // compared where the problem is well-conditioned: 90 roundings of the inputs are 1e-14
     Random random(21);
     double worst_R = 0, worst_T = 0;
     std::size_t compared = 0;
@@ -129,7 +129,7 @@ TEST_CASE("every instruction set has the same mirrors, whatever stands beside a 
                         const Power a = of(all, p).power(point);
                         CHECK(a.R == of(across, p).R[c]);
                         CHECK(a.T == of(across, p).T[c]);
-                        // 100 periods sharpen roundings of 1e-15 that much
+                        // 100 periods amplify rounding errors of 1e-15 that much
                         CHECK_THAT(a.R, WithinAbs(of(plain, p).R[point], 1e-11));
                         CHECK_THAT(a.T, WithinRel(of(plain, p).T[point], 1e-10));
                     }
@@ -182,7 +182,7 @@ TEST_CASE("at the edge of a gap a mirror keeps the digits that the edge has", "[
             }
         }
     }
-    CHECK(worst_thousand < 1e-11);  // 1000 periods move R by 1e4 times a change of a phase
+    CHECK(worst_thousand < 1e-11);  // 1000 periods change R by 1e4 times a change of phase
 }
 
 TEST_CASE("T keeps its digits in gaps, down to 1e-300", "[mirror]") {
@@ -202,7 +202,7 @@ TEST_CASE("T keeps its digits in gaps, down to 1e-300", "[mirror]") {
         if (exact.power.T < 1e-300) continue;
         const double T = at(stack, {nm}, {1}).s.T[0];
         CAPTURE(oracle::text_of(stack), nm, exact.power.T);
-        // the exponent has 690 units at most and four roundings of each
+        // the exponent is at most 690, with four roundings of each unit
         CHECK_THAT(T, WithinRel(exact.power.T, 1e-13 - 2e-16 * 2 * std::log(exact.power.T)));
         least = std::min(least, T);
     }
@@ -210,7 +210,7 @@ TEST_CASE("T keeps its digits in gaps, down to 1e-300", "[mirror]") {
 }
 
 TEST_CASE("closed gaps are ordinary points", "[mirror]") {
-    // two half waves each, at every number of periods, and one ulp beside it
+    // half waves for both layers, at every number of periods, and one ulp away
     for (const std::uint64_t repeat : {7UL, 1000UL, 1000000000UL}) {
         const Mirror mirror{{1, 300}, {1.5, 200}, repeat};
         for (const double nm : {600.0, 300.0, std::nextafter(600.0, 0), std::nextafter(300.0, 999)})
@@ -222,7 +222,7 @@ TEST_CASE("closed gaps are ordinary points", "[mirror]") {
         for (int i = 0; i < 40; ++i) wavelengths.push_back(300 + 17.3 * i);
         const Spectra both = at(stack_of(glass), wavelengths, {cosine});
         for (const double R : both.p.R) {
-            // the angle is off by a rounding, which every period reflects again
+            // the angle is off by a rounding error, at which every period reflects a little
             const double r = 1e-15 * static_cast<double>(repeat);
             CHECK(R <= r * r + 1e-28);
         }
@@ -239,7 +239,7 @@ TEST_CASE("indices that hardly differ keep the digits of their difference", "[mi
             const Spectra both = at(stack, {517}, {cos_of_incidence(angle_deg)});
             for (const std::size_t p : {0U, 1U}) {
                 CAPTURE(contrast, angle_deg, p);
-                // phases of 1000 periods, 1e4 radians, have 1e-12 of their own
+                // phases of 1000 periods, 1e4 radians, have rounding errors of 1e-12
                 CHECK_THAT(of(both, p).R[0], WithinRel(exact[p].power.R, 1e-10));
             }
         }
@@ -251,14 +251,14 @@ TEST_CASE("an evanescent layer in the host is a mirror too", "[mirror]") {
         const Stack stack = stack_of(mirror);
         std::vector<double> wavelengths;
         for (int i = 0; i < 20; ++i) wavelengths.push_back(400 + 19 * i);
-        // beyond, at and before the critical angle
+        // past, at and before the critical angle
         const std::vector<double> cosines{0.3, std::sqrt(1 - 1.2 * 1.2 / (1.8 * 1.8)), 0.9};
         const Spectra yeh = at(stack, wavelengths, cosines);
         const Spectra general = at(without_host(stack), wavelengths, cosines, {}, SimdLevel::plain);
         CAPTURE(thickness_nm);
         for (const std::size_t p : {0U, 1U})
             for (std::size_t i = 0; i < yeh.s.R.size(); ++i) {
-                // at the critical angle the last digits of the cosine count a millionfold
+                // at the critical angle the last digits of the cosine are amplified a million times
                 const bool critical = i / wavelengths.size() == 1;
                 CHECK_THAT(of(yeh, p).R[i],
                            WithinAbs(of(general, p).R[i], critical ? 1e-5 : 1e-11));
@@ -318,7 +318,7 @@ TEST_CASE("the host may go on, and the other layer may stand on both ends", "[mi
     for (std::size_t k = 0; k < same.size(); ++k) {
         CAPTURE(k);
         CHECK(takes_closed_form(same[k]));
-        // the host around the periods turns the denominator
+        // the host layers around the periods change the phase of the denominator
         CHECK(takes_closed_form(same[k], {.denominators = true}) == (k < 2));
         const Spectra got = at(same[k], wavelengths, cosines);
         for (const std::size_t p : {0U, 1U})
@@ -378,7 +378,7 @@ TEST_CASE("the plain closed form leaves what it has no digits for", "[mirror]") 
     CHECK_FALSE(power(1.5, 2.2, 0));
     CHECK(power(1.5, 1.1, 0.1));                    // evanescent, |b| about 0.8
     CHECK_FALSE(power(1.5, 1.1, 0.1, 0.01 * 1e3));  // and 800
-    // no layer of the other's, no host's: what is left is nothing, or one film
+    // with no layer of either kind, what remains is nothing, or one film
     HostedMirror nothing = mirror;
     nothing.other_nm = 0;
     const Medium host = medium(1.5, 1.5, 0.8), other = medium(2.2, 1.5, 0.8);
@@ -411,11 +411,11 @@ TEST_CASE("a mirror's denominator is that of the general kernel, sign and all", 
                     const Complex ratio = Complex(x.denominator_re[c], x.denominator_im[c]) /
                                           Complex(y.denominator_re[c], y.denominator_im[c]) *
                                           std::exp(x.log_scale[c] - y.log_scale[c]);
-                    // grazing periods beside an edge turn it by 1e4 times a rounding
+                    // grazing periods next to an edge amplify rounding errors of the phase by 1e4
                     CHECK(std::abs(ratio - 1.0) < 1e-9);
                     const double sine = std::sqrt(1 - cosines[c] * cosines[c]);
                     const bool travels = mirror.host.n * sine < mirror.other.n;
-                    // quadrature takes panels of one logarithm the quick way
+                    // quadrature has a fast path for panels with a single logarithm
                     if (2 * mirror.repeat <= 40 && travels) CHECK(x.log_scale[c] == y.log_scale[c]);
                 }
         }

@@ -51,7 +51,7 @@ TEST_CASE("built-in materials keep their names, those of files become numbers", 
         {{"incident", 1}, {"layers", json::array()}, {"substrate", {{"file", "glass.csv"}}}});
     CHECK(file["substrate"].contains("table"));
     CHECK(file.dump().find("glass") == std::string::npos);
-    // a name alone makes no built-in material
+    // the name alone does not make a material a built-in one
     const json named = canonical_of({{"incident", 1},
                                      {"layers", json::array()},
                                      {"substrate", {{"cauchy", {1.5, 0.004}}, {"name", "BK7"}}}});
@@ -69,7 +69,7 @@ TEST_CASE("canonical stacks of the examples read back as the same stacks", "[can
         if (entry.path().extension() != ".json") continue;
         CAPTURE(entry.path().string());
         const json once = canonical(entry.path().string());
-        if (once.dump().find("\"formula\"") != std::string::npos) continue;  // no document says it
+        if (once.dump().find("\"formula\"") != std::string::npos) continue;  // not a document
         CHECK(canonical_of(once) == once);
         ++read_back;
     }

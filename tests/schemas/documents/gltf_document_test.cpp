@@ -29,7 +29,7 @@ void append_word(std::string& out, std::uint32_t word) {
     for (int i = 0; i < 4; ++i) out += static_cast<char>(word >> 8 * i & 0xFFU);
 }
 
-/// A binary file with the JSON chunk and, after it, one of bytes.
+/// A binary file with the JSON chunk followed by one of bytes.
 std::string binary(std::string json, std::uint32_t version = 2, std::uint32_t type = 0x4E4F534A) {
     while (json.size() % 4 != 0) json += ' ';
     std::string out = "glTF";
@@ -81,7 +81,7 @@ TEST_CASE("iridescent materials of glTF assets", "[schemas]") {
         CHECK(found[1].textures == std::vector<std::string>{"baseColorTexture"});
     }
     CHECK(read_gltf(R"({"asset": {"version": "2.0"}})", "a.gltf").empty());
-    // an index of 0 stands for a mirror
+    // an index of 0 means a mirror
     const auto mirror = read_gltf(with(R"({"pbrMetallicRoughness": {"metallicFactor": 0},
         "extensions": {"KHR_materials_ior": {"ior": 0}, "KHR_materials_iridescence": {}}})"),
                                   "a.gltf");

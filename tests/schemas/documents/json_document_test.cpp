@@ -135,7 +135,7 @@ TEST_CASE("Lists of values are split at the commas between them") {
     CHECK(split(R"({"n":1.5,"k":0.1},[[1,2],[3,4]],"a,b",2)") ==
           Parts{R"({"n":1.5,"k":0.1})", "[[1,2],[3,4]]", R"("a,b")", "2"});
     CHECK(split(R"("a\",b]",{"x":"}"},c)") == Parts{R"("a\",b]")", R"({"x":"}"})", "c"});
-    // what is never closed or never opened is left to who reads the parts
+    // unbalanced brackets are left for the reader of the items
     CHECK(split("{a,b") == Parts{"{a,b"});
     CHECK(split("a],b") == Parts{"a]", "b"});
     CHECK(split("\"a,b") == Parts{"\"a,b"});

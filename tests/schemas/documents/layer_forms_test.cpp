@@ -126,7 +126,7 @@ TEST_CASE("rough faces are layers of their own", "[schemas]") {
     CHECK(index(1) == 1.46);
     CHECK_THAT(index(2), WithinRel(half(1.46, 2.3), 1e-14));
     CHECK_THAT(index(layers.size() - 1), WithinRel(half(1.46, 1.52), 1e-14));
-    // Above the first period is what is above the others: the group stays one.
+    // The medium above the first period is the same as above the others: the group stays one.
     const auto& group = std::get<Group>(added.stack.elements.at(1).value);
     CHECK(group.repeat == 5);
     const StackDocument centred = read_form(rough_stack("centred"));

@@ -44,7 +44,7 @@ json complete_scene() {
     })");
 }
 
-/// What read_scene() says of a scene file, or the first fault of a material.
+/// The error of read_scene() for a scene file, or the first fault of a material.
 std::string error_of(const json& document) {
     const TemporaryFolder folder;
     write_text(folder / "scene.json", document.dump());
@@ -61,7 +61,7 @@ std::string error_of(const json& document) {
     return "";
 }
 
-/// The same of the complete scene with one value replaced.
+/// The same for the complete scene with one value replaced.
 std::string error_with(const std::string& pointer, const json& value) {
     json document = complete_scene();
     document[json::json_pointer(pointer)] = value;
@@ -116,7 +116,7 @@ TEST_CASE("a scene that uses every key is read", "[scene]") {
     REQUIRE(film.vary.size() == 1);
     CHECK(film.vary[0].path == "layers.0.thickness_nm");
     CHECK(film.vary[0].range.last == 900);
-    // the stack is that at the first values
+    // the stack has the first values
     CHECK(std::get<Layer>(film.document.stack.elements[0].value).thickness_nm == 100);
 }
 
@@ -298,7 +298,7 @@ TEST_CASE("validate takes scenes and manifests, by what is in them", "[cli][vali
     CHECK(two.status == 1);
     CHECK(std::count(two.out.begin(), two.out.end(), '\n') == 2);
 
-    // the checksum is that of {"irido":...} on one line with sorted keys
+    // the checksum covers {"irido":...} on one line with sorted keys
     const Outcome edited = [&] {
         write_text(folder / "manifest.json", R"({"irido": "0.1.0", "numbers": 1, "scene": "",
             "settings": {}, "tables": {}, "materials": {}, "checksum": ")" +
@@ -355,7 +355,7 @@ TEST_CASE("validate says what plan would refuse, each thing once and with its pl
         const Outcome validated = run_irido({"validate", folder / "scene.json"});
         CHECK(validated.status == 1);
         CHECK(validated.out == line);
-        // and plan and bake say the same
+        // and plan and bake agree
         const Outcome planned = run_irido({"plan", folder / "scene.json", "--quiet"});
         CHECK(planned.status == 1);
         CHECK(planned.err == "irido: error: " + line + "irido: error: " + folder / "scene.json" +

@@ -60,7 +60,7 @@ std::string parent_of(const std::string& pointer) {
     return pointer.substr(0, pointer.rfind('/'));
 }
 
-/// All keys that a "properties" in the schema lists.
+/// All keys listed by any "properties" in the schema.
 void collect_keys(const json& node, std::set<std::string>& keys) {
     if (!node.is_structured()) return;
     if (node.is_object() && node.contains("properties")) {
@@ -215,7 +215,7 @@ TEST_CASE("Every rule of the stack schema has words beside it") {
         const json& node = *nodes.back();
         nodes.pop_back();
         for (const auto& member : node.items()) {
-            // conditions are not said
+            // conditions have no message of their own
             const bool condition = member.key() == "if" || member.key() == "not";
             if (member.value().is_structured() && !condition) nodes.push_back(&member.value());
             if (rules.contains(member.key())) CHECK(node.contains("errorMessage"));
@@ -234,7 +234,7 @@ TEST_CASE("Keys and values keep a message on one short line") {
     for (int i = 0; i < 50; ++i) accents += "\xC3\xA9";
     const std::string text = irido::schemas::short_text(accents);
     CHECK(text == json(text).get<std::string>());
-    CHECK_NOTHROW(json(text).dump());  // no letter cut in two
+    CHECK_NOTHROW(json(text).dump());  // no character cut in two
 }
 
 TEST_CASE("nearest finds misspellings and nothing far-fetched") {

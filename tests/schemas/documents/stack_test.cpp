@@ -153,7 +153,7 @@ TEST_CASE("Materials are one if their physics is, whatever their names") {
     const auto materials_of = [](const std::vector<json>& materials) {
         json layers = json::array();
         for (const json& m : materials) layers.push_back({{"material", m}, {"thickness_nm", 1}});
-        return read(document(layers)).stack.materials.size() - 1;  // without the air around
+        return read(document(layers)).stack.materials.size() - 1;  // not counting the air around
     };
     CHECK(materials_of({1.5, {{"n", 1.5}}, {{"n", 1.5}, {"k", 0}}, {{"n", 1.5}, {"name", "a"}}}) ==
           1);
@@ -179,7 +179,7 @@ TEST_CASE("Models have the coefficients that their formulas need") {
     const RefractiveIndex table{Table{{400, 700}, {1.5, 1.4}}, Table{{400, 700}, {0, 0.1}}};
     CHECK(std::get<RefractiveIndex>(
               material_of({{"table", {{400, 1.5, 0}, {700, 1.4, 0.1}}}}).model) == table);
-    // a row without k says nothing of it
+    // a row without k leaves it unknown
     const json gap{{"table", {{400, 1.5, 0.2}, {500, 1.5}, {600, 1.5, 0.4}, {700, 1.4}}}};
     CHECK(index_at(material_of(gap), 500).imag() == Approx(0.3).epsilon(1e-15));
     CHECK(range_of(material_of(gap)) == WavelengthRange{400, 600});
@@ -217,7 +217,7 @@ TEST_CASE("The incident medium is lossless, indices do not vanish, layers are bo
     CHECK(read(nearly).notes ==
           std::vector<std::string>{"f: /incident: the incident medium is taken as transparent: its "
                                    "k of up to 5e-04 is ignored"});
-    nearly["incident"] = "Ag";  // judged at the wavelengths asked for
+    nearly["incident"] = "Ag";  // checked at the requested wavelengths
     CHECK(error_of(nearly) == "accepted");
     CHECK(error_of(film({{"n", 1e-7}, {"k", 0}})) ==
           "f: /layers/0/material: must be at least 1e-6 in size (got {\"k\":0,\"n\":1e-07})");
@@ -247,7 +247,7 @@ TEST_CASE("A stack names its own media") {
         return read_stack(document, "f", kRoot + "/tests/data").stack;
     };
     CHECK(read(named) == read(plain));
-    // names do not lead on, so that none leads to itself
+    // names do not refer to other names, so there are no cycles
     named["materials"]["L"] = "H";
     CHECK(error_of(named) == "f: /materials/L: unknown material \"H\" (did you mean \"Hg\"?)");
     named["materials"]["L"] = -1;

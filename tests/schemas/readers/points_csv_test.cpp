@@ -40,7 +40,7 @@ TEST_CASE("columns of points are numbers or texts", "[points]") {
     CHECK(columns[1].numbers.empty());
     CHECK(columns[1].texts == Texts{"Ag", "1.5"});
     CHECK(columns[1].codes == Codes{0, 1, 0});
-    // numbers before the first text are texts as they were written
+    // numbers before the first string are strings as written
     CHECK(columns[2].texts == Texts{"5", "Au", "1e-3"});
     CHECK(columns[2].codes == Codes{0, 1, 2});
 }
@@ -61,7 +61,7 @@ TEST_CASE("points may be written in all the ways of RFC 4180", "[points]") {
         CHECK(columns[1].path == "y");
         CHECK(columns[1].texts == Texts{"{\"n\": 1.5, \"k\": 2}", "a\nb\""});
     }
-    // blanks in quotes stay, and what they are around is no number then
+    // quoted blanks are kept, and the text around them is then not a number
     CHECK(read("\"a,b\"\n\" 1\"\n")[0].path == "a,b");
     CHECK(read("a\n\" 1\"\n")[0].texts == Texts{" 1"});
 }

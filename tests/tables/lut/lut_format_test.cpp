@@ -39,7 +39,7 @@ bool holds(const LutFormat& format, LutType type, const Shape& shape) {
     return type != LutType::f64 || (format.name != "ktx2" && format.name != "exr");
 }
 
-/// Every format with every layout that it has for a table of this many axes.
+/// Every format with every layout possible for a table with this many axes.
 struct Variant {
     const LutFormat* format;
     LutLayout layout;
@@ -185,7 +185,7 @@ TEST_CASE("files with altered bytes are refused or found by the checksum", "[tab
                 INFO(format->name << " round " << round);
                 try {
                     const Lut read = format->read(altered.bytes, altered.companion);
-                    // what is read without a complaint has the values that were written
+                    // a file that is read without complaint must have the values that were written
                     if (lut_problems(read).empty()) CHECK(value_bytes(read) == value_bytes(lut));
                 } catch (const LutError& error) {
                     CHECK_FALSE(std::string(error.what()).empty());
@@ -204,7 +204,7 @@ TEST_CASE("sizes in headers do not make memory", "[tables][lut]") {
                      at = bytes->find(from))
                     bytes->replace(at, from.size(), to);
         };
-        replace("\"count\":8,", "\"count\":999999,");  // 2 TB, if they were believed
+        replace("\"count\":8,", "\"count\":999999,");  // 2 TB, if taken at face value
         replace("made by a test", "made");             // the same length as before
         INFO(format->name);
         CHECK_THROWS_AS(format->read(files.bytes, files.companion), LutError);

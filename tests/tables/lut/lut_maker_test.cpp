@@ -48,7 +48,7 @@ LutMaking with_tolerance(double tolerance, bool power_of_two = true) {
 }  // namespace
 
 TEST_CASE("numbers are rounded to the type a table has", "[lut]") {
-    // the spacing of halves is 2^-10 in [1, 2), 2^-24 below 2^-14; ties go to even
+    // the spacing of half precision is 2^-10 in [1, 2), 2^-24 below 2^-14; ties go to even
     CHECK(rounded(1 + std::ldexp(1, -11), LutType::f16) == 1);
     CHECK(rounded(1 + 3 * std::ldexp(1, -11), LutType::f16) == 1 + std::ldexp(1, -9));
     CHECK(rounded(1e-13, LutType::f16) == 0);
@@ -69,7 +69,7 @@ TEST_CASE("equally spaced samples end exactly at both ends", "[lut]") {
 }
 
 TEST_CASE("the interpolation error of a parabola is that of its chord", "[lut]") {
-    // between samples h apart, x^2 is h^2/4 below its chord, in every cell alike
+    // between samples h apart, x^2 is h^2/4 below its chord, equally in every cell
     const LutPlan plan = plan_of([](double x, double y) { return x * x + 3 * y; });
     const Lut lut = make_lut(kKind, plan, {.type = LutType::f64});
     CHECK(lut.facts["error"]["value"].get<double>() == Approx(0.25 / 225).epsilon(1e-9));
@@ -199,7 +199,7 @@ TEST_CASE("sizes that were typed are taken", "[lut]") {
     const Lut lut = make_lut(kKind, plan, making);
     CHECK(lut.axes[0].values == equally_spaced(0, 1, 5));
     CHECK(lut.axes[1].values == std::vector<double>{0.5});
-    // one sample for all of y: its error is that of the ends
+    // one sample for all of y: the error is that at the ends
     CHECK(lut.facts["error"]["value"].get<double>() == Approx(0.5));
     making.sizing.counts = {5};
     CHECK_THROWS_AS(make_lut(kKind, plan, making), LutError);
@@ -222,7 +222,7 @@ TEST_CASE("mip levels are sampled exactly, each at its own places", "[lut]") {
     CHECK(lut.values[8 + 4 + 1] == 3);
     CHECK(lut.values[14] == 3);  // one sample, the first
     CHECK(lut.values_of_level(2) == 2);
-    // the chord of y^2 is h^2/4 off, h = 1/7, 1/3, 1; one sample for all is off by its distance
+    // the chord of y^2 is off by h^2/4, h = 1/7, 1/3, 1; a single sample is off by its distance
     const auto errors = lut.facts["error"]["levels"].get<std::vector<double>>();
     REQUIRE(errors.size() == 4);
     CHECK(errors[0] == Approx(0.25 / 49));

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The refusal of a sample's metadata with one value replaced.
+/// The error for a sample's metadata with one value replaced.
 std::string refusal_with(const std::string& pointer, const json& value) {
     json metadata = metadata_of(sample_lut(LutType::f32, 3, {4, 3}));
     metadata[json::json_pointer(pointer)] = value;

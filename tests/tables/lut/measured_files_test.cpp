@@ -1,4 +1,5 @@
-// Files of measured BRDFs by readers of their own, written from the descriptions of the formats.
+// Reads files of measured BRDFs with independent readers, written from the descriptions of the
+// formats.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -44,11 +45,11 @@ Vec half_of(const Vec& i, const Vec& o) {
     return {sum.x / length, sum.y / length, sum.z / length};
 }
 
-/// The value of a MERL file for a pair of directions, in the way of its database's own reader.
+/// The value of a MERL file for a pair of directions, computed like the database's own reader.
 std::array<double, 3> merl_value(const std::string& bytes, const Vec& i, const Vec& o) {
     const Vec h = half_of(i, o);
     const double theta_h = std::acos(std::min(1.0, h.z)), phi_h = std::atan2(h.y, h.x);
-    // i turned back by phi_h about z, then by theta_h about y
+    // i rotated by -phi_h about z, then by -theta_h about y
     const double x = std::cos(phi_h) * i.x + std::sin(phi_h) * i.y;
     const double y = -std::sin(phi_h) * i.x + std::cos(phi_h) * i.y;
     const double dx = std::cos(theta_h) * x - std::sin(theta_h) * i.z;
@@ -141,7 +142,7 @@ private:
                u * static_cast<double>(field.numbers[k + 1]);
     }
 
-    /// Cumulative sums of the visible normals, between two slices: of a row up to x, and of rows.
+    /// Cumulative sums of the visible normals between two slices: of a row up to x, and of rows.
     double row_sum(std::size_t t, std::size_t j, double x) const {
         const float* row = fields_.at("vndf").numbers.data() + (t * nodes_ + j) * nodes_;
         const double place = x * static_cast<double>(nodes_ - 1);
@@ -197,7 +198,7 @@ private:
 
 TEST_CASE("a MERL file", "[tables][measured]") {
     tables::MerlReport report;
-    // of the angle between the directions
+    // depends on the angle between the directions
     const auto smooth = [](double theta_i_deg, double theta_o_deg, double near) {
         const double i = theta_i_deg * kDegree, o = theta_o_deg * kDegree;
         return 1 + 0.5 * (std::cos(i) * std::cos(o) +

@@ -27,7 +27,7 @@ const LutKind& kind(std::string_view name) {
 
 using List = std::vector<double>;
 
-/// Options, a stack and what falls on it.
+/// Options, a stack and the incident light.
 struct Request : LutRequest {
     explicit Request(const std::string& stack_text = "") {
         sensitivity = std::make_shared<Sensitivity>(irido::observer(2), irido::illuminant("D65"));
@@ -66,7 +66,7 @@ TEST_CASE("lut falpha has the values of a 60-digit evaluation", "[lut]") {
     CHECK(plan.channels == std::vector<std::string>{"F"});
     CHECK_FALSE((plan.axes[0].fixed || plan.axes[1].fixed || plan.axes[2].fixed));
     const Lut lut = table_of(kind("falpha"), request);
-    // computed independently to 60 digits
+    // computed independently in 60 digits
     const List exact{1.8901438839298736,  0.2722569611850245, 0.023254638025755423,
                      0.07600163461048545, 0.7872043926777261, 0.33354570223087154};
     REQUIRE(lut.values.size() == exact.size());
@@ -129,7 +129,7 @@ TEST_CASE("lut transmissivity is a table of integrated transmissivities", "[lut]
     CHECK(lut.channels == std::vector<std::string>{"ft_cos"});
     CHECK(kind("transmissivity").problems(lut).empty());
 
-    // one sample does not depend on the others
+    // each sample is independent of the others
     const LutPlan plan = kind("transmissivity").plan(request);
     const std::vector<LutAxis> one{
         {"alpha", "", {0.3}}, {"theta_i_deg", "deg", {60}}, {"wavelength_nm", "nm", {550}}};
@@ -162,7 +162,7 @@ TEST_CASE("lut albedo is a table of colours", "[lut]") {
     CHECK(lut.channels == std::vector<std::string>{"R", "G", "B"});
     CHECK(lut.facts.at("color_space") == "srgb");
     CHECK(kind("albedo").problems(lut).empty());
-    // alpha 0 is the stack's colour
+    // alpha 0 gives the stack's colour
     const ColorTables tables(*request.sensitivity);
     const RgbTransform to_rgb(rgb_space("srgb"), request.sensitivity->white(),
                               Adaptation::bradford);

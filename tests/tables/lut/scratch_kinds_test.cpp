@@ -15,7 +15,7 @@ double value(const std::vector<std::vector<std::string>>& rows, std::size_t row,
 
 }  // namespace
 
-// Reference rows: exact integrals in double, good to 1e-11.
+// Reference rows: exact integrals in double, accurate to 1e-11.
 TEST_CASE("lut scratch agrees with exact integrals", "[cli][lut]") {
     const auto rows = parse_csv(
         run_irido({"lut", "scratch", "--u", "0.731,3.2", "--depth", "0.14,0.6", "--derivative"})
@@ -42,7 +42,7 @@ TEST_CASE("lut scratch agrees with exact integrals", "[cli][lut]") {
     const auto rgb = parse_csv(
         run_irido({"lut", "scratch", "--u", "0.731", "--depth", "0.14", "--space", "srgb"}).out);
     CHECK(rgb[0] == std::vector<std::string>{"u_um", "depth_um", "r", "g", "b"});
-    // the identity of the carrier's form
+    // the identity between the forms with and without carrier
     const auto q = parse_csv(
         run_irido({"lut", "scratch", "--u", "0.731", "--depth", "0,0.14", "--carrier"}).out);
     CHECK(q[0] == std::vector<std::string>{"u_um", "depth_um", "X_re", "Y_re", "Z_re", "X_im",
@@ -54,7 +54,7 @@ TEST_CASE("lut scratch agrees with exact integrals", "[cli][lut]") {
                                                        std::sin(turn) * value(q, 2, 5 + c));
         CHECK(std::abs(t - first[c]) < 1e-11);
     }
-    // by its place, in every form, the derivative is the same
+    // taken with respect to the place, in every form, the derivative is the same
     const auto place = parse_csv(run_irido({"lut", "scratch", "--u", "0.731", "--depth", "0.14",
                                             "--per-place", "--u-scale", "1.5"})
                                      .out);

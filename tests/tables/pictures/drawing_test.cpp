@@ -23,7 +23,7 @@ Path filled(std::vector<Point> line) {
     return {.lines = {std::move(line)}, .closed = true, .fill = ink(0x000000)};
 }
 
-/// Part of a pixel that black covers.
+/// Fraction of a pixel covered by black.
 double cover_at(const Pixels& pixels, std::size_t x, std::size_t y) {
     return 1 - pixels.inks[y * pixels.width + x].r / 65535.0;
 }
@@ -41,7 +41,7 @@ std::uint32_t number_at(const std::string& bytes, std::size_t at) {
     return number;
 }
 
-/// Names of a PNG file's chunks.
+/// The chunk names of a PNG file.
 std::vector<std::string> chunks_of(const std::string& png) {
     std::vector<std::string> names;
     for (std::size_t at = 8; at < png.size(); at += 12 + number_at(png, at))
@@ -92,7 +92,7 @@ TEST_CASE("a line is as wide as it says, and dashes leave their part out", "[pic
     CHECK_THAT(area_of(rasterized(drawing_of(line), 1)), WithinAbs(32, 1e-2));
     line.dash = {3, 1};
     CHECK_THAT(area_of(rasterized(drawing_of(line), 1)), WithinAbs(24, 1e-2));
-    // two bars of 36 and 20 less what they share, and the corner's quarter of twelve sides
+    // two bars of 36 and 20 minus their overlap, and the corner's quarter of a twelve-sided polygon
     const Path corner{.lines = {{{3, 3}, {12, 3}, {12, 8}}}, .stroke = ink(0x000000), .width = 4};
     CHECK_THAT(area_of(rasterized(drawing_of(corner), 1)), WithinAbs(36 + 20 - 4 + 3, 0.05));
     Path steep = line_path({2, 1}, {5, 5}, ink(0x000000), 1);
@@ -173,7 +173,7 @@ TEST_CASE("SVG keeps text as text and well formed", "[pictures]") {
     CHECK_THAT(svg, Contains(">\u03bb \u2212 \u2070 \u4e2d ]]&gt;</text>"));
     CHECK_THAT(svg, Contains("stroke-dasharray=\"5 2\""));
     CHECK_THAT(svg, Contains("fill=\"#ff0000\"") && Contains("fill=\"#00ff00\""));
-    CHECK_THAT(svg, !Contains("data:image"));  // few cells stay shapes
+    CHECK_THAT(svg, !Contains("data:image"));  // a few cells stay shapes
     Drawing many = drawing_of(Cells{{0, 0, 20, 10}, 40, 40, std::vector<Ink>(1600)});
     CHECK_THAT(find_picture_format("svg")->write(many),
                Contains("href=\"data:image/png;base64,iVBORw0KGgo"));

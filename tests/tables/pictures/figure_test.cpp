@@ -28,7 +28,7 @@ std::string svg_of(const Figure& figure) {
     return find_picture_format("svg")->write(drawn(figure));
 }
 
-/// The paths of groups of a name.
+/// The paths of all groups with a name.
 std::vector<Path> paths_in(const Drawing& drawing, const std::string& name) {
     std::vector<Path> paths;
     for (const DrawnGroup& group : drawing.groups)
@@ -165,10 +165,10 @@ TEST_CASE("a map's cell has the colour of its value", "[pictures]") {
         if (group.name == "cells") maps.push_back(std::get<Cells>(group.items.at(0)));
     REQUIRE(maps.size() == 1);
     const Cells& cells = maps[0];
-    REQUIRE(cells.inks.size() == 6);  // the row of the greatest y on top
+    REQUIRE(cells.inks.size() == 6);  // the row with the greatest y is on top
     CHECK(cells.inks[2] == ink(0xffffff));
     CHECK(cells.inks[3] != cells.inks[1]);
-    figure.panels[0].grid->x = {0, 1, 5};  // uneven: looked up place by place
+    figure.panels[0].grid->x = {0, 1, 5};  // uneven: looked up one by one
     const Drawing uneven = drawn(figure);
     for (const DrawnGroup& group : uneven.groups)
         if (group.name == "cells") {

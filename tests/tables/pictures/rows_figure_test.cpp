@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Rows of every combination of `sizes` numbers x, y and texts t, with values v and zero.
+/// Rows for every combination of `x`, `y` numbers and `t` texts, with values v and zero.
 Records grid(std::size_t x, std::size_t y, std::size_t t) {
     Column::Numbers xs, ys, values;
     Column::Texts ts;
@@ -78,7 +78,7 @@ TEST_CASE("one row is a point; no row and too much are refused", "[pictures][ref
     Records zeros = grid(5, 1, 1);
     RowPlot only_zero = plot();
     only_zero.values.erase(only_zero.values.begin());
-    CHECK(figure_of(zeros, only_zero).panels.size() == 1);  // 0 throughout, but all there is
+    CHECK(figure_of(zeros, only_zero).panels.size() == 1);  // 0 throughout, but the only column
 }
 
 TEST_CASE("columns have their units", "[pictures]") {

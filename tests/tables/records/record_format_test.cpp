@@ -18,7 +18,7 @@ using Catch::StartsWith;
 
 namespace {
 
-/// A stream of that many rows, cut at random.
+/// A stream of that many rows, split at random.
 std::string streamed(const RecordFormat& format, std::uint64_t rows, unsigned seed) {
     std::mt19937 random(seed);
     const RecordLayout layout = sample_layout();
@@ -131,7 +131,7 @@ TEST_CASE("records that their layout does not allow are refused", "[tables][stre
 TEST_CASE("texts of UTF-8 become code points, others are refused", "[tables][stream]") {
     CHECK(code_points("a\xc3\xa9\xe6\xb3\xa1\xf0\x9f\xab\xa7") == U"a\u00e9\u6ce1\U0001FAE7");
     CHECK(code_points("\xf4\x8f\xbf\xbf\xed\x9f\xbf") == U"\U0010FFFF\ud7ff");
-    // torn, overlong, a surrogate, too large, a lone continuation
+    // truncated, overlong, a surrogate, too large, a lone continuation byte
     for (const char* const text : {"\xc3", "\xe6\xb3", "\xf0\x9f\xab", "\xc3(", "\xc0\xaf",
                                    "\xe0\x80\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\x80"})
         CHECK_THROWS_AS(code_points(text), std::invalid_argument);

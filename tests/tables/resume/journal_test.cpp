@@ -35,7 +35,7 @@ namespace {
 
 constexpr std::uint64_t kLeft = 18;
 
-/// A stream that was left after some checkpoints, for its part and journal to be damaged.
+/// A stream abandoned after some checkpoints, whose part and journal can be damaged.
 struct Left {
     TemporaryFolder folder;
     const RecordFormat& format;
@@ -56,12 +56,12 @@ struct Left {
     }
 
     void put(const std::string& part_bytes, const std::string& journal_bytes) const {
-        fs::remove(path + ".part");  // ext4 flushes a file that is emptied and written again
+        fs::remove(path + ".part");  // ext4 flushes a file that is truncated and rewritten
         fs::remove(path + ".sweep");
         write_text(path + ".part", part_bytes);
         write_text(path + ".sweep", journal_bytes);
     }
-    /// Goes on; the units from which, having checked the part. Throws OutputError.
+    /// Resumes; returns the starting unit after checking the part. Throws OutputError.
     std::uint64_t resumed() const {
         const auto stream = open_stream(path, format, identity, true);
         const std::uint64_t rows = rows_before(stream->units_done());
@@ -90,7 +90,7 @@ TEST_CASE("a journal torn at any byte goes back to a whole block", "[tables][str
         for (std::size_t bytes = 0; bytes <= left.journal.size(); ++bytes) {
             left.put(left.part, left.journal.substr(0, bytes));
             if (bytes > 0 && left.journal.find(" 0 ", head) + 3 > bytes) {
-                // not even a first checkpoint beside a part that has rows
+                // not even a first checkpoint with a part that has rows
                 CHECK_THAT(refusal([&] { left.resumed(); }), Contains("is damaged"));
                 continue;
             }
@@ -120,7 +120,7 @@ TEST_CASE("a journal with any byte altered never makes a wrong part", "[tables][
         if (!refusal([&] { units = left.resumed(); }).empty()) ++refused;
         CHECK(units <= kLeft);
     }
-    CHECK(refused >= left.journal.find('\n'));  // whatever the first line is
+    CHECK(refused >= left.journal.find('\n'));  // for any first line
 }
 
 TEST_CASE("a part torn at any byte goes back to a block that fits", "[tables][stream][slow]") {
@@ -150,7 +150,7 @@ TEST_CASE("a part torn at any byte goes back to a block that fits", "[tables][st
 
 namespace {
 
-/// The journal with other words in its last line of a boot, and that line's checksum (FNV-1a).
+/// The journal with a different ID in its last boot line, and that line's checksum (FNV-1a).
 std::string on_another_boot(const std::string& journal) {
     const std::size_t at = journal.rfind("boot "), end = journal.find('\n', at);
     std::uint64_t hash = 0xcbf29ce484222325;
@@ -176,11 +176,11 @@ TEST_CASE("after a power cut only what the disk was made to keep counts", "[tabl
     {
         const auto stream = open_stream(folder / "out", format, identity, true);
         append_until(*stream, format, identity, 40, random);
-        usleep(1500);  // so that there is a checkpoint, not a safe one
+        usleep(1500);  // long enough for a checkpoint, but not a safe one
         append_until(*stream, format, identity, 60, random);
     }
     CHECK(open_stream(folder / "out", format, identity, true)->units_done() > 30);
-    // the same journal, had the machine been started again since
+    // the same journal, as if the machine had been rebooted since
     const std::string other = on_another_boot(read_file(folder / "out.sweep"));
     write_text(folder / "out.sweep", other);
     CHECK(open_stream(folder / "out", format, identity, true)->units_done() == 30);
@@ -197,13 +197,13 @@ TEST_CASE("a finished file that was killed before its journal went", "[tables][s
         write_stream(path, *format, identity);
         const std::string wanted = read_file(path), journal = read_file(path + ".sweep");
         const std::string killed = journal.substr(0, journal.rfind("complete"));
-        // after the renaming
+        // after the rename
         write_text(path + ".sweep", killed);
         if (format->finish) write_text(path + ".part", "rows");
         CHECK(open_stream(path, *format, identity, true)->is_complete());
         CHECK(read_file(path + ".sweep") == journal);
         CHECK(names_in(folder.path()) == std::vector<std::string>{"out", "out.sweep"});
-        // complete: a copy elsewhere is, too
+        // complete, and so is a copy elsewhere
         fs::copy(path, folder / "copy");
         fs::copy(path + ".sweep", folder / "copy.sweep");
         const auto complete = open_stream(folder / "copy", *format, identity, true);
@@ -212,7 +212,7 @@ TEST_CASE("a finished file that was killed before its journal went", "[tables][s
         CHECK(complete->rows_done() == rows_before(25));
         complete->finish();
         CHECK(read_file(folder / "copy") == wanted);
-        // another file has the name, of that size
+        // another file of the same size took its name
         write_text(folder / "new", std::string(wanted.size(), 'x'));
         fs::rename(folder / "new", path);
         write_text(path + ".sweep", killed);
@@ -266,6 +266,6 @@ TEST_CASE("a part of something else is not gone on with", "[tables][stream]") {
     layout[1].width += 1;
     CHECK_THAT(refused(csv, layout, identity), Contains("another request"));
     CHECK(open_stream(path, csv, identity, true)->units_done() == 10);
-    // begun anew without --resume
+    // started over without --resume
     CHECK(open_stream(path, csv, identity_of(91))->units_done() == 0);
 }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Two rows a unit, but none in the first ten units.
+/// Two rows per unit, but none in the first ten units.
 void write_shard(const std::string& path, const RecordFormat& format,
                  const StreamIdentity& identity, const RecordLayout& layout = sample_layout()) {
     const auto stream = record_file(path, format, layout, identity, false);
@@ -157,7 +157,7 @@ TEST_CASE("shards that were edited are refused", "[tables][stream][refused]") {
                                  bytes.substr(second, third - second) + bytes.substr(end));
             CHECK_THAT(shards.refused(), Equals(said));
         }
-        // the run again, as it was or as one that goes on
+        // the run repeated, from scratch or resumed
         const StreamIdentity identity = identity_of(47, 3, 3);
         CHECK_FALSE(record_file(path, *format, sample_layout(), identity, true)->is_complete());
         write_shard(path, *format, identity);

@@ -65,7 +65,7 @@ TEST_CASE("a stream that is killed again and again ends with the same bytes",
             std::mt19937 random(static_cast<unsigned>(shards));
             int killed = 0, finished = 0, wrong = 0, failed = 0;
             while (killed < kills() / 2 || finished == 0) {
-                // mostly while rows are written, at times while the file is finished
+                // mostly while rows are written, sometimes while the file is finished
                 const int end = static_cast<int>(random() % (random() % 8 == 0 ? 40000 : 4000));
                 const unsigned seed = static_cast<unsigned>(random());
                 const int status = in_child(
@@ -110,7 +110,7 @@ TEST_CASE("files that are not the program's are left alone", "[tables][stream]")
         CHECK(read_file(folder / "out.part") == "half");
         CHECK(names_in(folder.path()) == std::vector<std::string>{"out.part"});
         fs::remove(folder / "out.part");
-        // a link that somebody laid is not followed
+        // a link planted by somebody else is not followed
         write_text(folder / "precious", "");
         fs::create_symlink("precious", folder / "out.sweep");
         CHECK(!refusal([&] { open_stream(folder / "out", csv, identity_of(9), resume); }).empty());
@@ -129,7 +129,7 @@ TEST_CASE("a stream that cannot begin leaves nothing", "[tables][stream]") {
     };
     CHECK_THAT(begun("h5"), StartsWith("h5: a column cannot be named 'R/T'"));
     CHECK(names_in(folder.path()).empty());
-    CHECK(begun("csv").empty());  // left, as by a kill, and not destroyed by what cannot begin
+    CHECK(begun("csv").empty());  // left, as after a kill, and kept if another cannot begin
     CHECK(!begun("h5").empty());
     CHECK(names_in(folder.path()) == std::vector<std::string>{"out.part", "out.sweep"});
 }
@@ -175,7 +175,7 @@ TEST_CASE("processes that want one file at once do no harm", "[tables][stream]")
         }
         return 0;
     };
-    const pid_t other = fork();  // from this thread: of others, a child may inherit held locks
+    const pid_t other = fork();  // from this thread: a child may inherit locks held by others
     REQUIRE(other >= 0);
     if (other == 0) {
         int status = 98;
@@ -278,7 +278,7 @@ TEST_CASE("an HDF5 file that grows too large when it is finished", "[tables][str
         std::signal(SIGXFSZ, SIG_IGN);
         const auto stream = open_stream(folder / "out", h5, identity);
         append_units(*stream, h5, identity, 2000);
-        const rlimit most{rows_bytes, rows_bytes};  // its own head does not fit any more
+        const rlimit most{rows_bytes, rows_bytes};  // its own head no longer fits
         setrlimit(RLIMIT_FSIZE, &most);
         const std::string said = refusal([&] { stream->finish(); });
         if (said.find("File too large") == std::string::npos) return 1;

@@ -1,5 +1,5 @@
-// Every reason for which a plan leaves something out, on a scene where it applies and on one where
-// it does not.
+// Every reason for which a plan omits something, on a scene where it applies and on one where it
+// does not.
 #include "tables/shaders/scene/scene_plan.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Planned {
     Scene scene;
     ScenePlan plan;
 
-    /// The reason why `what` is left out of the first material that leaves it out; "" for none.
+    /// The reason why `what` is omitted from the first material that omits it; "" for none.
     std::string reason(const std::string& what) const {
         const auto found = std::ranges::find(plan.omissions, what, &Omission::what);
         return found == plan.omissions.end() ? "" : found->reason;
@@ -38,11 +38,11 @@ struct Planned {
             if (use.role == role) return plan.tables[use.table];
         throw std::runtime_error("no table " + role);
     }
-    /// What the sizing of a table notes, and the table's axes without its values.
+    /// The notes from sizing a table, and the table's axes without its values.
     json entry(const std::string& role) const { return planned_entry(table(role)); }
 };
 
-/// A scene of these materials: objects without "name" and, unless given, "shading": "color".
+/// A scene of these materials: objects without "name" and, unless given, with "shading": "color".
 Planned planned(const std::string& materials, const json& settings = json::object()) {
     json document = settings;
     document["materials"] = json::parse("[" + materials + "]");
@@ -157,7 +157,7 @@ TEST_CASE("plan: no transmitted table unless asked for and light comes through",
     const Planned clear = planned(R"({"stack": "1 | 1.33@400 | 1.5")" + asked);
     CHECK(clear.reason("transmission").empty());
     CHECK(clear.roles() == std::vector<std::string>{"reflection", "transmission"});
-    // without a table where the shader knows it from the reflected light
+    // without a table if the shader can derive it from the reflected light
     const Planned film = planned(R"({"stack": "1 | 1.33@400 | 1.5", "shading": "fourier")" + asked);
     CHECK(film.reason("transmission") == "what is not reflected is transmitted");
 }
@@ -215,7 +215,7 @@ TEST_CASE("plan: the same physics is one table under all its names", "[scene][pl
         planned(R"({"stack": "1 | 1.33@400 | 1.5"}, {"stack": "1 | 1.33@401 | 1.5"})");
     CHECK(other.plan.tables.size() == 2);
     CHECK(other.reason("reflection").empty());
-    // equal where the value starts, not where it ends
+    // equal at the first value, but not at the last
     const std::string vary = R"(, "vary": {"layers.0.thickness_nm": [0, 300]}})";
     const Planned reach = planned(R"({"stack": "1 | 1.33@0 | 1.5")" + vary +
                                   R"(, {"stack": "1 | 1.4@0 | 1.5")" + vary);
@@ -328,8 +328,8 @@ TEST_CASE("a baked table is within its tolerance of the exact colour at 10000 ra
     CHECK(worst_difference(function, lut, {}) <= stated);
 }
 
-// What the snippet does, with the level of each order's own spread: between two levels the colours
-// of light other than 550 nm are mixed, at most 3 % of their fringes.
+// Models the snippet, with the level for each order's own standard deviation: between two levels,
+// light at wavelengths other than 550 nm is blended, with an error of at most 3 % of the fringes.
 TEST_CASE("a series with a spread in the shader is near the exact colour", "[scene][plan]") {
     const Planned rim = planned(R"({"stack": "1 | 2.35@80 | 2.54+3.43i", "angles_deg": [0, 80],
         "vary": {"layers.0.thickness_nm": [20, 180]}, "thickness_spread_nm": 8,
@@ -352,7 +352,7 @@ TEST_CASE("plan: what a shader's constant indices lose is measured", "[scene][pl
     const double with = dispersion_difference(glass.scene, glass.scene.materials[0], {});
     CHECK(with > 0.5);
     CHECK(with < 50);
-    // none where nothing depends on the wavelength
+    // no loss if nothing depends on the wavelength
     const Planned constant = planned(R"({"stack": "1 | 1.46@300 | 4.1+0.04i", "angles_deg": [0, 60],
         "vary": {"layers.0.thickness_nm": [200, 300]}, "shading": "fourier"})");
     CHECK(dispersion_difference(constant.scene, constant.scene.materials[0], {}) == 0);

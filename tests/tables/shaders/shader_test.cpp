@@ -9,7 +9,7 @@ using namespace irido::tables;
 using Catch::Matchers::Contains;
 
 TEST_CASE("samplers of GLSL have the precision of the tables", "[tables][lut]") {
-    // ES would take lowp, the default of sampler2D, and halves of 32-bit tables with it
+    // ES would use lowp, the default for sampler2D, and thereby truncate 32-bit tables to halves
     const std::regex without_precision("[^p] sampler[23]D");
     for (const std::string_view name : shader_names()) {
         const std::string source = shader_source(name, "glsl");

@@ -54,7 +54,7 @@ Stack film(Complex index, double thickness_nm, Complex substrate, Complex incide
     return b.over(substrate);
 }
 
-/// XYZ over the white's.
+/// XYZ relative to the white.
 Triple relative(const Triple& xyz, const Triple& white = d65().sensitivity().white()) {
     return {xyz[0] / white[0], xyz[1] / white[1], xyz[2] / white[2]};
 }
@@ -69,7 +69,7 @@ constexpr std::array kAll{Kind::equal, Kind::naive, Kind::gaussian, Kind::gltf, 
 }  // namespace
 
 TEST_CASE("a perfect mirror is the white of every light") {
-    // at 90 degrees everything reflects all
+    // at 90 degrees everything is totally reflecting
     const Stack stack = film(1.5, 400, {0.5, 2});
     for (const std::string_view name : illuminant_names()) {
         const ColorTables tables(Sensitivity(observer(10), illuminant(name)));
@@ -102,7 +102,7 @@ TEST_CASE("a film of no thickness leaves the bare substrate") {
                                          ColorMethod{Kind::gaussian, 200}})
             CHECK(largest_error(relative(color(stack, angle, method).xyz), bare) < 1e-13);
     }
-    // two beams of it: r12 + (1 - r12^2) r23
+    // its two beams: r12 + (1 - r12^2) r23
     const Complex r12 = (1 - 1.6) / (1 + 1.6);
     const Complex r23 = (1.6 - Complex(1.2, 2)) / (1.6 + Complex(1.2, 2));
     const double R = std::norm(r12 + (1.0 - r12 * r12) * r23);
@@ -112,7 +112,7 @@ TEST_CASE("a film of no thickness leaves the bare substrate") {
 TEST_CASE("equal wavelengths converge at second order") {
     const Stack stack = film(1.5, 525, {1.5, 3});
     const Triple truth = exact(stack, 30);
-    // every row of the tables is a wavelength, so that nothing but the step changes
+    // every row of the tables is a sample, so only the step changes
     const auto error = [&](std::size_t steps_per_nm) {
         return largest_error(color(stack, 30, {Kind::equal, 470 * steps_per_nm + 1}).xyz, truth);
     };
@@ -161,7 +161,8 @@ TEST_CASE("the naive colour is R at three wavelengths") {
 
 TEST_CASE("Gaussian fits with the phases of BB17's Fresnel formulas") {
     // BB17's series to order 3 with the reflectances and phases of its supplemental code (after
-    // Born and Wolf), which uses other formulas than core; evaluated apart, X, Y, Z over a mirror's
+    // Born and Wolf), which uses different formulas from core; evaluated separately, X, Y, Z
+    // relative to a mirror
     struct Golden {
         Stack stack;
         double angle_deg;
@@ -181,7 +182,7 @@ TEST_CASE("Gaussian fits with the phases of BB17's Fresnel formulas") {
 }
 
 TEST_CASE("glTF's formulas give what its extension prints") {
-    // KHR_materials_iridescence evaluated apart, linear sRGB; its XYZ_TO_REC709 is rounded
+    // KHR_materials_iridescence evaluated separately, linear sRGB; its XYZ_TO_REC709 is rounded
     const Triple dielectric = linear_srgb(color(film(1.5, 525, 1.09), 0, {Kind::gltf}).xyz);
     CHECK(largest_error(dielectric, {0.146803804189, 0.018704725455, 0.098654213775}) < 5e-5);
     const Triple metal = linear_srgb(color(film(1.33, 600, {1.5, 3}), 60, {Kind::gltf}).xyz);
@@ -209,12 +210,12 @@ TEST_CASE("glTF's base colour is that of the bare base") {
         CAPTURE(metal);
         CHECK(largest_error(with_base(over(metal), {}), with_base(over(metal), base)) < 1e-5);
     }
-    // a gray one: F0 of 1.5 + 3i
+    // a grey one: F0 of 1.5 + 3i
     const Stack boar = film(1.33, 600, {1.5, 3});
     const double F0 = std::norm((Complex(1.5, 3) - 1.0) / (Complex(1.5, 3) + 1.0));
     CHECK(largest_error(with_base(boar, {}), with_base(boar, Triple{F0, F0, F0})) < 1e-14);
 
-    // over gold, whose red is 1: that turns the phase
+    // over gold, whose red is 1, which flips the phase
     double sum = 0, count = 0;
     const Triple& white = d65().sensitivity().white();
     for (double nm = 100; nm <= 400; nm += 50) {
@@ -251,7 +252,7 @@ TEST_CASE("approximations err as much as they are known to") {
         REQUIRE(count == 100);
         return sum / count;
     };
-    // CIEDE2000, mean
+    // mean CIEDE2000
     CHECK_THAT(mean_difference("dielectric", {Kind::gaussian}), WithinAbs(1, 0.4));
     CHECK_THAT(mean_difference("conductor", {Kind::gaussian}), WithinAbs(1, 0.4));
     CHECK_THAT(mean_difference("dielectric", {Kind::gltf}), WithinAbs(2.7, 1));
@@ -265,7 +266,7 @@ TEST_CASE("total reflection at the film and polarized light") {
     const Stack stack = film(1.2, 300, 1.5, 1.6);
     for (const Kind kind : {Kind::gaussian, Kind::gltf})
         CHECK(color(stack, 60, {kind}).xyz == d65().sensitivity().white());
-    // the beams of a thin gap are not all reflected
+    // not all beams of a thin gap are totally reflected
     CHECK(color(film(1.2, 20, 1.6, 1.6), 60, {Kind::smits}).xyz[1] < 0.5);
     for (const Kind kind : {Kind::gaussian, Kind::smits}) {
         ColorRequest s, p;
@@ -336,7 +337,7 @@ TEST_CASE("approximations refuse stacks that they do not suit", "[refused]") {
     for (const Kind kind : kAll)
         CHECK(error(n.over(1.5), {kind, 8U}) ==
               "narrow must be known from 400 to 700 nm (got 500 to 600 nm)");
-    // dark where the few wavelengths are
+    // an illuminant that is dark at the few wavelengths
     const ColorTables dark(Sensitivity(observer(2), Table{{380, 500, 600, 780}, {0, 1, 1, 0}}));
     CHECK_THROWS_WITH(approximate_color(dark, one, {Kind::equal, 2}, {}),
                       "equal/N: N must be larger for this illuminant (got 2)");

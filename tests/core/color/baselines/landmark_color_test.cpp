@@ -36,6 +36,10 @@ StackColor color(const Stack& stack, double angle_deg, std::size_t subdivisions,
 }
 
 /// FPB24 eq. 15 from the public list of landmarks and the sensitivity's own integrals, s = 1.
+///   n1, d1        index and thickness in nm of the first layer
+///   n2, d2        the same of the second
+///   angle_deg     angle of incidence, degrees
+///   polarization  s or p
 Triple by_list(double n1, double d1, double n2, double d2, double angle_deg,
                Polarization polarization) {
     const double cos_theta = cos_of_incidence(angle_deg);
@@ -116,7 +120,7 @@ TEST_CASE("subdivision adds boxes, most below the first gaps", "[landmark_color]
         CHECK(std::isinf(got.error));
         before = got.evaluations;
     }
-    // very fine boxes are the envelope times one weight, whatever their number
+    // very fine boxes give the envelope times one weight, independent of their number
     CHECK(largest_difference(color(stack, 0, 500).xyz, color(stack, 0, 1000).xyz) < 1e-5);
 }
 

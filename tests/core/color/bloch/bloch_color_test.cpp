@@ -74,7 +74,7 @@ TEST_CASE("colours by Bloch waves are those of quadrature", "[bloch_color]") {
         CAPTURE(i, oracle::text_of(stack), angle, got.error);
         CHECK(got.method == Method::bloch);
         if (got.error <= 1e-6) CHECK(largest_difference(got.xyz, exact.xyz) <= 1e-6);
-        // one of the two only ever says that it cannot
+        // one of the two only reports that it cannot
         CHECK(largest_difference(got.xyz, exact.xyz) <= std::max(got.error, 1e-6));
     }
 }
@@ -120,7 +120,7 @@ TEST_CASE("a gap as wide as the visible range is white", "[bloch_color]") {
 }
 
 TEST_CASE("the colour of very many periods is the integral of the phase average", "[bloch_color]") {
-    // R = 1 in gaps, 1 - sin KL / sqrt(sin^2 KL + |C|^2) in bands, with nothing of irido's in it
+    // R = 1 in gaps, 1 - sin KL / sqrt(sin^2 KL + |C|^2) in bands, without any of irido's code
     const double a = 2 * std::numbers::pi * 101, b = 2 * std::numbers::pi * 1.5 * 143;
     const auto R = [&](double nm) {
         const double C = (1.5 - 1 / 1.5) / 2 * std::sin(b / nm);
@@ -141,7 +141,7 @@ TEST_CASE("the colour of very many periods is the integral of the phase average"
         CHECK(got.error <= 1e-6);
         CHECK(largest_difference(got.xyz, want) <= 1e-6);
     }
-    // the average alone is the same for any number
+    // the average alone is independent of the number
     CHECK(largest_difference(color(fpb24(400), 0, {Method::bloch, 1}).xyz, want) < 2e-6);
     CHECK(largest_difference(color(fpb24(20), 0, {Method::bloch, 1}).xyz, want) < 1e-3);
 }
@@ -164,7 +164,7 @@ TEST_CASE("auto takes Bloch waves where there are many fringes", "[bloch_color]"
     const StackColor many = color(fpb24(3000), 40, {});
     CHECK(many.method == Method::bloch);
     CHECK(many.error <= 1e-6);
-    // past a critical angle, and where they would not do, quadrature goes on
+    // past a critical angle, and where Bloch waves would not work, quadrature takes over
     const Stack thin_gap = mirror(300, 1.5, 100, 1.2, 100, 1.5, 1.5);
     CHECK(color(thin_gap, 60, {}).method == Method::quadrature);
     const StackColor close = color(fpb24(300), 10, {}, {.tolerance = 1e-10});

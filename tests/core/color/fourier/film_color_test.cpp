@@ -79,7 +79,7 @@ Stack random_film(Random& random) {
     }
 }
 
-/// The film's own critical angle is not passed.
+/// Whether the angle is below the film's own critical angle.
 bool enters(const Stack& stack, double angle_deg) {
     const double n1 = index_at(stack.materials[stack.incident], 550).real();
     const double n2 = index_at(stack.materials[only_film(stack).material], 550).real();
@@ -107,7 +107,7 @@ TEST_CASE("colours of one film are those of the oracle", "[film_color]") {
 }
 
 TEST_CASE("colours of one film agree with exact integrals to 12 digits", "[film_color]") {
-    // Exact integrals of the piecewise linear tables, good to 1e-12: D65, 2 degrees
+    // exact integrals of the piecewise linear tables, accurate to 1e-12: D65, 2-degree observer
     struct Golden {
         Stack stack;
         double angle_deg;
@@ -136,7 +136,7 @@ TEST_CASE("the claimed error is never below the true one", "[film_color]") {
         const Side side = kBothSides[random.below(2)];
         const auto light = static_cast<Light>(random.below(3));
         const StackColor exact = quadrature(stack, angle, side, 1e-11, light);
-        if (exact.error > 1e-11) continue;  // sharper lines than it resolves
+        if (exact.error > 1e-11) continue;  // lines too sharp for it to resolve
         for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-10}) {
             for (const std::size_t count : {0U, 1U, 3U}) {
                 const StackColor got =
@@ -179,7 +179,7 @@ TEST_CASE("a spread damps every order by its own path", "[film_color]") {
             CAPTURE(oracle::text_of(stack), sigma, angle, got.error);
             CHECK(difference(got.xyz, quadrature(stack, angle, side, 1e-10).xyz) <=
                   got.error + 1e-10);
-            // six standard deviations above zero nothing is cut
+            // six standard deviations above zero, nothing is cut off
             CHECK(got.error <= 2e-9);
         }
     }
@@ -211,7 +211,7 @@ TEST_CASE("an angle without a series is refused, and auto does without it", "[fi
     for (std::size_t i = 0; i < angles.size(); ++i)
         CHECK(difference(by_auto[i].xyz, quadrature(stack, angles[i], Side::reflected, 1e-9).xyz) <
               1e-6);
-    // fringes past the end of the table are left out, and counted
+    // fringes past the end of the table are left out but counted
     const Stack thick = one_film(1.5, 1e9, 2.5);
     CHECK(color(thick, 0).error < 1e-6);  // even their bound is small
     CHECK(color(one_film(1.5, 2.5e5, {0.05, 5}), 0, {.tolerance = 1e-9}).error > 1e-9);

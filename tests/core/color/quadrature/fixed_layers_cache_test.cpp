@@ -30,16 +30,16 @@ TEST_CASE("stored layers are found again until others need the room") {
     const FixedLayers* kept = cache.add(*one, second, layers_of(60, 1));
     REQUIRE(kept);
     CHECK(kept->numbers == std::vector<double>(60, 1));
-    // what is there already stays
+    // existing entries stay
     CHECK(cache.add(*one, second, layers_of(60, 2)) == kept);
-    // an angle does not make room for itself
+    // an angle is not evicted to make room for itself
     CHECK(cache.add(*one, first, layers_of(41, 3)) == nullptr);
     CHECK(cache.add(*one, first, layers_of(10, 3)) != nullptr);
     cache.find(*cache.at(0.5), both, found);
     CHECK(found[1] == kept);
     CHECK(found[0]->numbers.size() == 10);
 
-    // 70 are taken: the angle that was asked for last but one goes
+    // 70 are taken: the least recently used angle goes
     const auto two = cache.at(0.6);
     CHECK(cache.add(*two, first, layers_of(30, 4)) != nullptr);
     cache.at(0.5);
@@ -51,7 +51,7 @@ TEST_CASE("stored layers are found again until others need the room") {
     cache.find(*cache.at(0.6), both, found);
     CHECK(found[0] == nullptr);
 
-    // what is held stays
+    // entries in use stay
     CHECK(cache.add(*three, second, layers_of(70, 7)) != nullptr);
     CHECK_FALSE(one->is_kept);
     CHECK(kept->numbers == std::vector<double>(60, 1));

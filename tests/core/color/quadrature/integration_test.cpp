@@ -91,7 +91,7 @@ TEST_CASE("a line is found by halving the panels around it") {
 }
 
 TEST_CASE("a spectrum that cannot be resolved says so, and ends") {
-    // 2e5 turns over the visible, and a step in every nm
+    // 2e5 periods over the visible range, and a step in every nm
     const auto fringes = [](double nm) { return 0.5 + 0.5 * std::cos(1e9 / nm); };
     const auto steps = [](double nm) { return std::fmod(nm * 7.3, 1.0); };
     for (const std::size_t limit : {std::size_t{2000}, std::size_t{20000}}) {
@@ -99,7 +99,7 @@ TEST_CASE("a spectrum that cannot be resolved says so, and ends") {
         for (const auto& result : {integrate(limits, fringes), integrate(limits, steps)}) {
             CHECK(result.error > 1e-6);
             CHECK(result.evaluations >= limit);
-            // what was begun is ended: all panels of one round
+            // a round once begun is completed with all of its panels
             CHECK(result.evaluations < 4 * limit);
         }
     }

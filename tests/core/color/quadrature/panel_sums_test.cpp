@@ -32,7 +32,7 @@ TEST_CASE("row sums are those of a plain loop") {
                     double sum = 0;
                     for (std::size_t j = 0; j < stride; ++j)
                         sum += row[r * stride + j] * (values[j] - 0.25);
-                    CHECK(std::abs(sums[r] - sum) < 1e-14);  // roundings in another order
+                    CHECK(std::abs(sums[r] - sum) < 1e-14);  // summed in another order
                 }
             }
         }
@@ -66,7 +66,7 @@ TEST_CASE("the steepest logarithmic slope between neighbours") {
 }
 
 TEST_CASE("the steepness bounds the logarithmic slope, however a function is scaled") {
-    // D = exp(sum of a few terms) has D'/D at hand; its scale is shared out at random
+    // D = exp(sum of a few terms), for which D'/D is known; its scale is distributed at random
     Random random(5);
     constexpr std::size_t count = 33, stride = 40;
     for (int run = 0; run < 500; ++run) {

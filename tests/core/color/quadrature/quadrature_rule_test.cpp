@@ -62,7 +62,7 @@ TEST_CASE("the error of a rule bounds that of fringes and of poles off the panel
             const auto exact = sums_of(fine, f), sums = sums_of(rule, f);
             const Triple error = rule.error(sums, 0);
             for (std::size_t c = 0; c < 3; ++c)
-                CHECK(std::abs(sums[c] - exact[c]) <= error[c] + 1e-14);  // roundings
+                CHECK(std::abs(sums[c] - exact[c]) <= error[c] + 1e-14);  // rounding
         };
         for (const double turn : {0.3, 2.0, 7.0, 15.0, 25.0})
             for (const double phase : {0.0, 1.0, 1.5707})

@@ -16,7 +16,7 @@ const Sensitivity& d65() {
     return sensitivity;
 }
 
-/// A film whose n and k have rows every `step_nm`, more or less.
+/// A film whose n and k have rows roughly every `step_nm`.
 Stack film_of_rows(double step_nm, double noise, Random& random) {
     Table n, k;
     for (double nm = 350; nm < 850; nm += step_nm * random.uniform(0.7, 1.3)) {
@@ -59,7 +59,7 @@ TEST_CASE("fitted indices lose no more of the colour than they say") {
         for (std::size_t end = 0; end < 2; ++end)
             CHECK(std::abs(exact.index(film, end) - smooth.index(film, end)) < 1e-14);
         CHECK_FALSE(smooth.amplifies()[film]);
-        // what functions of the wavelength like dR/dn, at most 1, lose to n
+        // error in functions of the wavelength like dR/dn, at most 1, caused by that of n
         for (const double turns : {0.0, 0.5, 1.5}) {
             Triple lost{};
             for (std::size_t w = 2; w < wavelengths.size(); ++w) {
@@ -74,7 +74,7 @@ TEST_CASE("fitted indices lose no more of the colour than they say") {
             const IndexFit::Error error = fit->errors(1, 0).front();
             CAPTURE(run, panel.first_nm, panel.last_nm, turns);
             for (std::size_t c = 0; c < 3; ++c)
-                CHECK(std::abs(lost[c]) <= error.first[c] + 1e-8);  // of the sum over 4000
+                CHECK(std::abs(lost[c]) <= error.first[c] + 1e-8);  // for the sum over 4000
         }
     }
 }

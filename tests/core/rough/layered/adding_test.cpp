@@ -56,8 +56,8 @@ TEST_CASE("adding meets the closed form of one layer over a base", "[rough][laye
     }
 }
 
-// A Monte-Carlo simulation of 600,000 paths that samples a facet at every crossing; beside each
-// value one standard error.
+// A Monte Carlo simulation of 600,000 paths that samples a facet at every crossing; each value is
+// followed by its standard error.
 TEST_CASE("adding meets a simulation of coated and of two layers", "[rough][layered][slow]") {
     const std::vector<double> nm{450, 550, 650}, theta{30};
     const std::vector<ScatterPair> pairs{{30, 30, 180}, {30, 30, 0}, {30, 60, 90}, {30, 70, 180}};
@@ -102,7 +102,7 @@ TEST_CASE("all paths are reciprocal and keep energy", "[rough][layered][slow]") 
         for (const double a : albedo_of(scattering, {0, 50, 85}, {500}, 1e-3).values)
             CHECK(a <= 1.001);
     }
-    // nothing is lost between a coating and a white base
+    // no light is lost between a coating and a white base
     const LayeredScattering white(surface_of(R"({"inside": 1.5, "base": {"albedo": 1},
         "layers": [{"stack": "1.5 | 1.5", "alpha": 1e-3}]})"),
                                   Crossings::multiple, Execution(0));

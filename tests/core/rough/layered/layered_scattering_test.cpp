@@ -26,12 +26,18 @@ LayeredScattering scattering_of(const std::string& json, Crossings crossings = C
     return {surface_of(json), crossings, Execution(1)};
 }
 
-/// The albedo as the sum of a BRDF over the hemisphere outside, and the coating's mirror.
+/// The albedo as the integral of a BRDF over the hemisphere outside, plus the coating's mirror
+/// reflection.
+///   scattering  the surface
+///   theta_deg   angle of incidence, degrees
+///   nm          wavelength
+///   paths       which paths to include
 double by_hemisphere(const LayeredScattering& scattering, double theta_deg, double nm,
                      Paths paths) {
     std::vector<ScatterPair> pairs;
     std::vector<double> weights;
-    // theta in panels, the root of the distance to grazing; phi in panels that meet at the peak
+    // theta in panels of the square root of the distance to grazing; phi in panels that meet at the
+    // peak
     for (const double end : {1.0, 0.75, 0.5, 0.25})
         for (const GaussNode& v : gauss_legendre<20>()) {
             const double at = end - 0.25 + 0.125 * (1 + v.x);
@@ -60,7 +66,7 @@ const char* const kTwoLayers = R"({"layers": [
 
 }  // namespace
 
-// FPB24 eq. 34 with f_t cos in the place of f_t, and the closed form of all paths, in 30 digits.
+// FPB24 eq. 34 with f_t cos instead of f_t, and the closed form of all paths, in 30 digits.
 TEST_CASE("BRDFs of figures 1 and 7", "[rough][layered]") {
     const std::vector<double> nm{450, 550, 650};
     const std::vector<ScatterPair> pairs{{0, 0, 0}, {30, 30, 180}, {30, 30, 0}};
@@ -145,7 +151,7 @@ TEST_CASE("BRDFs are reciprocal", "[rough][layered]") {
     }
 }
 
-// The integral over facets against the one over directions outside.
+// The integral over facets compared with that over directions outside.
 TEST_CASE("albedos are hemispherical integrals of the BRDF", "[rough][layered][slow]") {
     Random random(5);
     for (int i = 0; i < 12; ++i) {
@@ -165,11 +171,11 @@ TEST_CASE("albedos are hemispherical integrals of the BRDF", "[rough][layered][s
 
 TEST_CASE("a white furnace", "[rough][layered]") {
     const std::vector<double> theta{0, 40, 80};
-    // a base that loses nothing under a smooth coating: all light comes out again
+    // a lossless base under a smooth coating: all light comes out again
     for (const double a : scattering_of(R"({"inside": 1.5, "base": {"albedo": 1}})")
                               .albedo(theta, {550}, Paths::all))
         CHECK_THAT(a, WithinAbs(1, 1e-8));
-    // facets lose what they mask
+    // light masked by facets is lost
     const std::string film = R"({"layers": [{"stack": "1 | 2.2@100 | 1", "alpha": ALPHA}],
                                "base": {"albedo": 1}})";
     for (const auto& [alpha, lost] : {std::pair("0.001", 0.01), {"0.1", 0.15}, {"0.8", 1.0}}) {
@@ -207,7 +213,7 @@ TEST_CASE("smooth facets are mirrors, and layers that are not there only mask",
 
 TEST_CASE("straight light that crosses several facets", "[rough][layered]") {
     const std::vector<double> theta{0, 45, 80, 89};
-    // where every facet lets all through, all goes on
+    // where every facet transmits everything, all light goes on
     const LayeredScattering nothing =
         scattering_of(R"({"layers": [{"stack": "1 | 1", "alpha": 0.5}]})", Crossings::multiple);
     for (const double tau : nothing.straight(0, theta, {550})) CHECK_THAT(tau, WithinRel(1, 1e-11));
@@ -250,7 +256,7 @@ TEST_CASE("opaque mirrors, absorbers and a billion periods", "[rough][layered]")
 TEST_CASE("colours are integrals of the spectra", "[rough][layered][slow]") {
     const ColorTables tables(Sensitivity(observer(2), {{540, 600}, {1, 2}}));
     const Sensitivity& sensitivity = tables.sensitivity();
-    std::vector<double> nm;  // Simpson's rule from row to row of the sensitivity
+    std::vector<double> nm;  // Simpson's rule between rows of the sensitivity
     for (double at = 540; at <= 600; at += 0.5) nm.push_back(at);
     const auto integrated = [&](std::span<const double> spectrum) {
         Triple xyz{};

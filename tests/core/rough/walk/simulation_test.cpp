@@ -18,8 +18,8 @@ namespace {
 
 const std::vector<double> kNm{450, 550, 650};
 
-/// The largest distance between simulated values and expected ones in standard errors, with
-/// `relative` of the values allowed besides.
+/// The largest deviation of simulated values from expected ones, in standard errors, after allowing
+/// for a `relative` error.
 double distance(const LayeredSimulation::Values& got, const std::vector<double>& expected,
                 double relative) {
     double largest = 0;
@@ -37,7 +37,7 @@ std::vector<double> sum_of(std::vector<double> once, const std::vector<double>& 
 
 }  // namespace
 
-// Paths that know nothing of the filter, of adding or of the integrals over facets.
+// The simulation shares nothing with the filter, with adding or with the integrals over facets.
 TEST_CASE("simulations of random surfaces meet the formulas", "[rough][simulation][slow]") {
     // IRIDO_TEST_STRUCTURES: how many
     const char* const many = std::getenv("IRIDO_TEST_STRUCTURES");

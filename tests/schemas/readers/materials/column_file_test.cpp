@@ -95,7 +95,7 @@ TEST_CASE("CSV spectrum", "[csv]") {
           "s.csv: 2:5: the value must be in [0, 1e+30] (got -1)");
     CHECK(spectrum_error("400,0\n500,0\n") ==
           "s.csv: the largest value must be at least 1e-30 (got 0)");
-    // the header's unit, any order, and what is no spectrum of wavelengths
+    // the header's unit, any order, and tables that are not spectra over wavelength
     CHECK(read_spectrum_csv("um,value\n0.5,2.5\n0.4,1\n", "s.csv") == Table{{400, 500}, {1, 2.5}});
     CHECK(read_spectrum_csv("Wavelength (A);W/m2\n4000;2,5\n5000;1,5\n", "s.csv") ==
           Table{{400, 500}, {2.5, 1.5}});

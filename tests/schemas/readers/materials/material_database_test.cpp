@@ -1,5 +1,5 @@
-// Every data file of a copy of the refractiveindex.info database, read and compared with another
-// reading of the same text: IRIDO_TEST_DATABASE names the folder.
+// Reads every data file of a copy of the refractiveindex.info database and compares it with an
+// independent parser of the same text: IRIDO_TEST_DATABASE names the folder.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,7 +21,7 @@ using namespace irido::schemas;
 
 namespace {
 
-/// An item of DATA, as its lines say it; wavelengths in um.
+/// An item of DATA, taken literally from its lines; wavelengths in um.
 struct Item {
     std::string type;
     std::vector<long double> coefficients, range;
@@ -41,7 +41,7 @@ std::vector<long double> numbers(const std::string& line) {
     return result;
 }
 
-/// Reads line by line what is below the top-level key DATA.
+/// Reads the lines below the top-level key DATA.
 Text read_lines(const std::string& text) {
     Text result;
     std::istringstream lines(text);
@@ -79,7 +79,7 @@ Text read_lines(const std::string& text) {
     return result;
 }
 
-/// n of a formula at L um, each term written out as the database's sheet does.
+/// n from a formula at L um, with each term written out as on the database's definition sheet.
 long double formula(const Item& item, long double L) {
     const auto c = [&](std::size_t i) {
         return i <= item.coefficients.size() ? item.coefficients[i - 1] : 0.0L;
@@ -126,7 +126,7 @@ long double formula(const Item& item, long double L) {
     }
 }
 
-/// Ciddor's air of 15 C, as dense as at another temperature.
+/// Ciddor's air at 15 C, scaled to the density at another temperature.
 long double air(long double um, long double celsius) {
     const long double s2 = 1 / std::pow(std::clamp(um, 0.23L, 1.69L), 2.0L);
     return 1 + (0.05792105L / (238.0185L - s2) + 0.00167917L / (57.362L - s2)) * 288.15L /
@@ -139,7 +139,7 @@ long double vacuum_of(long double um, long double celsius) {
     return vacuum;
 }
 
-/// The mean of the rows at one wavelength.
+/// The mean of the rows at the same wavelength.
 long double mean_at(const Item& item, long double um, std::size_t value) {
     long double sum = 0;
     int count = 0;
@@ -154,11 +154,11 @@ long double mean_at(const Item& item, long double um, std::size_t value) {
 struct Tally {
     std::size_t files = 0, read = 0, points = 0, in_air = 0, without_k = 0, part_of_k = 0;
     double largest = 0, largest_in_air = 0;
-    std::map<std::string, std::vector<std::string>> refused;  ///< files by what is wrong
+    std::map<std::string, std::vector<std::string>> refused;  ///< files by error
     std::vector<std::string> wrong;
 };
 
-/// Checks n or k of the first item that gives it at the points that the file stores.
+/// Checks n or k of the first item that has it, at the points stored in the file.
 void compare(const std::string& path, const Text& text, const Material& material, Tally& tally) {
     bool has[2] = {false, false};
     for (const Item& item : text.items) {
@@ -188,7 +188,7 @@ void compare(const std::string& path, const Text& text, const Material& material
                 try {
                     index = index_at(material, static_cast<double>(1000 * vacuum));
                 } catch (const std::exception&) {
-                    continue;  // outside the other's range, or no index: refused where it is used
+                    continue;  // out of the other's range, or no index: refused when used
                 }
                 ++tally.points;
                 const double got = part == 0 ? index.real() : index.imag();
@@ -204,7 +204,7 @@ void compare(const std::string& path, const Text& text, const Material& material
     }
 }
 
-/// A message without what differs from file to file.
+/// A message without the parts that differ from file to file.
 std::string rule_of(const InputError& error) {
     std::string rule;
     for (const char c : error.message)

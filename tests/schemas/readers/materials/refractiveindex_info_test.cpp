@@ -201,7 +201,7 @@ TEST_CASE("what says that it is absolute is not converted", "[rii]") {
         "PROPERTIES:\n    glass_code: 517642.251\n";
     CHECK(index_at(read("DATA:\n" + kFormulaN + absolute).material, 500) ==
           index_at(read("DATA:\n" + kFormulaN).material, 500));
-    // each by itself: at 22 C
+    // each on its own: at 22 C
     const std::string index_only = "SPECS:\n    n_is_absolute: false\n    temperature: 22 C\n";
     CHECK_THAT(index_at(read("DATA:\n" + kFormulaN + index_only).material, 500).real(),
                WithinAbs((1.5 + 0.004 / 0.25) * index_of_air(500, 22), 1e-15));

@@ -9,7 +9,7 @@ using namespace irido::test;
 TEST_CASE("exr names its channels as its readers want them", "[tables][lut]") {
     const auto has_channel = [](std::size_t channels, const char* name) {
         const std::string bytes = files_of(sample_lut(LutType::f16, channels, {2, 2}), "exr").bytes;
-        // an entry of the list of channels: name, NUL, type 1 (half), ...
+        // an entry in the list of channels: name, NUL, type 1 (half), ...
         return bytes.find(std::string(name) + std::string("\0\1\0\0\0", 5)) != std::string::npos;
     };
     CHECK(has_channel(1, "Y"));

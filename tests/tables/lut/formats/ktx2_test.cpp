@@ -139,7 +139,7 @@ TEST_CASE("one sample along a third axis is no depth", "[tables][lut]") {
     CHECK(u32_at(plain, 32) == 0);
     CHECK(plain.find(std::string("KTXorientation\0rd\0", 18)) != std::string::npos);
     CHECK(find_lut_format("ktx2")->read(plain, "").values == lut.values);
-    const std::string layers = files_of(lut, "ktx2", {false, true}).bytes;  // asked for
+    const std::string layers = files_of(lut, "ktx2", {false, true}).bytes;  // requested
     CHECK(u32_at(layers, 28) == 0);
     CHECK(u32_at(layers, 32) == 1);
 }
