@@ -22,7 +22,7 @@ struct DesignRows {
 };
 
 /// A problem prepared for repeated evaluation on one thread. Non-integer values are differentiated
-/// in closed form (layer_slopes.hpp), except for delays, for stacks with incoherent layers or
+/// in closed form (layer_slopes.hpp), except for delays, for absorbing incoherent layers,
 /// thickness distributions, and for Rebuilt values, which use finite differences.
 class DesignModel {
 public:
