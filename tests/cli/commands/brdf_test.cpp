@@ -131,7 +131,7 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     };
     refuse({kMirror}, "a stack requires --alpha");
     refuse({kMirror, "--alpha", "2"}, "--alpha: must be in [1e-04, 1] (got 2)");
-    refuse({kPale, "--alpha", "0.1"}, "--alpha is for stacks");
+    refuse({kPale, "--alpha", "0.1"}, "--alpha applies to stacks only");
     refuse({kPale, "--view-theta", "91"}, "--view-theta: must be in [0, 90] (got 91)");
     refuse({kPale, "--light-theta", "nan"}, "--light-theta");
     refuse({kPale, "--quantity", "colour"}, "--quantity: must be one of brdf, albedo");
@@ -140,11 +140,11 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");
     refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e+12]");
     refuse({kPale, "--paths", "simulation", "--facets", "none"}, "--facets: must be one of");
-    refuse({kPale, "--paths", "simulation", "--color"}, "--color: takes --paths single or all");
-    refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "takes --quantity brdf");
+    refuse({kPale, "--paths", "simulation", "--color"}, "--color: requires --paths single or all");
+    refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "requires --quantity brdf");
     refuse({kPale, "--transmission", "no"}, "--transmission: must be one of single, multiple");
     refuse({kPale, "--color", "--quantity", "sampling"},
-           "--color: takes --quantity brdf or albedo");
+           "--color: requires --quantity brdf or albedo");
     refuse({kPale, "--view-theta", "0:90:0.001", "--light-theta", "0:90:0.001"}, "at most 1e7");
     refuse({"schemas/examples/surfaces/blue-over-red.json", "--set", "layers.1.alpha=0"},
            "/layers/1/alpha: must be in [1e-4, 1] (got 0)");
