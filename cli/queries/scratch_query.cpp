@@ -50,6 +50,10 @@ public:
         if (!query.samples.empty() || !query.facets.empty() || query.scatterogram)
             throw UsageError(
                 "--samples, --facets and --scatterogram apply to layered surfaces only");
+        if (!query.shard.empty() || !query.merge.empty())
+            throw UsageError("--shard and --merge apply to simulations of layered surfaces only");
+        if (query.color.sides != "R" || query.color.method != "auto")
+            throw UsageError("--side and --method apply to layered surfaces only");
         if (!query.seed.empty())
             throw UsageError("--seed: is of simulations; --set seed=N is of fields of scratches");
         if (sum_.kind == ScratchSum::Kind::ensemble && surface.fields.empty())

@@ -381,22 +381,6 @@ std::vector<double> LayeredScattering::straight(std::size_t layer,
     return values;
 }
 
-std::vector<double> LayeredScattering::straight_of_all(std::span<const double> theta_deg,
-                                                       const std::vector<double>& wavelength_nm,
-                                                       unsigned threads) const {
-    const std::size_t angles = theta_deg.size(), W = wavelength_nm.size(), L = layers_.size();
-    std::vector<double> all(angles * W * L);
-    for (std::size_t l = 0; l < L; ++l) {
-        layers_[l]->facets().prepare(wavelength_nm, threads);
-        parallel_for(angles, threads, [&](std::size_t i) {
-            const std::vector<double> tau =
-                layers_[l]->straight(theta_deg[i], wavelength_nm, crossings_);
-            for (std::size_t w = 0; w < W; ++w) all[(w * L + l) * angles + i] = tau[w];
-        });
-    }
-    return all;
-}
-
 double LayeredScattering::passing(std::size_t layer, double theta_deg, double straight) const {
     const double G1 = smith_masking(layers_[layer]->alpha(), cos_of_incidence(theta_deg));
     return std::min(1.0, 2 * straight / (1 + G1));

@@ -32,19 +32,9 @@ void require_albedo(const LutRequest& request) {
         if (side != Side::reflected) throw DomainError("side must be R for albedo (got T)");
 }
 
-LutPlan plan(const LutRequest& request) {
-    require_albedo(request);
-    constexpr std::size_t kCount = 32;
-    LutPlan plan;
-    plan.axes.push_back(
-        listed_axis(request, "cos-theta", {"cos_theta", "", equally_spaced(0, 1, kCount)}));
-    plan.axes.push_back(listed_axis(request, "alpha", {"alpha", "", equally_spaced(0, 1, kCount)}));
-    for (const double value : plan.axes[0].axis.values) require_in_range("cos_theta", value, 0, 1);
-    for (const double value : plan.axes[1].axis.values)
-        if (value != 0) require_in_range("alpha", value, kSmoothest, kRoughest);
-    plan.channels = color_channels(request);
+LutPlan::Evaluate function_of(const LutRequest& request) {
     const auto source = std::make_shared<const Source>(request);
-    plan.evaluate = [source](const std::vector<LutAxis>& axes) {
+    return [source](const std::vector<LutAxis>& axes) {
         const std::size_t alphas = axes[1].count();
         std::vector<double> values(axes[0].count() * alphas * 3);
         for (std::size_t a = 0; a < alphas; ++a) {
@@ -61,6 +51,21 @@ LutPlan plan(const LutRequest& request) {
         }
         return values;
     };
+}
+
+LutPlan plan(const LutRequest& request) {
+    require_albedo(request);
+    constexpr std::size_t kCount = 32;
+    LutPlan plan;
+    plan.axes.push_back(
+        listed_axis(request, "cos-theta", {"cos_theta", "", equally_spaced(0, 1, kCount)}));
+    plan.axes.push_back(listed_axis(request, "alpha", {"alpha", "", equally_spaced(0, 1, kCount)}));
+    for (const double value : plan.axes[0].axis.values) require_in_range("cos_theta", value, 0, 1);
+    for (const double value : plan.axes[1].axis.values)
+        if (value != 0) require_in_range("alpha", value, kSmoothest, kRoughest);
+    plan.channels = color_channels(request);
+    plan.evaluate = function_of(request);
+    plan.roughly = [request](double error) { return function_of(rougher(request, error)); };
     plan.measure = color_measure(request);
     plan.facts = color_facts(request);
     return plan;
