@@ -95,9 +95,9 @@ bool wants_transmission(const SurfaceQuery& query) {
 /// The only layer of a surface whose light is refracted into its substrate. Throws UsageError.
 const RoughLayer& refracting_layer(const LayeredSurface& surface, const SurfaceQuery& query) {
     if (query.quantity != "brdf")
-        throw UsageError("--side T: takes --quantity brdf (got " + query.quantity + ")");
+        throw UsageError("--side T: requires --quantity brdf (got '" + query.quantity + "')");
     if (query.paths != "single")
-        throw UsageError("--side T: takes --paths single (got " + query.paths + ")");
+        throw UsageError("--side T: requires --paths single (got '" + query.paths + "')");
     if (surface.is_coated() || surface.layers.size() != 1)
         throw UsageError("--side T: takes one rough layer without a coating");
     if (surface.layers.front().is_passable)
@@ -147,7 +147,7 @@ SurfaceRows simulated_colors(const LayeredSurface& surface,
     const Crossings crossings = parse_crossings(query.transmission);
     const SimulationPlan plan = parse_simulation(query, crossings);
     if (query.color.method != "auto")
-        throw UsageError("--method: takes --paths single or all (got " + query.paths + ")");
+        throw UsageError("--method: requires --paths single or all (got '" + query.paths + "')");
     const ColorColumns columns(query.color);
     const Sensitivity& sensitivity = columns.illumination().tables.sensitivity();
     report_held_layers(surface, document, sensitivity, query);
@@ -158,7 +158,8 @@ SurfaceRows simulated_colors(const LayeredSurface& surface,
     LayeredSimulation simulation(scattering, plan.request, rule.wavelength_nm, query.execution);
     const bool is_brdf = query.quantity == "brdf";
     if (!is_brdf && query.quantity != "albedo")
-        throw UsageError("--color: takes --quantity brdf or albedo (got " + query.quantity + ")");
+        throw UsageError("--color: requires --quantity brdf or albedo (got '" + query.quantity +
+                         "')");
     LayeredSimulation::ColorWeights weights = rule.weight;
     for (std::size_t c = 0; c < 3; ++c) {
         double light = 0;

@@ -75,7 +75,7 @@ TEST_CASE("an output that is one of the inputs is refused, whatever it is called
              "view s.json -f html -o hard.csv",
              "render s.json --size 8,8 -f png -o s.json",
              "profile s.json -w 550 -o glass.csv",
-             "compare s.json --engine gltf --set layers.0.material=1.3 -o hard.csv",
+             "compare s.json --quiet --engine gltf --set layers.0.material=1.3 -o hard.csv",
              "design s.json --free layers.0.thickness_nm=50:150 --target 'R 500 = 0' -o s.json",
              "brdf s.json --alpha 0.1 -w 550 -o glass.csv",
              "convert s.json -o hard.csv",

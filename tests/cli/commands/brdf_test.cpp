@@ -196,7 +196,7 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     };
     refuse({kMirror}, "a stack requires --alpha");
     refuse({kMirror, "--alpha", "2"}, "--alpha: must be in [1e-04, 1] (got 2)");
-    refuse({kPale, "--alpha", "0.1"}, "--alpha is for stacks");
+    refuse({kPale, "--alpha", "0.1"}, "--alpha applies to stacks only");
     refuse({kPale, "--view-theta", "91"}, "--view-theta: must be in [0, 90] (got 91)");
     refuse({kPale, "--light-theta", "nan"}, "--light-theta");
     refuse({kPale, "--quantity", "colour"}, "--quantity: must be one of brdf, albedo");
@@ -205,7 +205,8 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");
     refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e+12]");
     refuse({kPale, "--paths", "simulation", "--facets", "none"}, "--facets: must be one of");
-    refuse({kPale, "--paths", "simulation", "--color", "--method", "naive"}, "--method: takes");
+    refuse({kPale, "--paths", "simulation", "--color", "--method", "naive"},
+           "--method: requires --paths single or all");
     refuse({kPale, "--paths", "simulation", "--samples", "10", "--tolerance", "0.1"},
            "--tolerance: a simulation takes it instead of --samples");
     refuse({kPale, "--paths", "simulation", "--shard", "3/2"}, "--shard: must be");
@@ -221,10 +222,10 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     const TemporaryFolder many;
     write_text(many / "s.json", R"({"layers": [)" + layers + "]}");
     refuse({many / "s.json"}, "/layers");
-    refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "takes --quantity brdf");
+    refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "requires --quantity brdf");
     refuse({kPale, "--transmission", "no"}, "--transmission: must be one of single, multiple");
     refuse({kPale, "--color", "--quantity", "sampling"},
-           "--color: takes --quantity brdf or albedo");
+           "--color: requires --quantity brdf or albedo");
     refuse({kPale, "--view-theta", "0:90:0.001", "--light-theta", "0:90:0.001"}, "at most 1e7");
     refuse({"schemas/examples/surfaces/blue-over-red.json", "--set", "layers.1.alpha=0"},
            "/layers/1/alpha: must be in [1e-4, 1] (got 0)");

@@ -321,7 +321,7 @@ TEST_CASE("compare holds a table of colours against the exact ones", "[cli][comp
     // for a different stack
     CHECK(number(compared({"--lut", file, "air | 1.5@400 | 1.9+1.5i", "--random", "50"})[1][1]) >
           2);
-    check_refused(compare({"--lut", file, "--fit"}), "--lut: takes a STACK");
+    check_refused(compare({"--lut", file, "--fit"}), "--lut: can be combined with STACK");
     const std::string other = folder / "other.csv";
     REQUIRE(run_irido({"lut", "cumulative", "-o", other, "--quiet"}).status == 0);
     check_refused(compare({"--lut", other}), "must be a table of kind color");

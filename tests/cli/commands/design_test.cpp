@@ -143,14 +143,14 @@ TEST_CASE("tasks that cannot be are refused in one line", "[cli][design]") {
     refuse({kCoating, "--free", "layers.*.thickness_nm"},
            "must have the key \"targets\", or come with --target");
     refuse({kCoating, "--free", "layers.9.thickness_nm=0:1", "--target", "R 500 = 0"},
-           "/free/0/path: fits no number in the stack");
+           "/free/0/path: matches no number in the stack");
     refuse({kCoating, "--free", "layers.0.thickness_nm=9:1", "--target", "R 500 = 0"},
            "/free/0/bounds: the first must not be above the second");
     refuse({kCoating, "--free", "layers.0.thickness_nm=-9:1", "--target", "R 500 = 0"},
            "/free/0/bounds: must be in [0, 1e+09]");
     refuse({kCoating, "--free", "layers.0.thickness_nm", "--free", "layers.0.thickness_nm",
             "--target", "R 500 = 0"},
-           "is free twice");
+           "is already free");
     refuse({kCoating, "--free", "layers.0.thickness_nm", "--method", "global", "--target",
             "R 500 = 0"},
            "method global requires bounds");
@@ -219,7 +219,7 @@ TEST_CASE("shards are other runs, and the best of them is kept", "[cli][design]"
         check_refused(run_irido({"design", "--merge", folder / "odd.json"}),
                       "odd.json: /design: must be the result of a search");
     }
-    check_refused(run_irido({"design", kCoating, "--free", "layers.0.thickness_nm=1:9", "--target",
-                             "R 500 = 0", "--report", "-"}),
+    check_refused(run_irido({"design", kCoating, "--free", "layers.0.thickness_nm=1:900",
+                             "--target", "R 500 = 0", "--report", "-"}),
                   "--report: must have an extension");
 }

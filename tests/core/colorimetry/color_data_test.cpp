@@ -185,6 +185,6 @@ TEST_CASE("an unknown illuminant is refused with the names", "[color]") {
     for (const char* name : {"", "d65", "D55", "D65 "}) {
         CHECK_THROWS_AS(illuminant(name), DomainError);
         CHECK_THROWS_WITH(illuminant(name), Contains("D65, D50, A, E, FL2, FL11") &&
-                                                Contains("got " + std::string(name) + ")"));
+                                                Contains("(got '" + std::string(name) + "')"));
     }
 }

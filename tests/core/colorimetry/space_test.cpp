@@ -305,7 +305,7 @@ TEST_CASE("unknown spaces and impossible whites are refused", "[color]") {
     for (const char* name : {"", "sRGB", "adobe-rgb"}) {
         CHECK_THROWS_AS(rgb_space(name), DomainError);
         CHECK_THROWS_WITH(rgb_space(name), Contains("srgb, rec2020, display-p3, acescg, xyz") &&
-                                               Contains("got " + std::string(name) + ")"));
+                                               Contains("(got '" + std::string(name) + "')"));
     }
     const RgbSpace& srgb = rgb_space("srgb");
     const auto adapted = [&](const Triple& under) {
