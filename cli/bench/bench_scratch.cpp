@@ -335,6 +335,7 @@ void add_fields(std::vector<ScratchBenchRow>& rows, const Sensitivity& sensitivi
             const double tx = cos_deg(scratch.angle_deg), ty = sin_deg(scratch.angle_deg);
             const double blur = sigma * std::abs(x * tx + y * ty);
             if (kTwoPi * blur > kDark * kLongest_um) continue;
+            if (distance_um(scratch, footprint.center) > kReach_um) continue;
             const FootprintFrame frame = frame_of(footprint, scratch);
             const double weight = ellipse_mean_by_points(frame.offset_um / sigma,
                                                          frame.across_um / sigma, kFootprintPoints);

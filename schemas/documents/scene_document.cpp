@@ -19,12 +19,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<Shading, std::string_view>, 6> kShadings{
+constexpr std::array<std::pair<Shading, std::string_view>, 7> kShadings{
     {{Shading::color, "color"},
      {Shading::fourier, "fourier"},
      {Shading::bragg, "bragg"},
      {Shading::rough_layers, "rough-layers"},
      {Shading::albedo, "albedo"},
+     {Shading::facets, "facets"},
      {Shading::scratches, "scratches"}}};
 
 Shading shading_of(std::string_view name) {
@@ -97,7 +98,7 @@ private:
         result.pointer = pointer;
         result.shading = object.contains("shading")
                              ? shading_of(object["shading"].get<std::string>())
-                             : Shading::scratches;
+                             : Shading::scratches;  // or facets, as the surface is
         refuse_foreign(result, object);
         result.has_angles = object.contains("angles_deg");
         if (result.has_angles) result.angles_deg = range(result, object, "angles_deg");
@@ -110,7 +111,7 @@ private:
                 result.vary.push_back({path, ascending(result, range_of(value),
                                                        pointer + "/vary" + pointer_step(path))});
         if (object.contains("surface")) {
-            read_scratches(result, object);
+            read_surface_of(result, object);
             return result;
         }
         try {
@@ -140,41 +141,69 @@ private:
         else
             for (const char* const key : kOfSurfaces)
                 refuse(key, "requires a \"surface\" with scratches");
-        if (has_surface != (material.shading == Shading::scratches))
-            refuse("shading", has_surface ? "must be scratches for a \"surface\""
-                                          : "scratches requires a \"surface\" with scratches");
+        if (!has_surface && material.shading == Shading::scratches)
+            refuse("shading", "scratches requires a \"surface\" with scratches");
     }
 
-    void read_scratches(SceneMaterial& material, const json& object) {
+    void read_surface_of(SceneMaterial& material, const json& object) {
         const std::string pointer = material.pointer + "/surface";
-        SceneScratches scratches;
-        if (object.contains("extent_um"))
-            scratches.extent_um = object["extent_um"].get<std::array<double, 2>>();
-        scratches.footprint_um = object.value("footprint_um", scratches.footprint_um);
         try {
             const StackSource source = inner_stack(object["surface"], pointer, folder_);
             if (!is_surface(source.document))
-                throw InputError("", pointer,
-                                 "must be a surface with scratches (a stack goes into \"stack\")");
+                throw InputError("", pointer, "must be a surface (a stack goes into \"stack\")");
             for (const std::string& line :
                  surface_problems(source.document, source.file, source.folder))
                 material.faults.push_back(fault_of_line(pointer, line));
             if (!material.faults.empty()) return;
             const SurfaceDocument read = read_surface(source.document, source.file, source.folder);
-            const auto* const scratched = std::get_if<ScratchedSurface>(&read.surface);
-            if (!scratched)
-                throw InputError("", pointer, "must be a surface with scratches (got layers)");
             for (const std::string& note : read.notes)
                 scene_.notes.push_back(material.name + ": " + note);
-            scratches.surface = *scratched;
-            material.scratches = std::move(scratches);
-            if (!source.document.contains("base")) return;
-            material.source =
-                inner_stack(source.document["base"], pointer + "/base", source.folder);
-            material.document = read_source(material.source);
+            const bool is_scratched = std::holds_alternative<ScratchedSurface>(read.surface);
+            if (object.contains("shading") &&
+                material.shading != (is_scratched ? Shading::scratches : Shading::facets))
+                throw InputError("", material.pointer + "/shading",
+                                 std::string("must be ") + (is_scratched ? "scratches" : "facets") +
+                                     " for this surface");
+            if (is_scratched)
+                set_scratches(material, object, std::get<ScratchedSurface>(read.surface), source);
+            else
+                set_facets(material, object, std::get<LayeredSurface>(read.surface), source);
         } catch (const std::exception& error) {
             material.faults.push_back(fault_of(material, error));
         }
+    }
+
+    static void set_scratches(SceneMaterial& material, const json& object,
+                              const ScratchedSurface& surface, const StackSource& source) {
+        SceneScratches scratches{surface};
+        if (object.contains("extent_um"))
+            scratches.extent_um = object["extent_um"].get<std::array<double, 2>>();
+        scratches.footprint_um = object.value("footprint_um", scratches.footprint_um);
+        material.scratches = std::move(scratches);
+        if (!source.document.contains("base")) return;
+        material.source =
+            inner_stack(source.document["base"], material.pointer + "/surface/base", source.folder);
+        material.document = read_source(material.source);
+    }
+
+    /// One rough layer over nothing that is seen is a stack with a roughness.
+    static void set_facets(SceneMaterial& material, const json& object,
+                           const LayeredSurface& surface, const StackSource& source) {
+        const std::string pointer = material.pointer + "/surface";
+        for (const char* const key : {"extent_um", "footprint_um"})
+            if (object.contains(key))
+                throw InputError("", material.pointer + "/" + key,
+                                 "requires a \"surface\" with scratches");
+        if (surface.layers.size() != 1 || surface.is_coated() || source.document.contains("base"))
+            throw InputError("", pointer,
+                             "must have scratches, or one layer without a base or a coating: irido "
+                             "lut layered makes a table of others");
+        material.shading = Shading::facets;
+        material.is_rough = true;
+        material.alpha = {surface.layers[0].alpha, surface.layers[0].alpha};
+        material.source = inner_stack(source.document["layers"][0]["stack"],
+                                      pointer + "/layers/0/stack", source.folder);
+        material.document = read_source(material.source);
     }
 
     /// Reads the stack with one end of what varies; false if it has faults there.

@@ -18,6 +18,7 @@ enum class Shading {
     bragg,         ///< Yeh's reflectance in the shader
     rough_layers,  ///< tables falpha and transmissivity
     albedo,        ///< table of the directional albedo
+    facets,        ///< GGX facets in the shader, with their colours from a table
     scratches,     ///< scratch by scratch in the shader, with tables of the kind scratch
 };
 

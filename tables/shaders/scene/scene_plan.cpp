@@ -115,7 +115,8 @@ private:
             faults.push_back({material.pointer + step, reason});
         };
         const bool is_rough_layers = material.shading == schemas::Shading::rough_layers;
-        if (is_rough_layers && !material.is_rough) add("", name + " needs \"roughness\"");
+        if (!material.is_rough && (is_rough_layers || material.shading == schemas::Shading::facets))
+            add("", name + " needs \"roughness\"");
         if (is_rough_layers || (material.shading == schemas::Shading::albedo && material.is_rough))
             for (const schemas::VariedRange& vary : material.vary)
                 if (!vary.range.is_one())
@@ -129,8 +130,7 @@ private:
     }
 
     void plan_material(const schemas::SceneMaterial& material, MaterialPlan& plan) {
-        const bool has_stack = !material.document.stack.materials.empty();
-        if (!has_stack) return plan_scratches(material, plan);
+        if (material.document.stack.materials.empty()) return plan_scratches(material, plan);
         for (const HeldRange& held : held_ranges(material.document.stack, *sensitivity_))
             if (!held.usable)
                 throw schemas::InputError(
@@ -149,6 +149,7 @@ private:
         plan_ignored(material);
         switch (material.shading) {
             case schemas::Shading::color:
+            case schemas::Shading::facets:
                 return plan_color(material, plan);
             case schemas::Shading::fourier:
                 return plan_fourier(material, plan);
@@ -303,7 +304,11 @@ private:
         plan_spread(material, request);
         use(material, plan, "reflection", "color", request, making_of(true));
         plan.snippets = {"color"};
-        if (!material.transmission) {
+        if (material.shading == schemas::Shading::facets) {
+            plan.snippets.emplace_back("facets");
+            plan.constants["alpha"] = {material.alpha.first, material.alpha.last};
+            omit_transmission(material, "facets is for reflected light only");
+        } else if (!material.transmission) {
             omit_transmission(material, "");
         } else if (is_opaque(material)) {
             omit(material, "transmission", "the base absorbs all that enters it");
@@ -511,12 +516,10 @@ private:
         omit_transmission(material, "albedo is for reflected light only");
     }
 
-    // --- scratches ----------------------------------------------------------------------------
-
     void plan_scratches(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         ScratchNeeds needs = needs_of_scratches(scene_, *material.scratches);
-        plan.constants = std::move(needs.constants);
-        plan.snippets = std::move(needs.snippets);
+        plan.constants = needs.constants;
+        plan.snippets = needs.snippets;
         for (ScratchNeed& need : needs.tables) {
             if (!need.is_needed) {
                 omit(material, need.role + " table", need.why);
@@ -531,12 +534,9 @@ private:
             plan.tables.back().why = std::move(need.why);
         }
         SceneTable grid;
-        grid.grid =
-            std::make_shared<const SceneGrid>(SceneGrid{std::move(needs.scratches), needs.extent});
+        grid.grid = std::make_shared<const SceneGrid>(std::move(needs.grid));
         grid.making = making_of(false);
-        grid.inputs = {{"numbers", kNumbersVersion},
-                       {"kind", kGridKind},
-                       {"bytes", sha256_of(grid_file(grid.grid->scratches, needs.extent).bytes)}};
+        grid.inputs = {{"numbers", kNumbersVersion}, {"grid", grid_checksum(*grid.grid)}};
         add_table(material, plan, "grid", std::move(grid), "bin");
         if (material.document.stack.materials.empty()) return;
         use(material, plan, "base", "color", color_request(material), making_of(true));

@@ -12,19 +12,13 @@
 #include "tables/lut/lut_format.hpp"
 #include "tables/lut/lut_kind.hpp"
 #include "tables/lut/lut_maker.hpp"
-#include "tables/scratch/grid_file.hpp"
+#include "tables/shaders/scene/scratched_material.hpp"
 
 namespace irido::tables {
 
 /// Incremented whenever irido computes different numbers for the same request, so that older tables
 /// are remade.
 inline constexpr int kNumbersVersion = 2;
-
-/// Scratches, and the rectangle in which engines look them up.
-struct SceneGrid {
-    std::vector<Scratch> scratches;
-    GridExtent extent;
-};
 
 /// A table that a scene needs; its size is not known yet. Or a grid of scratches, which no kind of
 /// table makes.

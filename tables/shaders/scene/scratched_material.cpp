@@ -13,6 +13,7 @@
 #include "core/math/sine_integral.hpp"
 #include "core/scratch/slit_color.hpp"
 #include "core/spectrum/spectrum.hpp"
+#include "tables/files/hash.hpp"
 #include "tables/lut/color_values.hpp"
 
 namespace irido::tables {
@@ -104,6 +105,10 @@ double node_count(double path_um) {
 
 }  // namespace
 
+std::string grid_checksum(const SceneGrid& grid) {
+    return sha256_of(grid_file(grid.scratches, grid.extent).bytes);
+}
+
 ScratchNeeds needs_of_scratches(const schemas::Scene& scene,
                                 const schemas::SceneScratches& scratches) {
     const ScratchedSurface& surface = scratches.surface;
@@ -152,12 +157,12 @@ ScratchNeeds needs_of_scratches(const schemas::Scene& scene,
             : "footprint_um is 0: pixels see points");
     constexpr double kReach = 3;  // coherence radii, as the footprint's table has it
     const double sigma_um = surface.optics.coherence_radius_um;
-    needs.extent = {{0, 0},
-                    scratches.extent_um[0],
-                    scratches.extent_um[1],
-                    std::max(sigma_um, scratches.footprint_um),
-                    kReach * sigma_um + scratches.footprint_um};
-    needs.scratches = scratches_within(surface, needs.extent);
+    needs.grid.extent = {{0, 0},
+                         scratches.extent_um[0],
+                         scratches.extent_um[1],
+                         std::max(sigma_um, scratches.footprint_um),
+                         kReach * sigma_um + scratches.footprint_um};
+    needs.grid.scratches = scratches_within(surface, needs.grid.extent);
     double density = 0;
     for (const ScratchField& field : surface.fields) density += expected_density(field);
     needs.constants = {

@@ -22,11 +22,17 @@ struct ScratchNeed {
     std::string why;         ///< it is needed, or not
 };
 
+/// Scratches, and the rectangle in which engines look them up.
+struct SceneGrid {
+    std::vector<Scratch> scratches;
+    GridExtent extent;
+};
+std::string grid_checksum(const SceneGrid& grid);
+
 /// What an engine needs for a scratched material, but for the colour of its base.
 struct ScratchNeeds {
     std::vector<ScratchNeed> tables;
-    std::vector<Scratch> scratches;  ///< for the grid
-    GridExtent extent;
+    SceneGrid grid;
     nlohmann::json constants;
     std::vector<std::string> snippets;
 };

@@ -1,4 +1,5 @@
 // Tables of colours: sampled between their samples, against irido's own colours there.
+import { facetJobs } from './facets.js';
 import assert from 'node:assert/strict';
 import { csv, iridoEach, randomNumbers } from '../support/irido.js';
 import { deltaE2000, labFromSrgb } from '../support/color.js';
@@ -96,5 +97,5 @@ export async function makeJobs(folder) {
         points: flat(places.map(({ place, level }) => [...place, level])),
         check: (values) => largestDifference(rows(values, 3), mixed, 1e-5),
     });
-    return jobs;
+    return [...jobs, ...facetJobs(folder)];
 }

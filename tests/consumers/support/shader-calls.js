@@ -15,6 +15,10 @@ export const calls = {
         `float4(irido_cumulative($table, ${axis}, x), 1.0)`,
         `float4(irido_box($table, ${axis}, x, y), 1.0)`,
     ],
+    facets: [
+        'float4(irido_facets(0.2, normalize(float3(x, y, 1.0)), normalize(float3(y, x, 1.0))), 0.0, 0.0, 1.0)',
+        'float4(irido_cos_theta_d(normalize(float3(x, y, 1.0)), normalize(float3(y, x, 1.0))), 0.0, 0.0, 1.0)',
+    ],
     falpha: [
         `float4(irido_falpha($table, ${axis}, ${axis}, x, y), 0.0, 0.0, 1.0)`,
         `float4(irido_falpha_volume($volume, ${axis}, ${axis}, ${axis}, 0.1, x, y), 0.0, 0.0, 1.0)`,

@@ -28,6 +28,7 @@ json complete_scene() {
         "tolerance": { "delta_e": 1, "relative": 0.01 },
         "format": "exr",
         "dtype": "f32",
+        "lights": [ { "name": "lamp", "comment": "Or the sun.", "diameter_deg": [0.5, 4] } ],
         "materials": [ {
             "name": "film",
             "comment": "A film.",
@@ -40,6 +41,12 @@ json complete_scene() {
             "transmission": true,
             "thickness_spread_nm": 5,
             "shading": "fourier"
+        }, {
+            "name": "metal",
+            "surface": { "base": "1 | Ag", "scratches": [
+                { "width_um": 1, "depth_um": 0.2, "angle_deg": 10, "point_um": [50, 30] } ] },
+            "extent_um": [300, 200],
+            "footprint_um": 40
         } ]
     })");
 }
@@ -104,7 +111,16 @@ TEST_CASE("a scene that uses every key is read", "[scene]") {
     CHECK(scene.relative == 0.01);
     CHECK(scene.format == "exr");
     CHECK(scene.type == "f32");
-    REQUIRE(scene.materials.size() == 1);
+    REQUIRE(scene.lights.size() == 1);
+    CHECK(scene.lights[0].diameter_deg.last == 4);
+    REQUIRE(scene.materials.size() == 2);
+    const SceneMaterial& metal = scene.materials[1];
+    CHECK(metal.shading == Shading::scratches);
+    REQUIRE(metal.scratches);
+    CHECK(metal.scratches->surface.scratches.size() == 1);
+    CHECK(metal.scratches->extent_um[1] == 200);
+    CHECK(metal.scratches->footprint_um == 40);
+    CHECK(metal.document.stack.materials.size() == 2);
     const SceneMaterial& film = scene.materials[0];
     CHECK(film.name == "film");
     CHECK(film.shading == Shading::fourier);
@@ -171,7 +187,14 @@ TEST_CASE("every rule of the scene schema is refused with its place and value", 
         {"/materials", "all",
          "/materials: must be an array of 1 to 10000 materials "
          "(got \"all\")"},
-        {m, 1, m + ": must be an object with \"name\", \"stack\" and \"shading\" (got 1)"},
+        {m, 1,
+         m + ": must be an object with \"name\", \"stack\" and \"shading\", or with \"name\" and "
+             "\"surface\" (got 1)"},
+        {"/lights", json::array(), "/lights: must be an array of 1 to 1000 lights (got [])"},
+        {"/lights/0/diameter_deg", 181,
+         "/lights/0/diameter_deg: must be in [0, 180], or a range of two such values (got 181)"},
+        {"/materials/1/extent_um", 5,
+         "/materials/1/extent_um: must be a width and a height in um, as in [4000, 4000] (got 5)"},
         {m + "/name", "a b", m + "/name: must be 1 to 64 letters, digits, - and _ (got \"a b\")"},
         {m + "/name", "../up",
          m + "/name: must be 1 to 64 letters, digits, - and _ (got \"../up\")"},
@@ -201,8 +224,8 @@ TEST_CASE("every rule of the scene schema is refused with its place and value", 
         {m + "/transmission", "yes", m + "/transmission: must be true or false (got \"yes\")"},
         {m + "/thickness_spread_nm", -1, m + "/thickness_spread_nm: must be in [0, 1e6] (got -1)"},
         {m + "/shading", "colour",
-         m + "/shading: must be one of color, fourier, bragg, rough-layers, albedo "
-             "(got \"colour\")"},
+         m + "/shading: must be one of color, fourier, bragg, rough-layers, albedo, "
+             "facets, scratches (got \"colour\")"},
     };
     for (const Fault& fault : faults) {
         INFO(fault.pointer << " = " << fault.value);
@@ -233,7 +256,7 @@ TEST_CASE("unknown keys of a scene are named with the nearest known one", "[scen
 TEST_CASE("names of materials are unique", "[scene]") {
     json document = complete_scene();
     document["materials"].push_back(document["materials"][0]);
-    CHECK(error_of(document) == "/materials/1/name: must be unique (got \"film\")");
+    CHECK(error_of(document) == "/materials/2/name: must be unique (got \"film\")");
 }
 
 TEST_CASE("errors of a stack say where in the scene it is", "[scene]") {
