@@ -313,7 +313,6 @@ SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::Surfac
     if (const std::string typed = query.scratch.typed(); !typed.empty())
         throw UsageError(typed + ": takes surfaces with scratches");
     try {
-        if (query.scatterogram) return layered_scatterogram(surface, document, query);
         return query.wants_color ? layered_colors(surface, document, query)
                                  : LayeredAnswers(surface, document, query).rows();
     } catch (const DomainError& error) {

@@ -11,7 +11,9 @@ namespace irido {
 TabulatedScattering::TabulatedScattering(const LayeredScattering& scattering,
                                          const SampleRule& rule, Triple white, Paths paths,
                                          Crossings crossings, const Execution& execution)
-    : scattering_(scattering), wavelengths_(rule.wavelength_nm.size()) {
+    : scattering_(scattering),
+      wavelength_nm_(rule.wavelength_nm),
+      wavelengths_(rule.wavelength_nm.size()) {
     for (std::size_t c = 0; c < 3; ++c) {
         const double light = std::accumulate(rule.weight[c].begin(), rule.weight[c].end(), 0.0);
         for (const double weight : rule.weight[c]) weight_[c].push_back(white[c] * weight / light);

@@ -4,14 +4,9 @@
 #include <string>
 
 #include "core/colorimetry/space.hpp"
+#include "tables/lut/measured/half_angles.hpp"
 
 namespace irido::tables {
-
-/// A pair of directions above the surface: polar angles in degrees, [0, 90), and cos and sin of
-/// half the azimuth between them.
-struct TablePair {
-    double theta_i_deg, theta_o_deg, near, far;
-};
 
 /// Counts of what the cells of a table are.
 struct MerlReport {
