@@ -66,7 +66,7 @@ tables::Lut table_of(const LayeredNodes& nodes, const RgbTransform& transform) {
 NodeRequest request_of(const LutLayeredCommand& command, tables::LutType type) {
     NodeRequest request;
     if (!command.nodes.empty()) {
-        const double count = parse_whole_number("--nodes", command.nodes, 3, kMostNodes);
+        const auto count = parse_whole_number("--nodes", command.nodes, 3, kMostNodes);
         request.nodes = static_cast<std::size_t>(count);
         if (*request.nodes % 3 != 0)
             throw UsageError("--nodes: must be a multiple of 3 (got " + command.nodes + ")");
