@@ -26,8 +26,8 @@ namespace irido::cli {
 
 namespace {
 
-/// Wavelengths 2 nm apart, of colours.
-constexpr std::size_t kPairWavelengths = 236;
+/// Wavelengths 1 nm apart, of colours.
+constexpr std::size_t kPairWavelengths = 471;
 
 /// Relative, of what is by adding.
 constexpr double kRestTolerance = 1e-2;

@@ -16,8 +16,8 @@ namespace irido::cli {
 
 namespace {
 
-/// Wavelengths 2 nm apart that tables are computed with.
-constexpr std::size_t kTableWavelengths = 236;
+/// Wavelengths 1 nm apart that tables are computed with.
+constexpr std::size_t kTableWavelengths = 471;
 constexpr std::size_t kMostAngles = 8192, kMostTableLayers = 16;
 
 /// CIEDE2000, of a table whose nodes and tolerance were not typed.

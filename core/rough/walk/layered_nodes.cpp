@@ -215,6 +215,20 @@ private:
     std::vector<Index> order_;  ///< of the rule's wavelengths, the most telling first
 };
 
+/// Exact colours of R of the top layer.
+std::vector<Triple> top_colors(const LayeredScattering& scattering, const ColorTables& tables,
+                               std::span<const double> theta_deg, const Execution& execution) {
+    ColorRequest request;
+    request.colors = theta_deg.size();
+    request.simd = execution.simd;
+    request.tolerance = 1e-5;
+    std::vector<Triple> colors;
+    for (const StackColor& one : stack_color(tables, scattering.layer(0).facets().stack(), {},
+                                             request, theta_deg, execution.threads))
+        colors.push_back(one.xyz);
+    return colors;
+}
+
 /// Everything at the angles of a table.
 LayeredNodes tabulated(const LayeredScattering& scattering, const TabulatedScattering& exact,
                        const ColorTables& tables, const NodeBasis& basis, std::size_t angles,
@@ -225,12 +239,7 @@ LayeredNodes tabulated(const LayeredScattering& scattering, const TabulatedScatt
     std::vector<double> theta_deg(angles);
     for (std::size_t k = 0; k < angles; ++k)
         theta_deg[k] = 90 * static_cast<double>(k) / static_cast<double>(angles - 1);
-    ColorRequest color;
-    color.colors = angles;
-    color.simd = execution.simd;
-    const Stack& top = scattering.layer(0).facets().stack();
-    for (const StackColor& one : stack_color(tables, top, {}, color, theta_deg, execution.threads))
-        result.top.push_back(one.xyz);
+    result.top = top_colors(scattering, tables, theta_deg, execution);
     std::vector<double> row(W);
     for (std::size_t l = 0; l < basis.spectra.size(); ++l) {
         std::vector<double> straight;
@@ -270,6 +279,36 @@ LayeredNodes tabulated(const LayeredScattering& scattering, const TabulatedScatt
     for (std::vector<double>& values : result.straight)
         for (double& value : values) value = request.stored(value);
     return result;
+}
+
+/// XYZ of the BRDF of pairs, by the rule but for the top layer.
+std::vector<Triple> colors_of(const LayeredScattering& scattering, const TabulatedScattering& exact,
+                              const ColorTables& tables, std::span<const ScatterPair> pairs,
+                              const Execution& execution) {
+    std::vector<InnerPair> inner;
+    std::vector<double> theta_d_deg;
+    for (const ScatterPair& pair : pairs) {
+        inner.emplace_back(scattering.coating(), pair);
+        theta_d_deg.push_back(inner.back().facet.theta_d_deg);
+    }
+    const std::vector<Triple> top = top_colors(scattering, tables, theta_d_deg, execution);
+    std::vector<Triple> colors;
+    std::vector<double> R(exact.wavelengths());
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        const double half_deg = 0.5 * pairs[p].phi_deg;
+        Triple& xyz = colors.emplace_back(exact(exact.direction(pairs[p].theta_i_deg),
+                                                exact.direction(pairs[p].theta_o_deg),
+                                                sin_deg(90 - half_deg), sin_deg(half_deg)));
+        exact.facets()[0].at(theta_d_deg[p], R);
+        const double scale =
+            inner[p].transmitted * lobe(scattering.layer(0).alpha(), inner[p].facet);
+        for (std::size_t c = 0; c < 3; ++c) {
+            double by_rule = 0;
+            for (std::size_t w = 0; w < R.size(); ++w) by_rule += exact.weight()[c][w] * R[w];
+            xyz[c] += scale * (top[p][c] - by_rule);
+        }
+    }
+    return colors;
 }
 
 /// Largest CIEDE2000 of colours multiplied in linear sRGB in the place of spectra.
@@ -376,12 +415,7 @@ FoundNodes find_nodes(const LayeredScattering& scattering, const TabulatedScatte
                       const Execution& execution) {
     const Triple& white = tables.sensitivity().white();
     const std::vector<ScatterPair> checked = sample_pairs(kCheckedPairs, 2);
-    std::vector<Triple> truth;
-    for (const ScatterPair& pair : checked) {
-        const double half_deg = 0.5 * pair.phi_deg;
-        truth.push_back(exact(exact.direction(pair.theta_i_deg), exact.direction(pair.theta_o_deg),
-                              sin_deg(90 - half_deg), sin_deg(half_deg)));
-    }
+    const std::vector<Triple> truth = colors_of(scattering, exact, tables, checked, execution);
     const auto error_of = [&](const LayeredNodes& table) {
         double worst = 0;
         for (std::size_t p = 0; p < checked.size(); ++p)

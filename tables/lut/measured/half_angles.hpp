@@ -16,7 +16,7 @@ struct HalfAngles {
 };
 
 struct HalfAnglePair {
-    TablePair pair;  ///< a direction below the horizon lifted to just above it
+    TablePair pair;  ///< with theta_d so small that both are above the horizon
     bool is_above;   ///< whether both directions are above the horizon
 };
 

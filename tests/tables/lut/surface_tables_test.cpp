@@ -28,7 +28,7 @@ const ColorTables& daylight() {
 
 FoundNodes nodes_of(const LayeredScattering& scattering, const NodeRequest& request) {
     const Sensitivity& sensitivity = daylight().sensitivity();
-    const TabulatedScattering exact(scattering, equal_rule(sensitivity, 236), sensitivity.white(),
+    const TabulatedScattering exact(scattering, equal_rule(sensitivity, 471), sensitivity.white(),
                                     Paths::single, Crossings::single, Execution(0));
     return find_nodes(scattering, exact, daylight(), request, Execution(0));
 }
