@@ -12,6 +12,7 @@
 #include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
 #include "core/color/held_stack.hpp"
+#include "core/math/degrees.hpp"
 #include "core/rough/walk/rest_table.hpp"
 #include "core/rough/walk/tabulated_scattering.hpp"
 #include "schemas/documents/canonical_stack.hpp"
@@ -59,6 +60,13 @@ enum class BrdfOutput { merl, bsdf, table };
 BrdfOutput output_of(const LutBrdfCommand& command) {
     const std::string typed = resolved_format(command.output);
     const bool is_merl = typed == "binary" || typed == "merl";
+    const std::size_t dot = command.output.file.find_last_of('.');
+    const std::string extension =
+        dot == std::string::npos ? "" : command.output.file.substr(dot + 1);
+    const bool is_renderers = extension == "binary" || extension == "bsdf";
+    if (!command.output.format.empty() && extension != typed &&
+        !(is_merl && extension == "binary") && (is_renderers || tables::find_lut_format(extension)))
+        throw UsageError("--format: " + typed + " contradicts the extension ." + extension);
     if (!is_merl && typed != "bsdf") {
         if (!command.wavelengths.empty())
             throw UsageError("--wavelengths: takes .bsdf files; tables are colours");
@@ -107,7 +115,8 @@ class PairColors {
 public:
     PairColors(const LayeredScattering& scattering, const Sensitivity& sensitivity,
                const SurfaceQuery& query, Paths paths, bool quiet)
-        : table_(scattering, equal_rule(sensitivity, kPairWavelengths), sensitivity.white(),
+        : is_coated_(scattering.coating().is_there()),
+          table_(scattering, equal_rule(sensitivity, kPairWavelengths), sensitivity.white(),
                  scattering.is_closed() ? paths : Paths::single,
                  parse_crossings(query.transmission), query.execution) {
         if (paths == Paths::single || scattering.is_closed()) return;
@@ -117,15 +126,34 @@ public:
     }
 
     Triple operator()(const tables::TablePair& pair) const {
-        Triple xyz = table_(table_.direction(pair.theta_i_deg), table_.direction(pair.theta_o_deg),
-                            pair.near, pair.far);
+        return with_rest(pair, table_(table_.direction(pair.theta_i_deg),
+                                      table_.direction(pair.theta_o_deg), pair.near, pair.far));
+    }
+
+    /// Below the horizon too: with the half vector and theta_d as they are where nothing is
+    /// refracted, and masking as it is at the horizon.
+    Triple operator()(const tables::HalfAnglePair& one) const {
+        if (is_coated_) return (*this)(one.pair);
+        const tables::TablePair& pair = one.pair;
+        const double sine = sin_deg(one.angles.theta_h_deg);
+        const double cosine = cos_deg(one.angles.theta_h_deg);
+        const MirrorFacet facet{one.angles.theta_d_deg,    sine * sine,
+                                cosine * cosine,           sin_deg(pair.theta_i_deg),
+                                cos_deg(pair.theta_i_deg), sin_deg(pair.theta_o_deg),
+                                cos_deg(pair.theta_o_deg)};
+        return with_rest(pair, table_(table_.direction(pair.theta_i_deg),
+                                      table_.direction(pair.theta_o_deg), facet));
+    }
+
+private:
+    Triple with_rest(const tables::TablePair& pair, Triple xyz) const {
         if (!rest_) return xyz;
         const Triple more = (*rest_)(pair.theta_i_deg, pair.theta_o_deg, pair.near, pair.far);
         for (std::size_t c = 0; c < 3; ++c) xyz[c] += more[c];
         return xyz;
     }
 
-private:
+    bool is_coated_;
     TabulatedScattering table_;
     std::optional<RestTable> rest_;
 };
@@ -182,7 +210,7 @@ tables::LutPlan plan_of(const PairColors& pairs, const ColorColumns& colors,
         tables::half_angle_plan({parse_half_angles("--theta-h", command.theta_h),
                                  parse_half_angles("--theta-d", command.theta_d),
                                  parse_half_angles("--phi-d", command.phi_d), smoothest(surface),
-                                 [&pairs](const tables::TablePair& pair) { return pairs(pair); },
+                                 [&pairs](const tables::HalfAnglePair& one) { return pairs(one); },
                                  light.transform, light.white(), is_xyz});
     plan.facts = surface_facts(surface, query);
     plan.facts["color_space"] = query.color.space;
@@ -197,6 +225,9 @@ int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
     const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
     const tables::LutFormat* const format =
         picture ? nullptr : &resolved_lut_format(command.output);
+    if (picture && plan.axes[0].axis.count() > 1)
+        throw UsageError("--phi-d: a picture shows one value (got " +
+                         std::to_string(plan.axes[0].axis.count()) + ")");
     tables::LutMaking making = making_of(command.table, format, "f32", plan.axes.size());
     making.measure = !command.output.file.empty();
     making.threads = command.threads;
@@ -220,9 +251,6 @@ int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
         write_table(lut, *format, command.table.layout, command.output, command.quiet);
         return 0;
     }
-    if (lut.axes[0].count() > 1)
-        throw UsageError("--phi-d: a picture shows one value (got " +
-                         std::to_string(lut.axes[0].count()) + ")");
     const auto figure = [&] {
         tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture));
         for (const std::string& text : drawn.notes) say(text);

@@ -122,7 +122,7 @@ nlohmann::json facts_of(const FoundNodes& found, const LayeredScattering& scatte
 }
 
 int run_lut_layered(const LutLayeredCommand& command) {
-    const tables::LutFormat& format = resolved_lut_format(command.output);
+    const tables::LutFormat& format = resolved_lut_format(command.output, false);
     const tables::LutType type = parse_type(command.type);
     const NodeRequest request = request_of(command, type);
     SurfaceQuery query = command.query;
@@ -143,7 +143,7 @@ int run_lut_layered(const LutLayeredCommand& command) {
         if (paths == Paths::all && !scattering.is_closed())
             throw UsageError(
                 "--paths all: a table of this kind takes it where it has a closed form, of one "
-                "layer without a coating; lut brdf takes any surface");
+                "layer without a coating; lut brdf takes a coating as well");
         const TabulatedScattering exact(scattering, equal_rule(sensitivity, kTableWavelengths),
                                         sensitivity.white(), paths, crossings, query.execution);
         const FoundNodes found = find_nodes(scattering, exact, tables, request, query.execution);

@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kMostSamples = 8192;
 
-std::vector<std::string_view> table_format_names() {
+std::vector<std::string_view> table_format_names(bool has_pictures = true) {
     std::vector<std::string_view> names;
     for (const tables::LutFormat* format : tables::lut_formats()) names.push_back(format->name);
+    if (!has_pictures) return names;
     for (const tables::PictureFormat* format : tables::picture_formats())
         names.push_back(format->name);
     return names;
@@ -69,7 +70,7 @@ std::string table_formats_text() {
     return text + " [csv]; pictures are for\nlooking only";
 }
 
-const tables::LutFormat& resolved_lut_format(const OutputOptions& output) {
+const tables::LutFormat& resolved_lut_format(const OutputOptions& output, bool has_pictures) {
     const std::string name = resolved_format(output);
     const std::size_t dot = output.file.find_last_of('.');
     const std::string extension = dot == std::string::npos ? "" : output.file.substr(dot + 1);
@@ -77,7 +78,7 @@ const tables::LutFormat& resolved_lut_format(const OutputOptions& output) {
         throw UsageError("--format: " + name + " contradicts the extension ." + extension);
     if (const tables::LutFormat* format = tables::find_lut_format(name)) return *format;
     throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
-                     not_one_of(table_format_names(), name));
+                     not_one_of(table_format_names(has_pictures), name));
 }
 
 tables::LutType parse_type(std::string_view text) {

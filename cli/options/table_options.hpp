@@ -24,8 +24,8 @@ void add_table_layout_options(CLI::App& command, TableOptions& options);
 /// "csv, ktx2, png [csv]": what --format of a table may be, for --help.
 std::string table_formats_text();
 
-/// The table's format. Throws UsageError.
-const tables::LutFormat& resolved_lut_format(const OutputOptions& output);
+/// The table's format. Throws UsageError, which names pictures among the others if they are drawn.
+const tables::LutFormat& resolved_lut_format(const OutputOptions& output, bool has_pictures = true);
 
 tables::LutType parse_type(std::string_view text);
 

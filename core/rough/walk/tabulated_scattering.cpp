@@ -43,6 +43,11 @@ TabulatedScattering::Direction TabulatedScattering::direction(double theta_deg) 
 
 Triple TabulatedScattering::operator()(const Direction& i, const Direction& o, double near,
                                        double far) const {
+    return (*this)(i, o, MirrorFacets(i.theta_inside_deg, o.theta_inside_deg)(near, far));
+}
+
+Triple TabulatedScattering::operator()(const Direction& i, const Direction& o,
+                                       const MirrorFacet& facet) const {
     const double factor = i.transmittance * o.transmittance * scattering_.coating().dilution();
     if (factor <= 0) return {};
     thread_local std::vector<double> R, sum;
@@ -53,12 +58,9 @@ Triple TabulatedScattering::operator()(const Direction& i, const Direction& o, d
         const double* const out = o.straight.data() + l * wavelengths_;
         for (std::size_t w = 0; w < wavelengths_; ++w) sum[w] += scale * values[w] * in[w] * out[w];
     };
-    if (!facets_.empty()) {
-        const MirrorFacet facet = MirrorFacets(i.theta_inside_deg, o.theta_inside_deg)(near, far);
-        for (std::size_t l = 0; l < facets_.size(); ++l) {
-            facets_[l].at(facet.theta_d_deg, R);
-            add(l, factor * lobe(scattering_.layer(l).alpha(), facet), R);
-        }
+    for (std::size_t l = 0; l < facets_.size(); ++l) {
+        facets_[l].at(facet.theta_d_deg, R);
+        add(l, factor * lobe(scattering_.layer(l).alpha(), facet), R);
     }
     if (!base_.empty()) add(facets_.size(), factor / kPi, base_);
     Triple xyz{};

@@ -31,6 +31,8 @@ public:
     /// X, Y, Z of the BRDF, per steradian.
     ///   near, far  cos and sin of half the azimuth between the directions
     Triple operator()(const Direction& i, const Direction& o, double near, double far) const;
+    /// The same of a facet, inside the coating, that is given.
+    Triple operator()(const Direction& i, const Direction& o, const MirrorFacet& facet) const;
 
     std::size_t wavelengths() const { return wavelengths_; }
     const std::vector<double>& wavelength_nm() const { return wavelength_nm_; }

@@ -1,5 +1,6 @@
 #include "tables/lut/measured/half_angle_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,6 +12,7 @@ namespace irido::tables {
 
 namespace {
 
+constexpr double kMeasuredEnd_deg = 85;
 constexpr std::size_t kPhiSamples = 16, kHalfSamples = 128, kDifferenceSamples = 128;
 
 AxisPlan angle_axis(std::string name, const std::vector<double>& typed, std::size_t count,
@@ -58,7 +60,7 @@ LutPlan half_angle_plan(HalfAngleTable typed) {
     plan.evaluate = [table](const std::vector<LutAxis>& axes) {
         std::vector<double> values;
         for_each_sample(axes, [&](std::size_t, const HalfAnglePair& one) {
-            const Triple value = table->transform(table->xyz(one.pair));
+            const Triple value = table->transform(table->xyz(one));
             values.insert(values.end(), value.begin(), value.end());
         });
         return values;
@@ -68,7 +70,7 @@ LutPlan half_angle_plan(HalfAngleTable typed) {
                                 std::span<const double> approximate) {
             std::vector<double> result(exact.size() / 3);
             for_each_sample(axes, [&](std::size_t k, const HalfAnglePair& one) {
-                if (!one.is_above) return;
+                if (std::max(one.pair.theta_i_deg, one.pair.theta_o_deg) > kMeasuredEnd_deg) return;
                 const auto xyz_at = [&](std::span<const double> values) {
                     return table->transform.xyz_of(
                         {values[3 * k], values[3 * k + 1], values[3 * k + 2]});

@@ -16,8 +16,9 @@ struct HalfAngles {
 };
 
 struct HalfAnglePair {
-    TablePair pair;  ///< with theta_d so small that both are above the horizon
-    bool is_above;   ///< whether both directions are above the horizon
+    TablePair pair;  ///< a direction below the horizon lifted to just above it
+    HalfAngles angles;
+    bool is_above;  ///< whether both directions are above the horizon
 };
 
 HalfAnglePair directions_of(const HalfAngles& angles);

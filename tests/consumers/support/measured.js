@@ -53,7 +53,7 @@ export function readTensorFile(bytes) {
         for (let d = 0; d < dimensions; ++d, at += 8) shape.push(Number(view.getBigUint64(at, true)));
         const count = shape.reduce((product, size) => product * size, 1);
         const field = { shape, type, offset, bytes: count * sizes[type] };
-        if (type === 10) field.numbers = new Float32Array(bytes.slice(offset, offset + 4 * count).buffer);
+        if (type === 10) field.numbers = new Float32Array(Uint8Array.prototype.slice.call(bytes, offset, offset + 4 * count).buffer);
         fields[name] = field;
     }
     return { fields, end: at };

@@ -79,9 +79,7 @@ TEST_CASE("half-angle coordinates", "[tables][measured]") {
 }
 
 TEST_CASE("nodes reproduce what is seen through layers", "[tables][layered][slow]") {
-    for (const char* json : {R"({"inside": 1.35, "base": {"albedo": 0.5}, "layers": [
-                {"stack": "1.35 | (1.35@250 | 1.5@250)^10 | 1.35", "alpha": 0.1}]})",
-                             R"({"base": {"albedo": [[400, 0.1], [600, 0.9]]}, "layers": [
+    for (const char* json : {R"({"base": {"albedo": [[400, 0.1], [600, 0.9]]}, "layers": [
                 {"stack": "1 | (1@125 | 1.5@375)^10 | 1", "alpha": 0.2},
                 {"stack": "1 | 1.4+0.02i@500 | 1", "alpha": 0.3}]})",
                              R"({"layers": [{"stack": "1 | (1@120 | 1.6@90)^6 | 1", "alpha": 0.15},
@@ -92,7 +90,7 @@ TEST_CASE("nodes reproduce what is seen through layers", "[tables][layered][slow
         CHECK(found.error <= 1);
         CHECK(found.table.wavelength_nm.size() % 3 == 0);
         CHECK(found.products > 2 * found.error);
-        CHECK(true_error(found.table, scattering, 60) <= 1.3 * found.error + 0.02);
+        CHECK(true_error(found.table, scattering, 20) <= 1.3 * found.error + 0.02);
     }
 }
 
