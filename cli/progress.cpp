@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -18,7 +19,9 @@ constexpr int kWidth = 40, kShortWidth = 20;
 }  // namespace
 
 Progress::Progress(bool quiet)
-    : is_on_(!quiet && isatty(STDERR_FILENO) == 1), next_(Clock::now() + kPatience) {}
+    : is_on_(!quiet && isatty(STDERR_FILENO) == 1),
+      next_(Clock::now() + kPatience),
+      begin_(Clock::now()) {}
 
 void Progress::set(double done, const std::string& text) {
     if (!is_on_) return;
@@ -29,8 +32,23 @@ void Progress::set(double done, const std::string& text) {
     const double part = std::clamp(done, 0.0, 1.0);
     const int width = text.empty() ? kWidth : kShortWidth;
     const std::string bar(static_cast<std::size_t>(width * part), '=');
-    std::fprintf(stderr, "\r[%-*s] %3.0f %%%s\033[K", width, bar.c_str(), 100 * part,
-                 text.empty() ? "" : ("  " + text).c_str());
+    std::fprintf(stderr, "\r[%-*s] %3.0f %%%s%s\033[K", width, bar.c_str(), 100 * part,
+                 text.empty() ? "" : ("  " + text).c_str(), time_left(part).c_str());
+}
+
+std::string Progress::time_left(double part) {
+    constexpr double kFewest = 0.02, kManySeconds = 100, kMinute = 60;
+    const Clock::time_point now = Clock::now();
+    if (part < kFewest) {
+        begin_ = now;
+        begun_ = part;
+    }
+    if (part < begun_ + kFewest) return "";
+    const std::chrono::duration<double> taken = now - begin_;
+    const double left = taken.count() * (1 - part) / (part - begun_);
+    const bool is_short = left < kManySeconds;
+    return ", " + std::to_string(std::lround(is_short ? left : left / kMinute)) +
+           (is_short ? " s left" : " min left");
 }
 
 void Progress::clear() {

@@ -7,7 +7,8 @@
 
 namespace irido::cli {
 
-/// A progress bar on standard error, shown on a terminal for work that takes more than a second.
+/// A progress bar with the time left on standard error, shown on a terminal for work that takes
+/// more than a second.
 class Progress {
 public:
     explicit Progress(bool quiet);
@@ -24,10 +25,15 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    /// From how quickly the work went since little of it was done; "" until that is known.
+    std::string time_left(double part);
+
     bool is_on_;
     std::mutex lock_;
     Clock::time_point next_;
     bool is_shown_ = false;
+    Clock::time_point begin_;  ///< when the part was begun_
+    double begun_ = 0;
 };
 
 }  // namespace irido::cli

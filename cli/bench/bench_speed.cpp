@@ -122,6 +122,18 @@ constexpr std::array kCases{
                "1 | 1.33@400 | 1.9+1.5i", "layers.0.thickness_nm", 0, 1000),
     table_case("lut_mirror", 40, "colour table of a mirror of 40 layers, 64 x 512",
                "1 | (2.3@60 | 1.46@94)^20 | 1.52", "layers.0.layers.0.thickness_nm", 40, 80),
+    table_case("lut_anodized", 1, "colour table of TiO2 on titanium, 64 x 512",
+               "air | TiO2@35 | Ti", "layers.0.thickness_nm", 0, 200),
+    table_case("lut_ito", 1, "colour table of ITO on glass, 64 x 512", "air | ITO@150 | BK7",
+               "layers.0.thickness_nm", 0, 400),
+    table_case("lut_low_e", 3, "colour table of silver between oxides, 64 x 512",
+               "air | TiO2@38 | Ag@11 | TiO2@34 | BK7", "layers.0.thickness_nm", 20, 60),
+    table_case("lut_six_tables", 6, "colour table of six layers of TiO2 and MgF2, 64 x 512",
+               "air | MgF2@40 | TiO2@52 | MgF2@64 | TiO2@76 | MgF2@88 | TiO2@100 | BK7",
+               "layers.0.thickness_nm", 20, 120),
+    table_case("lut_absorbing_bragg", 20, "colour table of ten absorbing periods, 64 x 512",
+               "1 | (2.3+0.01i@60 | 1.46+0.002i@94)^10 | 1.9+1.5i",
+               "layers.0.layers.0.thickness_nm", 40, 80),
 };
 
 using Clock = std::chrono::steady_clock;
@@ -364,6 +376,13 @@ tables::Records to_records(const std::vector<SpeedRow>& rows) {
     add("limit_per_s", [](const SpeedRow& r) { return r.limit; });
     add("fraction_of_limit", [](const SpeedRow& r) { return r.rate * r.operations / r.limit; });
     add("worst_F", [](const SpeedRow& r) { return r.worst_F; });
+    // of the same on one thread, times the threads
+    add("thread_efficiency", [&](const SpeedRow& r) {
+        const auto single = std::ranges::find_if(rows, [&](const SpeedRow& one) {
+            return one.name == r.name && one.method == r.method && one.threads == 1;
+        });
+        return single == rows.end() ? 0 : r.rate / (r.threads * single->rate);
+    });
     return records;
 }
 
@@ -444,7 +463,7 @@ void add_bench_speed(CLI::App& bench, Run& run) {
         "of cos KL between modes, as in Fourneau et al. (2024). falpha is F_alpha at theta_i\n"
         "and theta_d of 0:89.75:0.25, in closed form and, as sum_1000, by 1000 samples of\n"
         "psi; worst_F is its largest relative error at 60 points. lut_: points are samples\n"
-        "of a table.");
+        "of a table. thread_efficiency: points_per_s over that of one thread times the threads.");
     command->callback([options, &run] { run = [options] { return run_speed(*options); }; });
 }
 

@@ -177,7 +177,9 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
     if (!is_slow(kind, request))
         note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     Progress progress(command.quiet);
-    making.progress = [&progress](double done) { progress.set(done); };
+    making.progress = [&progress](double done, const std::string& what) {
+        progress.set(done, what);
+    };
     tables::Lut lut;
     try {
         lut = tables::make_lut(kind, std::move(plan), making);
@@ -259,7 +261,7 @@ int list_kinds(const OutputOptions& output) {
     }
     for (const auto& [name, axis, summary] :
          {std::tuple("brdf", kLutBrdfAxes, kLutBrdfSummary),
-          {"layered", std::string_view("row, theta"), kLutLayeredSummary}}) {
+          {"layered", std::string_view("row, theta_deg"), kLutLayeredSummary}}) {
         names.emplace_back(name);
         axes.emplace_back(axis);
         summaries.emplace_back(summary);

@@ -105,9 +105,9 @@ void resolved_brdf_format(const OutputOptions& output) {
 
 const LayeredSurface& layered(const schemas::SurfaceDocument& document) {
     if (const auto* surface = std::get_if<LayeredSurface>(&document.surface)) return *surface;
-    throw schemas::InputError(document.file, "",
-                              "tables of BRDFs are of layered surfaces, which look the same "
-                              "everywhere and from every azimuth");
+    throw schemas::InputError(
+        document.file, "",
+        "must be a layered surface: the BRDF of a scratched one depends on place and azimuth");
 }
 
 /// XYZ of the BRDF of very many pairs.
@@ -234,7 +234,9 @@ int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     Progress progress(command.quiet);
-    making.progress = [&progress](double done) { progress.set(done); };
+    making.progress = [&progress](double done, const std::string& what) {
+        progress.set(done, what);
+    };
     static const tables::LutKind kind{
         .name = "brdf", .summary = kLutBrdfSummary, .axes = kLutBrdfAxes};
     tables::Lut lut;

@@ -9,7 +9,7 @@ namespace irido::cli {
 
 inline constexpr std::string_view kLutBrdfSummary =
     "BRDF of a rough layered surface, as a table or as a file that renderers read.";
-inline constexpr std::string_view kLutBrdfAxes = "phi_d, theta_h, theta_d";
+inline constexpr std::string_view kLutBrdfAxes = "phi_d_deg, theta_h_deg, theta_d_deg";
 inline constexpr std::string_view kLutLayeredSummary =
     "All that a shader needs of a rough layered surface: colours, and straight light at nodes.";
 

@@ -85,14 +85,13 @@ NodeRequest request_of(const LutLayeredCommand& command, tables::LutType type) {
 
 LayeredSurface crossed_surface(const schemas::SurfaceDocument& document) {
     const auto* read = std::get_if<LayeredSurface>(&document.surface);
-    if (!read) throw schemas::InputError(document.file, "", "lut layered takes layered surfaces");
+    if (!read) throw schemas::InputError(document.file, "", "must be a layered surface");
     if (read->layers.empty())
-        throw schemas::InputError(document.file, "/layers",
-                                  "lut layered takes surfaces with at least one layer");
+        throw schemas::InputError(document.file, "/layers", "must have at least one layer");
     if (read->layers.size() > kMostTableLayers)
         throw schemas::InputError(
             document.file, "/layers",
-            "lut layered takes up to " + std::to_string(kMostTableLayers) +
+            "must be at most " + std::to_string(kMostTableLayers) +
                 " layers: every layer costs a shader five look-ups for three nodes (got " +
                 std::to_string(read->layers.size()) + ")");
     return *read;

@@ -71,12 +71,19 @@ Triple mixed(const Triple& a, const Triple& b, double share) {
 SurfaceRows layered_scatterogram(std::span<const schemas::SurfaceDocument> documents,
                                  const SurfaceQuery& query) {
     if (query.paths != "single" && query.paths != "all")
-        throw UsageError("--scatterogram: takes --paths single or all (got " + query.paths + ")");
+        throw UsageError("--scatterogram: requires --paths single or all (got '" + query.paths +
+                         "')");
     if (query.quantity != "brdf")
-        throw UsageError("--scatterogram: shows albedo and BRDF at once, without --quantity");
+        throw UsageError("--scatterogram: shows albedo and BRDF together; leave out --quantity");
+    if (const std::string typed = query.scratch.typed(); !typed.empty())
+        throw UsageError(typed + ": takes surfaces with scratches");
+    if (query.color.sides != "R")
+        throw UsageError("--scatterogram requires reflected light (got --side " +
+                         query.color.sides + ")");
+    if (query.color.method != "auto") throw UsageError("--method: requires --color");
     const std::vector<double> lights = parse_light_thetas(query.directions);
     if (lights.size() != 1)
-        throw UsageError("--scatterogram: takes one --light-theta, that of the beam");
+        throw UsageError("--scatterogram: requires a single --light-theta, that of the beam");
     const ColorColumns columns(query.color);
     const Sensitivity& sensitivity = columns.illumination().tables.sensitivity();
 
@@ -85,8 +92,7 @@ SurfaceRows layered_scatterogram(std::span<const schemas::SurfaceDocument> docum
     double brightest = 1;
     for (const schemas::SurfaceDocument& document : documents) {
         const auto* surface = std::get_if<LayeredSurface>(&document.surface);
-        if (!surface)
-            throw schemas::InputError(document.file, "", "--scatterogram takes layered surfaces");
+        if (!surface) throw schemas::InputError(document.file, "", "must be a layered surface");
         report_held_layers(*surface, document, sensitivity, query);
         const DiscColors colors = disc_colors(*surface, query, lights[0], sensitivity);
         all.insert(all.end(), colors.white.begin(), colors.white.end());

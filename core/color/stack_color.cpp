@@ -9,6 +9,7 @@
 #include "core/color/bloch/one_mirror.hpp"
 #include "core/color/fourier/film_color.hpp"
 #include "core/color/quadrature/quadrature_color.hpp"
+#include "core/color/spread_color.hpp"
 #include "core/colorimetry/difference.hpp"
 #include "core/error.hpp"
 #include "core/math/lazy.hpp"
@@ -33,17 +34,21 @@ double quadrature_us(double colors, double path_um) {
     return kRules + kRulesPerPath * path_um + colors * (kColor + kColorPerPath * path_um);
 }
 
+/// Optical thickness of a standard deviation from which on the series with its closed forms
+/// is quicker than the means of spread_color().
+constexpr double kWideSpread_nm = 150;
+
 /// Errors are measured against colours of this tolerance.
 constexpr double kMeasuringTolerance = 1e-9;
 
-/// Whether the series is the better way; quadrature takes very long over spread thicknesses.
+/// Whether the series is the better way; over spread thicknesses it has closed forms.
 bool is_for_series(const Stack& stack, const ColorRequest& request) {
     if (!is_one_film(stack) || has_dispersion(stack)) return false;
     const Layer film = only_film(stack);
     const double index = index_at(stack.materials[film.material], 550).real();
     const auto colors = static_cast<double>(request.colors);
-    return film.thickness_sigma_nm > 0 ||
-           series_us(colors) < quadrature_us(colors, 2e-3 * index * film.thickness_nm);
+    if (film.thickness_sigma_nm > 0) return index * film.thickness_sigma_nm > kWideSpread_nm;
+    return series_us(colors) < quadrature_us(colors, 2e-3 * index * film.thickness_nm);
 }
 
 /// Fringes of all periods in the visible range from which on Bloch waves are quicker than
@@ -127,6 +132,16 @@ private:
     mutable Lazy<std::unique_ptr<ColorAlgorithm>> quadrature_;
 };
 
+/// Quadrature of spectra, or of spectra without spread where that suffices.
+///   method  of stacks without spread
+std::unique_ptr<ColorAlgorithm> exact_color(const ColorTables& tables, const Stack& stack,
+                                            const ColorMethod& method,
+                                            const ColorRequest& request) {
+    if (auto special = spread_color(tables, stack, method, request))
+        return std::make_unique<SpecialColor>(tables, stack, request, std::move(special));
+    return quadrature_color(tables, stack, request);
+}
+
 std::unique_ptr<ColorAlgorithm> automatic_color(const ColorTables& tables, const Stack& stack,
                                                 const ColorRequest& request) {
     std::unique_ptr<ColorAlgorithm> special;
@@ -136,7 +151,7 @@ std::unique_ptr<ColorAlgorithm> automatic_color(const ColorTables& tables, const
         special =
             bloch_color(tables, stack, {ColorMethod::Kind::bloch}, bloch_request(request, fringes));
     } else {
-        return quadrature_color(tables, stack, request);
+        return exact_color(tables, stack, {}, request);
     }
     return std::make_unique<SpecialColor>(tables, stack, request, std::move(special));
 }
@@ -152,7 +167,7 @@ std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const
         case automatic:
             return automatic_color(tables, stack, request);
         case quadrature:
-            return quadrature_color(tables, stack, request);
+            return exact_color(tables, stack, method, request);
         case fourier:
         case fourier_constant:
             return film_color(tables, stack, method, request);

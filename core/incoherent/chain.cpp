@@ -165,6 +165,7 @@ void ChainLight::add_block_layers(std::size_t i, double from_above, double from_
 
 void ChainLight::layer_absorption(std::span<double> absorbed) const {
     const std::size_t last = last_block();
+    if (last == 0) return add_block_layers(0, 1, 0, absorbed);
     std::vector<Response> downs(last + 1), ups(last);
     for (std::size_t i = 0; i <= last; ++i) downs[i] = down(i);
     for (std::size_t i = 0; i < last; ++i) ups[i] = up(i);

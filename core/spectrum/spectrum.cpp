@@ -66,6 +66,17 @@ public:
         : stack_(stack), table_(table), needs_(needs), out_(out) {}
 
     void operator()(IncidentAngle incidence, std::size_t wavelength, std::size_t point) {
+        for_each_polarization(incidence, wavelength, point, true);
+    }
+
+    /// What each layer absorbs, and nothing else.
+    void layers(IncidentAngle incidence, std::size_t wavelength, std::size_t point) {
+        for_each_polarization(incidence, wavelength, point, false);
+    }
+
+private:
+    void for_each_polarization(IncidentAngle incidence, std::size_t wavelength, std::size_t point,
+                               bool powers) {
         wavelength_ = wavelength;
         incidence_ = incidence;
         absorbed_.resize(needs_.layers ? stack_.layer_count() : 0);
@@ -73,20 +84,20 @@ public:
         Spectrum* const s = needs_.s ? &out_.s : nullptr;
         Spectrum* const p = needs_.p ? &out_.p : nullptr;
         if (incidence.cos == 1) {
-            compute(Polarization::s, k0, point, s ? s : p, s && needs_.p_at_normal ? p : nullptr);
+            compute(Polarization::s, k0, point, powers, s ? s : p,
+                    s && needs_.p_at_normal ? p : nullptr);
         } else {
-            if (s) compute(Polarization::s, k0, point, s, nullptr);
-            if (p) compute(Polarization::p, k0, point, p, nullptr);
+            if (s) compute(Polarization::s, k0, point, powers, s, nullptr);
+            if (p) compute(Polarization::p, k0, point, powers, p, nullptr);
         }
     }
 
-private:
-    void compute(Polarization polarization, double k0, std::size_t point, Spectrum* to,
+    void compute(Polarization polarization, double k0, std::size_t point, bool powers, Spectrum* to,
                  Spectrum* also) {
         Response response;
         set_media(table_, wavelength_, incidence_, polarization, media_);
         try {
-            response = stack_(media_, k0, polarization, {needs_.T, needs_.A});
+            if (powers) response = stack_(media_, k0, polarization, {needs_.T, needs_.A});
             if (needs_.layers) stack_.layer_absorption(media_, k0, polarization, absorbed_);
         } catch (const DomainError& error) {
             const double nm = table_.wavelength_nm()[point % table_.wavelength_nm().size()];
@@ -95,7 +106,7 @@ private:
         }
         for (Spectrum* spectrum : {to, also}) {
             if (!spectrum) continue;
-            store(*spectrum, point, response);
+            if (powers) store(*spectrum, point, response);
             if (needs_.layers) store_layers(*spectrum, point, absorbed_);
         }
     }
@@ -351,7 +362,7 @@ void SpectrumKernel::update() {
     if (needs_.amplitudes && !stack_.has_amplitudes())
         throw DomainError("amplitudes exist for coherent layers of fixed thicknesses only");
     const Chain* chain = stack_.chain();
-    is_vectorized_ = chain && !needs_.layers && simd_ != SimdLevel::plain &&
+    is_vectorized_ = chain && simd_ != SimdLevel::plain &&
                      compile(*chain, absorbs_, amplifies_, needs_.A, fixed_, program_);
     if (is_vectorized_) program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
 }
@@ -423,6 +434,12 @@ void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& ta
                                    ? points_at(job.fixed, wavelengths, fixed, memory.fixed_points)
                                    : std::span<const FixedPoints>();
             (*vector)(job);
+            if (!needs_.layers) continue;
+            for (std::size_t i = job.begin; i < job.end; ++i) {
+                const std::size_t a = job.along_angles ? i : job.fixed;
+                const std::size_t w = job.along_angles ? job.fixed : i;
+                plain.layers(incidence[a], w, a * wavelengths + w);
+            }
             continue;
         }
         for (std::size_t w = job.begin; w < job.end; ++w)
@@ -446,8 +463,9 @@ void SpectrumKernel::operator()(const IndexTable& table, std::span<const Inciden
 void SpectrumKernel::operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                                 unsigned threads, Spectra& out) const {
     SpectrumMemory memory;
-    const double unit =
-        by_vectors(table) ? kVectorWork * static_cast<double>(layers_of(program_) + 2) : kPlainWork;
+    const double unit = by_vectors(table) && !needs_.layers
+                            ? kVectorWork * static_cast<double>(layers_of(program_) + 2)
+                            : kPlainWork;
     const auto points = static_cast<double>(incidence.size() * table.wavelength_nm().size());
     if (threads == 1 || points * unit < kLittleWork) return (*this)(table, incidence, out, memory);
     prepare(table, incidence, out, memory.jobs);

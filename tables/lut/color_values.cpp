@@ -17,6 +17,13 @@ namespace {
 
 constexpr std::string_view kXyz = "xyz";
 
+/// Largest CIEDE2000 per unit of X, Y and Z, that of X next to black: 3/2 (of a') 500 (903.3/116/3)
+/// / 0.95 is 2050 along a*, and the errors of the others add up to twice as much.
+constexpr double kSteepest = 6000;
+
+/// Rougher colours are never asked for.
+constexpr double kRoughestColor = 1e-4;
+
 Triple product(const ColorMatrix& matrix, const Triple& v) {
     Triple result{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -63,6 +70,12 @@ LutMeasure color_measure(const LutRequest& request) {
                                           values.to_lab(triple_at(approximate, i)));
                 return result;
             }};
+}
+
+LutRequest rougher(LutRequest request, double error) {
+    request.color.tolerance =
+        std::max(request.color.tolerance, std::min(kRoughestColor, error / kSteepest));
+    return request;
 }
 
 nlohmann::json color_facts(const LutRequest& request) {

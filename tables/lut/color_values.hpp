@@ -33,6 +33,10 @@ private:
 /// CIEDE2000 of two samples.
 LutMeasure color_measure(const LutRequest& request);
 
+/// The request with colours whose error is at most `error` in the measure, if that is more than it
+/// asks for.
+LutRequest rougher(LutRequest request, double error);
+
 /// Metadata of colours: color_space, stack and the colour part of the request.
 nlohmann::json color_facts(const LutRequest& request);
 

@@ -99,7 +99,10 @@ struct LutPlan {
     std::size_t split_axis = 0;  ///< the work is divided along this axis
     /// Values [axes][channel] at all combinations of the axes' samples. Each value depends on its
     /// own sample only; thread-safe.
-    std::function<std::vector<double>(const std::vector<LutAxis>& axes)> evaluate;
+    using Evaluate = std::function<std::vector<double>(const std::vector<LutAxis>& axes)>;
+    Evaluate evaluate;
+    /// The same with an error of at most `error` in the measure, for trials: quicker. May be empty.
+    std::function<Evaluate(double error)> roughly{};
     LutMeasure measure;
     nlohmann::json facts = nlohmann::json::object();  ///< color_space, notes, the kind's request
 };

@@ -26,6 +26,11 @@ void LeftOutFringes::add(double wavelength_nm, const FringeMean& mean) {
     points_.push_back({wavelength_nm, mean.phase, mean.swing_R, mean.swing_T, 0});
 }
 
+double LeftOutFringes::path_nm(const Point& from, const Point& to) {
+    const double waves = (to.turned - from.turned) / (2 * std::numbers::pi);
+    return waves > 0 ? waves / (1 / from.wavelength_nm - 1 / to.wavelength_nm) : 0;
+}
+
 double LeftOutFringes::error(Side side, const ColorTables& tables, bool only_edges) {
     std::ranges::sort(points_, {}, &Point::wavelength_nm);
     const auto again = std::ranges::unique(
@@ -35,11 +40,6 @@ double LeftOutFringes::error(Side side, const ColorTables& tables, bool only_edg
         points_[i].turned =
             points_[i - 1].turned + std::abs(points_[i].phase - points_[i - 1].phase);
     const std::size_t last = points_.size() - 1;
-    // from one point to a later one
-    const auto path_nm = [](const Point& a, const Point& b) {
-        const double waves = (b.turned - a.turned) / (2 * std::numbers::pi);
-        return waves > 0 ? waves / (1 / a.wavelength_nm - 1 / b.wavelength_nm) : 0;
-    };
     double slow = 0, fast = 0;
     for (std::size_t i = 0; i <= last; ++i) {
         const Point& point = points_[i];
@@ -59,6 +59,29 @@ double LeftOutFringes::error(Side side, const ColorTables& tables, bool only_edg
         }
     }
     return kSafety * fast + slow;
+}
+
+double LeftOutFringes::at_kinks(Side side, const ColorTables& tables,
+                                std::span<const Kink> kinks) const {
+    constexpr double kDeviations = 3;
+    double squares = 0;
+    for (const Kink& kink : kinks) {
+        const auto above =
+            std::ranges::upper_bound(points_, kink.wavelength_nm, {}, &Point::wavelength_nm);
+        const std::ptrdiff_t at = std::clamp<std::ptrdiff_t>(
+            above - points_.begin(), 1, static_cast<std::ptrdiff_t>(points_.size()) - 1);
+        const Point& before = points_[static_cast<std::size_t>(at) - 1];
+        const Point& after = points_[static_cast<std::size_t>(at)];
+        const double swing = side == Side::reflected ? std::max(before.swing_R, after.swing_R)
+                                                     : std::max(before.swing_T, after.swing_T);
+        const double path = path_nm(before, after);
+        if (swing == 0) continue;
+        const double part = swing * kink.wavelength_nm * kink.wavelength_nm *
+                            std::ranges::max(tables.sensitivity().at(kink.wavelength_nm)) *
+                            kink.path_jump_nm / (2 * std::numbers::pi * path * path);
+        squares += part * part;
+    }
+    return kDeviations * std::sqrt(squares);
 }
 
 }  // namespace irido

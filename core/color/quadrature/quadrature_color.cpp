@@ -115,6 +115,9 @@ double work_of(std::span<const Element> elements) {
     return work;
 }
 
+/// Part of a wavelength within which the slope of a table jumps.
+constexpr double kKinkStep = 1e-7;
+
 /// Squares of normal indices below this part of the index' own are taken to be that.
 constexpr double kLeastNormal = 1e-6;
 
@@ -237,6 +240,7 @@ private:
         std::vector<Medium> media;
         std::vector<double> effects;
         std::array<LeftOutFringes, 2> left_out;  ///< of s and p
+        std::vector<LeftOutFringes::Kink> kinks;
     };
 
     const SpectrumKernel& kernel_of(const Stack& stack, Scratch& scratch) const {
@@ -353,7 +357,7 @@ private:
     bool try_mean(const Stack& stack, IncidentAngle incidence, double path_nm,
                   const IntegrationLimits& limits, std::span<StackColor> colors,
                   Scratch& scratch) const {
-        if (!constant_ || incidence.cos == 0 || !scratch.power->has_amplitudes() ||
+        if (keeps_rows_ || incidence.cos == 0 || !scratch.power->has_amplitudes() ||
             std::ranges::find(amplifies_, true) != amplifies_.end())
             return false;
         std::size_t fast = 0;
@@ -382,20 +386,53 @@ private:
         const auto affordable = static_cast<std::size_t>(
             std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
         scratch.integrals.resize(colors.size());
-        integrate_color(
-            sensitivity_, start, polarizations, sample,
-            {limits.tolerance / 2, std::min(request_.evaluations, affordable), limits.simd},
-            scratch.integration, scratch.integrals);
+        IntegrationLimits half{limits.tolerance / 2, std::min(request_.evaluations, affordable),
+                               limits.simd};
+        if (!constant_) half.index_effects = index_effects(incidence, scratch.effects);
+        integrate_color(sensitivity_, start, polarizations, sample, half, scratch.integration,
+                        scratch.integrals);
+        kinks_of(stack.elements[fast], 1, scratch.kinks);
         bool done = true;
         for (std::size_t i = 0; i < colors.size(); ++i) {
             double error = scratch.integrals[i].error;
             for (std::size_t k = 0; k < polarizations; ++k)
-                error += scratch.left_out[k].error(request_.sides[i], tables_, only_edges) /
+                error += (scratch.left_out[k].error(request_.sides[i], tables_, only_edges) +
+                          scratch.left_out[k].at_kinks(request_.sides[i], tables_, scratch.kinks)) /
                          static_cast<double>(polarizations);
             done = done && error <= limits.tolerance;
             take_better(colors[i], scratch.integrals[i], error);
         }
         return done;
+    }
+
+    /// Rows of the tables of an element's materials.
+    void kinks_of(const Element& element, double repeat,
+                  std::vector<LeftOutFringes::Kink>& kinks) const {
+        kinks.clear();
+        if (constant_) return;
+        std::vector<double> length_nm(held_.materials.size());
+        add_lengths(element, repeat, length_nm);
+        for (std::size_t m = 0; m < length_nm.size(); ++m) {
+            if (length_nm[m] == 0) continue;
+            const Material& material = held_.materials[m];
+            for (const double nm : table_rows(material, sensitivity_.support())) {
+                const double step = kKinkStep * nm;
+                const double jump = index_at(material, nm + step).real() +
+                                    index_at(material, nm - step).real() -
+                                    2 * index_at(material, nm).real();
+                kinks.push_back({nm, 2 * length_nm[m] * nm * std::abs(jump) / step});
+            }
+        }
+    }
+
+    static void add_lengths(const Element& element, double repeat, std::vector<double>& length_nm) {
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            length_nm[layer->material] += repeat * layer->thickness_nm;
+            return;
+        }
+        const Group& group = std::get<Group>(element.value);
+        for (const Element& inner : group.elements)
+            add_lengths(inner, repeat * static_cast<double>(group.repeat), length_nm);
     }
 
     /// Means of the polarizations, and their denominators.

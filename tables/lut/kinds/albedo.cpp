@@ -27,9 +27,30 @@ struct Source {
 
 void require_albedo(const LutRequest& request) {
     if (!request.vary.empty())
-        throw DomainError("nothing may vary (got " + request.vary.front().path + ")");
+        throw DomainError("albedo has no varied value (got '" + request.vary.front().path + "')");
     for (const Side side : request.color.sides)
         if (side != Side::reflected) throw DomainError("side must be R for albedo (got T)");
+}
+
+LutPlan::Evaluate function_of(const LutRequest& request) {
+    const auto source = std::make_shared<const Source>(request);
+    return [source](const std::vector<LutAxis>& axes) {
+        const std::size_t alphas = axes[1].count();
+        std::vector<double> values(axes[0].count() * alphas * 3);
+        for (std::size_t a = 0; a < alphas; ++a) {
+            const std::vector<RoughAlbedo::Value> column =
+                source->albedo(axes[1].values[a], axes[0].values);
+            for (std::size_t i = 0; i < column.size(); ++i) {
+                if (!(column[i].error <= kWorstError))
+                    throw DomainError("the albedo at cos_theta " + to_text(axes[0].values[i]) +
+                                      " has error " + to_text(column[i].error) +
+                                      ", tables require " + to_text(kWorstError));
+                const Triple rgb = source->values(column[i].xyz);
+                for (std::size_t c = 0; c < 3; ++c) values[(i * alphas + a) * 3 + c] = rgb[c];
+            }
+        }
+        return values;
+    };
 }
 
 LutPlan plan(const LutRequest& request) {
@@ -43,24 +64,8 @@ LutPlan plan(const LutRequest& request) {
     for (const double value : plan.axes[1].axis.values)
         if (value != 0) require_in_range("alpha", value, kSmoothest, kRoughest);
     plan.channels = color_channels(request);
-    const auto source = std::make_shared<const Source>(request);
-    plan.evaluate = [source](const std::vector<LutAxis>& axes) {
-        const std::size_t alphas = axes[1].count();
-        std::vector<double> values(axes[0].count() * alphas * 3);
-        for (std::size_t a = 0; a < alphas; ++a) {
-            const std::vector<RoughAlbedo::Value> column =
-                source->albedo(axes[1].values[a], axes[0].values);
-            for (std::size_t i = 0; i < column.size(); ++i) {
-                if (!(column[i].error <= kWorstError))
-                    throw DomainError("the albedo at cos_theta " + to_text(axes[0].values[i]) +
-                                      " has error " + to_text(column[i].error) + ", tables need " +
-                                      to_text(kWorstError));
-                const Triple rgb = source->values(column[i].xyz);
-                for (std::size_t c = 0; c < 3; ++c) values[(i * alphas + a) * 3 + c] = rgb[c];
-            }
-        }
-        return values;
-    };
+    plan.evaluate = function_of(request);
+    plan.roughly = [request](double error) { return function_of(rougher(request, error)); };
     plan.measure = color_measure(request);
     plan.facts = color_facts(request);
     return plan;
@@ -94,7 +99,7 @@ std::vector<std::string> problems(const Lut& lut) {
 extern const LutKind lut_kind_albedo = {
     .name = "albedo",
     .summary = "Directional albedo, as a colour, of a rough surface whose facets are the stack.",
-    .axes = "cos theta, alpha",
+    .axes = "cos_theta, alpha",
     .notes =
         "Fraction of light that leaves in any direction after one reflection:\n"
         "    E(theta_i) = integral of D G2 R / (4 cos_i cos_o) cos_o over all directions o\n"

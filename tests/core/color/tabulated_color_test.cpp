@@ -211,3 +211,22 @@ TEST_CASE("a table costs what the question needs, not what its rows are") {
     CHECK(evaluations(dense, 1e-2) < 40);
     CHECK(evaluations(dense, 1e-6) < 400);
 }
+
+TEST_CASE("dispersive mirrors of very many periods have means over their fringes") {
+    const auto mirror = [](std::uint64_t periods) {
+        StackBuilder b;
+        const std::size_t high = b.material(find_material("TiO2")->material);
+        const std::size_t low = b.material(find_material("SiO2")->material);
+        b.add(StackBuilder::group(
+            periods, {StackBuilder::layer_of(high, 58), StackBuilder::layer_of(low, 94)}));
+        return b.over_material(b.material(find_material("BK7")->material));
+    };
+    // at 1e-7 the means do not suffice, and every fringe is followed
+    const StackColor mean = color(mirror(10000), 20, {});
+    const StackColor all = color(mirror(10000), 20, {.tolerance = 1e-7});
+    CHECK(mean.error <= 1e-6);
+    CHECK(mean.evaluations < 20000);
+    CHECK(all.evaluations > 100000);
+    CHECK(largest_difference(mean.xyz, all.xyz) <= mean.error + all.error);
+    CHECK(color(mirror(1000000000), 20, {}).error <= 1e-6);
+}

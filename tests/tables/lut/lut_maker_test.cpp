@@ -138,6 +138,60 @@ TEST_CASE("a tolerance that no size meets is said", "[lut]") {
     CHECK_THROWS_AS(make_lut(kKind, jump, with_tolerance(1e-3)), ToleranceError);
 }
 
+TEST_CASE("a size that cannot be met is seen early", "[lut]") {
+    std::size_t samples = 0;
+    LutPlan jump = plan_of([&](double x, double) {
+        ++samples;
+        return x < 0.3 ? 0.0 : 1.0;
+    });
+    LutMaking making = with_tolerance(1e-3);
+    making.threads = 1;
+    CHECK_THROWS_AS(make_lut(kKind, jump, making), ToleranceError);
+    CHECK(samples < 5000);
+}
+
+TEST_CASE("trials go by rough values, what is written does not", "[lut]") {
+    const auto f = [](double x, double y) { return x * x + 3 * y; };
+    LutPlan plan = plan_of(f);
+    std::vector<double> asked;
+    plan.roughly = [&](double error) {
+        asked.push_back(error);
+        return plan_of([=](double x, double y) { return f(x, y) + 1e-6; }).evaluate;
+    };
+    const Lut lut = make_lut(kKind, plan, with_tolerance(1e-4));
+    CHECK(asked == std::vector<double>{1e-4 * 0.1});
+    CHECK(lut.axes[0].count() == 64);
+    CHECK(lut.values == make_lut(kKind, plan_of(f), with_tolerance(1e-4)).values);
+}
+
+TEST_CASE("the worst places of large tables are found by their curvature", "[lut]") {
+    // a narrow ridge: all cells are looked at here, few of them in the table
+    const auto f = [](double x, double y) {
+        return std::exp(-std::pow((x - 0.3713) / 0.01, 2)) * std::cos(3 * y) + std::sin(9 * y);
+    };
+    constexpr std::size_t count = 200;
+    std::size_t samples = 0;
+    LutPlan plan = plan_of([&](double x, double y) { return ++samples, f(x, y); }, 1, count);
+    LutMaking making;
+    making.type = LutType::f64;
+    making.threads = 1;
+    const double error = make_lut(kKind, plan, making).facts["error"]["value"];
+    CHECK(samples < 2 * count * count);
+    double worst = 0;
+    const std::vector<double> at = equally_spaced(0, 1, count);
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        for (std::size_t j = 0; j + 1 < count; ++j) {
+            const double middle = (f(at[i], at[j]) + f(at[i + 1], at[j]) + f(at[i], at[j + 1]) +
+                                   f(at[i + 1], at[j + 1])) /
+                                  4;
+            worst = std::max(
+                worst, std::abs(middle - f((at[i] + at[i + 1]) / 2, (at[j] + at[j + 1]) / 2)));
+        }
+    }
+    CHECK(error >= worst);
+    CHECK(error < 1.1 * worst);
+}
+
 TEST_CASE("sizes that were typed are taken", "[lut]") {
     const LutPlan plan = plan_of([](double x, double y) { return x + y; });
     LutMaking making;
@@ -195,8 +249,9 @@ TEST_CASE("progress grows to the whole", "[lut]") {
     double last = 0;
     bool grows = true;
     make_lut(kKind, plan_of([](double x, double y) { return x + y; }),
-             {.threads = 1, .progress = [&](double done) {
-                  grows = grows && done > last;
+             {.threads = 1, .progress = [&](double done, const std::string& what) {
+                  if (what == "error") return;
+                  grows = grows && done >= last;
                   last = done;
               }});
     CHECK(grows);

@@ -167,7 +167,7 @@ TEST_CASE("tables of surfaces refuse what they cannot be", "[cli][brdf]") {
     refused({"brdf", pale, "--paths", "simulation", "-o", folder / "x.npy"},
             "--paths: must be single or all");
     refused({"brdf", "schemas/examples/surfaces/worn-spoon.json", "-o", folder / "x.npy"},
-            "are of layered surfaces");
+            "must be a layered surface");
     refused({"layered", "-", "-o", folder / "x.ktx2"}, "at least one layer",
             R"({"layers": [], "base": {"albedo": 0.5}})");
     refused({"layered", pale, "--nodes", "4", "-o", folder / "x.ktx2"}, "must be a multiple of 3");
@@ -177,6 +177,6 @@ TEST_CASE("tables of surfaces refuse what they cannot be", "[cli][brdf]") {
     refused({"layered", pale, "--size", "1", "-o", folder / "x.ktx2"}, "--size");
     refused({"layered", pale, "--paths", "all", "-o", folder / "x.ktx2"}, "--paths all");
     refused({"layered", "schemas/examples/surfaces/worn-spoon.json", "-o", folder / "x.ktx2"},
-            "takes layered surfaces");
+            "must be a layered surface");
     refused({"layered", pale, "-o", folder / "x.png"}, "--output: the extension");
 }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "core/color/color_request.hpp"
+#include "core/color/color_tables.hpp"
+
+namespace irido {
+
+/// Whether a layer's thickness is spread.
+bool has_spread(const Stack& stack);
+
+/// Colours of stacks with thickness_sigma_nm as means of colours of stacks without: X, Y and Z are
+/// linear in R and T, and as functions of a thickness they are much smoother than these, because
+/// the observer has already averaged over the wavelengths. Rules for one layer are nested, each
+/// compared with the one inside it; several layers take their products.
+///   few fringes  3 and 9 points, exact for polynomials of degree 5 and 15
+///   more         8 to 128 equal steps
+///   cut at 0     Clenshaw and Curtis's rules of 8 to 128 intervals
+/// An error is infinite where the spread holds too many fringes for these.
+/// Source: A. Genz and B. D. Keister, J. Comput. Appl. Math. 71 (1996) 299.
+///   stack    one of those to come, as of color_algorithm()
+///   request  of them
+///   method   of the stacks without spread
+/// nullptr if a material amplifies or the spread layers are none, more than two or incoherent.
+std::unique_ptr<ColorAlgorithm> spread_color(const ColorTables& tables, const Stack& stack,
+                                             const ColorMethod& method,
+                                             const ColorRequest& request);
+
+}  // namespace irido

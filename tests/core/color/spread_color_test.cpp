@@ -1,0 +1,123 @@
+#include "core/color/spread_color.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/color/quadrature/quadrature_color.hpp"
+#include "core/color/stack_color.hpp"
+#include "core/colorimetry/difference.hpp"
+#include "core/colorimetry/illuminant.hpp"
+#include "core/material/library.hpp"
+#include "tests/oracle/random_stacks.hpp"
+
+using namespace irido;
+using oracle::Random;
+using oracle::StackBuilder;
+
+namespace {
+
+const ColorTables& white_light() {
+    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
+    return tables;
+}
+
+Layer& layer_of(Stack& stack, std::size_t i) {
+    return std::get<Layer>(stack.elements[i].value);
+}
+
+StackColor color(const Stack& stack, double angle_deg, const ColorRequest& request = {}) {
+    return stack_color(white_light(), stack, {}, request, std::span(&angle_deg, 1)).front();
+}
+
+/// Means over the thickness at each wavelength.
+StackColor by_spectra(const Stack& stack, double angle_deg, const ColorRequest& request = {}) {
+    StackColor result;
+    (*quadrature_color(white_light(), stack, request))(stack, std::span(&angle_deg, 1),
+                                                    std::span(&result, 1));
+    return result;
+}
+
+/// Up to three layers, one or two of them spread.
+Stack spread_stack(Random& random, std::size_t spreads) {
+    constexpr std::array names{"TiO2", "SiO2", "MgF2", "ITO"};
+    StackBuilder b;
+    const std::size_t layers = spreads + random.below(2);
+    for (std::size_t i = 0; i < layers; ++i) {
+        const double nm = random.uniform(5, 300);
+        if (random.one_in(2))
+            b.add(b.layer({random.uniform(1.2, 2.6), random.one_in(3) ? 0.05 : 0}, nm));
+        else
+            b.add(StackBuilder::layer_of(
+                b.material(find_material(names[random.below(names.size())])->material), nm));
+    }
+    Stack stack =
+        b.over_material(b.material(find_material(random.one_in(2) ? "Ti" : "BK7")->material));
+    for (std::size_t i = 0; i < spreads; ++i)
+        layer_of(stack, i).thickness_sigma_nm = random.log_uniform(0.3, spreads == 1 ? 80 : 8);
+    return stack;
+}
+
+}  // namespace
+
+TEST_CASE("means of colours over a thickness are colours of mean spectra", "[color]") {
+    Random random(20);
+    for (int i = 0; i < 40; ++i) {
+        const Stack stack = spread_stack(random, 1);
+        const double angle = random.uniform(0, 85);
+        const StackColor of_colors = color(stack, angle), of_spectra = by_spectra(stack, angle);
+        INFO(i);
+        CHECK(of_colors.error <= 1e-6);
+        CHECK(largest_difference(of_colors.xyz, of_spectra.xyz) <=
+              of_colors.error + of_spectra.error);
+    }
+}
+
+TEST_CASE("two spread layers are a mean over both", "[color]") {
+    Random random(21);
+    for (int i = 0; i < 3; ++i) {
+        Stack stack = spread_stack(random, 2);
+        // the outer mean by equal steps, which are exact for Gaussians
+        const Layer first = layer_of(stack, 0);
+        if (first.thickness_nm < 7 * first.thickness_sigma_nm) continue;
+        const StackColor both = color(stack, 40);
+        Triple mean{};
+        double weights = 0;
+        for (int j = -28; j <= 28; ++j) {
+            Stack one = stack;
+            layer_of(one, 0).thickness_nm += first.thickness_sigma_nm * j / 4;
+            layer_of(one, 0).thickness_sigma_nm = 0;
+            const double weight = std::exp(-j * j / 32.0);
+            const Triple xyz = color(one, 40).xyz;
+            for (std::size_t c = 0; c < 3; ++c) mean[c] += weight * xyz[c];
+            weights += weight;
+        }
+        for (double& value : mean) value /= weights;
+        CHECK(largest_difference(both.xyz, mean) < 2e-6);
+    }
+}
+
+TEST_CASE("repetitions of a group share the deviation of a layer", "[color]") {
+    StackBuilder b;
+    b.add(StackBuilder::group(4, {b.layer(2.2, 60), b.layer(1.45, 95)}));
+    Stack stack = b.over(1.52);
+    std::get<Layer>(std::get<Group>(stack.elements[0].value).elements[0].value).thickness_sigma_nm =
+        3;
+    const StackColor of_colors = color(stack, 30), of_spectra = by_spectra(stack, 30);
+    CHECK(largest_difference(of_colors.xyz, of_spectra.xyz) <= of_colors.error + of_spectra.error);
+}
+
+TEST_CASE("spreads that colours cannot average are left to spectra", "[color]") {
+    StackBuilder b;
+    b.add(b.layer({1.5, -0.01}, 200));
+    Stack amplifier = b.over(1.52);
+    layer_of(amplifier, 0).thickness_sigma_nm = 5;
+    CHECK(spread_color(white_light(), amplifier, {}, {}) == nullptr);
+    Stack thick = amplifier;
+    thick.materials[layer_of(thick, 0).material].model =
+        RefractiveIndex{Constant{1.5}, Constant{0}};
+    CHECK(spread_color(white_light(), thick, {}, {}) != nullptr);
+    layer_of(thick, 0).coherent = false;
+    CHECK(spread_color(white_light(), thick, {}, {}) == nullptr);
+    layer_of(thick, 0).thickness_sigma_nm = 0;
+    CHECK_FALSE(has_spread(thick));
+}
