@@ -345,7 +345,7 @@ void add_lut_brdf(CLI::App& lut, Run& run) {
     add_table_paths_options(*command, options->query.paths, options->query.transmission);
     command
         ->add_option("--phi-d", options->phi_d,
-                     "azimuths of the light about the half vector, degrees, [0, 90] [0:90/16]")
+                     "azimuths of the light about the half vector, degrees, [0, 90] [0:90/32]")
         ->type_name("LIST");
     command
         ->add_option("--theta-h", options->theta_h,
@@ -353,7 +353,7 @@ void add_lut_brdf(CLI::App& lut, Run& run) {
         ->type_name("LIST");
     command
         ->add_option("--theta-d", options->theta_d,
-                     "half the angle between the directions, degrees, [0, 90] [0:90/128]")
+                     "half the angle between the directions, degrees, [0, 90] [0:90/64]")
         ->type_name("LIST");
     command
         ->add_option("-w,--wavelengths", options->wavelengths,

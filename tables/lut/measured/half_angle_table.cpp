@@ -13,7 +13,7 @@ namespace irido::tables {
 namespace {
 
 constexpr double kMeasuredEnd_deg = 85;
-constexpr std::size_t kPhiSamples = 16, kHalfSamples = 128, kDifferenceSamples = 128;
+constexpr std::size_t kPhiSamples = 32, kHalfSamples = 128, kDifferenceSamples = 64;
 
 AxisPlan angle_axis(std::string name, const std::vector<double>& typed, std::size_t count,
                     double half_at_deg) {
@@ -44,7 +44,7 @@ void for_each_sample(const std::vector<LutAxis>& axes, const Visit& visit) {
 }  // namespace
 
 double half_angle_scale_deg(double alpha) {
-    return alpha / kDegree;
+    return 25 * std::sqrt(alpha / kDegree);
 }
 
 LutPlan half_angle_plan(HalfAngleTable typed) {

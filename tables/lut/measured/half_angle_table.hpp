@@ -12,7 +12,7 @@ namespace irido::tables {
 /// A BRDF of a surface that looks the same from every azimuth, over half-angle coordinates.
 struct HalfAngleTable {
     /// Samples, degrees, strictly monotonic; none: as many as there are by default. theta_h then
-    /// lies equally spaced in theta_h / (theta_h + alpha), closest in the lobe.
+    /// lies equally spaced in theta_h / (theta_h + scale), closest in the lobe.
     std::vector<double> theta_h_deg, theta_d_deg, phi_d_deg;
     double alpha = 0.1;                               ///< of the narrowest lobe
     std::function<Triple(const HalfAnglePair&)> xyz;  ///< of the BRDF, per steradian; thread-safe
@@ -26,7 +26,8 @@ struct HalfAngleTable {
 /// of pi times the BRDF, is measured where both directions are up to 85 degrees from the normal.
 LutPlan half_angle_plan(HalfAngleTable table);
 
-/// Places of theta_h on its axis: what half_at of the axis is for this roughness, degrees.
+/// half_at of the axis of theta_h for a roughness, degrees: between alpha and the quarter turn, so
+/// that neither the lobe nor its tail has too few of 128 samples.
 double half_angle_scale_deg(double alpha);
 
 }  // namespace irido::tables
