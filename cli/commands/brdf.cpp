@@ -13,6 +13,7 @@ namespace {
 struct BrdfCommand {
     SurfaceOptions surface;
     SurfaceQuery query;
+    std::vector<std::string> beside;  ///< further surfaces of a scatterogram
     std::string wavelengths = "380:780:1";
     OutputOptions output;
     PictureOptions picture;
@@ -20,7 +21,24 @@ struct BrdfCommand {
     bool quiet = false;
 };
 
+/// The surface and those beside it.
+std::vector<schemas::SurfaceDocument> documents_of(const schemas::SurfaceDocument& first,
+                                                   const BrdfCommand& command) {
+    std::vector<schemas::SurfaceDocument> documents{first};
+    for (const std::string& typed : command.beside) {
+        SurfaceOptions one = command.surface;
+        one.source.stack = typed;
+        documents.push_back(read_noted_surface(one, command.quiet));
+    }
+    return documents;
+}
+
 int run_brdf(const BrdfCommand& command) {
+    constexpr std::size_t kMostBeside = 15;
+    if (!command.beside.empty() && !command.query.scatterogram)
+        throw UsageError("--beside: requires --scatterogram");
+    if (command.beside.size() > kMostBeside)
+        throw UsageError("--beside: must be given at most 15 times");
     const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
     if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
     if (command.query.scatterogram && (!picture || picture->name != "png") &&
@@ -40,8 +58,11 @@ int run_brdf(const BrdfCommand& command) {
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
     check_writable(command.output);
     SurfaceRows rows =
-        std::visit([&](const auto& surface) { return rows_of_surface(surface, document, query); },
-                   document.surface);
+        query.scatterogram
+            ? layered_scatterogram(documents_of(document, command), query)
+            : std::visit(
+                  [&](const auto& surface) { return rows_of_surface(surface, document, query); },
+                  document.surface);
     if (!picture) {
         write_records(rows.records, command.output);
         return 0;
@@ -138,6 +159,11 @@ void add_brdf_command(CLI::App& program, Run& run) {
     command->add_flag("--scatterogram", options->query.scatterogram,
                       "two discs of directions seen from above: in a white environment, and pi\n"
                       "times the BRDF in a beam from --light-theta; requires -o FILE.png or .csv");
+    command
+        ->add_option("--beside", options->beside,
+                     "another surface of the scatterogram, beside the first; repeatable")
+        ->type_name("SURFACE")
+        ->allow_extra_args(false);
     add_light_options(*command, options->query.color);
     add_space_options(*command, options->query.color);
     command

@@ -7,6 +7,7 @@
 #include "cli/options/color_options.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/options/picture_options.hpp"
+#include "cli/options/table_options.hpp"
 #include "cli/progress.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
@@ -23,7 +24,6 @@ namespace irido::cli {
 
 namespace {
 
-constexpr double kMostSamples = 8192;
 constexpr std::size_t kMostVaried = 2;
 
 /// Options of one kind of table, as given on the command line.
@@ -35,50 +35,10 @@ struct LutCommand {
     std::map<std::string, bool, std::less<>> flags;
     OutputOptions output;
     PictureOptions picture;
-    std::string type, size, tolerance;
-    bool any_size = false;
-    tables::LutLayout layout;
+    TableOptions table;
     unsigned threads = 0;
     bool quiet = false;
 };
-
-std::vector<std::string_view> format_names() {
-    std::vector<std::string_view> names;
-    for (const tables::LutFormat* format : tables::lut_formats()) names.push_back(format->name);
-    for (const tables::PictureFormat* format : tables::picture_formats())
-        names.push_back(format->name);
-    return names;
-}
-
-const tables::LutFormat& resolved_lut_format(const OutputOptions& output) {
-    const std::string name = resolved_format(output);
-    const std::size_t dot = output.file.find_last_of('.');
-    const std::string extension = dot == std::string::npos ? "" : output.file.substr(dot + 1);
-    if (!output.format.empty() && extension != name && tables::find_lut_format(extension))
-        throw UsageError("--format: " + name + " contradicts the extension ." + extension);
-    if (const tables::LutFormat* format = tables::find_lut_format(name)) return *format;
-    throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
-                     not_one_of(format_names(), name));
-}
-
-tables::LutType parse_type(std::string_view text) {
-    for (const tables::LutType type :
-         {tables::LutType::f16, tables::LutType::f32, tables::LutType::f64})
-        if (name_of(type) == text) return type;
-    throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + std::string(text) + "')");
-}
-
-/// Parses "64x512", one number per axis; a single number applies to all axes.
-std::vector<std::size_t> parse_size(std::string text, std::size_t axes) {
-    std::vector<std::size_t> counts;
-    if (text.empty()) return counts;
-    std::ranges::replace(text, 'x', ',');
-    for (const std::string_view part : comma_separated(text))
-        counts.push_back(
-            static_cast<std::size_t>(parse_whole_number("--size", part, 1, kMostSamples)));
-    if (counts.size() == 1) counts.resize(axes, counts.front());
-    return counts;
-}
 
 void parse_option(const tables::LutOption& option, const std::string& text,
                   tables::LutOptions& values) {
@@ -188,26 +148,6 @@ tables::LutPlan plan_of(const tables::LutKind& kind, const tables::LutRequest& r
     }
 }
 
-tables::LutMaking making_of(const tables::LutKind& kind, const LutCommand& command,
-                            const tables::LutFormat* format, std::size_t axes) {
-    tables::LutMaking making;
-    making.sizing.counts = parse_size(command.size, axes);
-    making.sizing.power_of_two = !command.any_size;
-    if (command.any_size && command.tolerance.empty())
-        throw UsageError("--any-size: requires --tolerance");
-    if (!command.tolerance.empty()) {
-        if (!making.sizing.counts.empty())
-            throw UsageError("--tolerance: cannot be combined with --size");
-        making.sizing.tolerance = parse_one_number("--tolerance", command.tolerance, 1e-12, 1e3);
-    }
-    const std::string_view usual = format && format->name == "csv" ? kind.text_type : "f32";
-    making.type = parse_type(command.type.empty() ? usual : command.type);
-    making.mips = format && format->name == "ktx2" && !command.layout.layers;
-    making.measure = !command.output.file.empty();
-    making.threads = command.threads;
-    return making;
-}
-
 void draw_lut(const LutCommand& command, const tables::LutKind& kind,
               const tables::LutRequest& request, const tables::PictureFormat& picture,
               const tables::Lut& lut) {
@@ -231,7 +171,9 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     if (is_slow(kind, request)) say(kSlowNote);
     tables::LutPlan plan = plan_of(kind, request);
-    tables::LutMaking making = making_of(kind, command, format, plan.axes.size());
+    tables::LutMaking making = making_of(command.table, format, kind.text_type, plan.axes.size());
+    making.measure = !command.output.file.empty();
+    making.threads = command.threads;
     if (!is_slow(kind, request))
         note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     Progress progress(command.quiet);
@@ -252,28 +194,8 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
         draw_lut(command, kind, request, *picture, lut);
         return 0;
     }
-    if (command.output.file.empty()) {
-        const std::vector<tables::LutFile> files = format->write(lut, command.layout);
-        const auto table = std::ranges::find(files, std::string(), &tables::LutFile::suffix);
-        write_bytes(table->bytes, command.output, format->is_binary);
-    } else {
-        tables::write_lut(lut, command.output.file, *format, command.layout);
-    }
-    if (command.layout.layers)
-        note("three.js reads only the first array layer of a file", command.quiet);
-    if (format->name == "ktx2" || format->name == "exr")
-        for (const tables::LutAxis& axis : lut.axes)
-            if (!axis.is_linear() && axis.half_at == 0 && !(lut.mips && &axis == &lut.axes.front()))
-                note(axis.name + ": samples are not equally spaced: fetch texels, do not filter",
-                     command.quiet);
+    write_table(lut, *format, command.table.layout, command.output, command.quiet);
     return 0;
-}
-
-std::string formats_text() {
-    std::string text;
-    for (const std::string_view name : format_names())
-        text.append(text.empty() ? "" : ", ").append(name);
-    return text + " [csv]; pictures are for\nlooking only";
 }
 
 void add_kind_options(CLI::App& command, const tables::LutKind& kind, LutCommand& typed) {
@@ -314,31 +236,11 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
     if (kind.light) add_light_options(*command, typed->color);
     if (kind.space) typed->color.space = "xyz";
     if (kind.color || kind.space) add_space_options(*command, typed->color);
-    command
-        ->add_option("--dtype", typed->type,
-                     kind.text_type == "f32" ? "number format: f16, f32 or f64 [f32]"
-                                             : "number format: f16, f32 or f64 [f32; csv: f64]")
-        ->type_name("NAME");
-    offer(*command, "dtype", "f16 f32 f64");
-    command
-        ->add_option("--size", typed->size,
-                     "samples per axis, [1, 8192]: 64x512, in the order of the axes, or one\n"
-                     "number for all [as many as the axes' lists have]")
-        ->type_name("SIZE");
-    command
-        ->add_option("--tolerance", typed->tolerance,
-                     "choose the smallest size with this interpolation error (in CIEDE2000\n"
-                     "for colours, else as defined below); an axis along which the table\n"
-                     "is constant gets one sample. Exit status 1 if it cannot be met")
-        ->type_name("E");
-    command->add_flag("--any-size", typed->any_size,
-                      "with --tolerance: allow sizes other than powers of two");
-    static const std::string formats = formats_text();
-    add_output_options(*command, typed->output, formats);
+    add_table_size_options(*command, typed->table,
+                           kind.text_type == "f32" ? "[f32]" : "[f32; csv: f64]");
+    add_output_options(*command, typed->output, table_formats_text());
     if (kind.color) add_picture_options(*command, typed->picture);
-    command->add_flag("--zstd", typed->layout.zstd, "ktx2: compress with Zstandard");
-    command->add_flag("--layers", typed->layout.layers,
-                      "ktx2: store a third axis as array layers, not as depth or mip levels");
+    add_table_layout_options(*command, typed->table);
     add_threads_option(*command, typed->threads);
     command->add_flag("--quiet", typed->quiet, "no notes on standard error");
     std::vector<std::string> examples;
@@ -356,6 +258,13 @@ int list_kinds(const OutputOptions& output) {
         names.emplace_back(kind->name);
         axes.emplace_back(kind->axes);
         summaries.emplace_back(kind->summary);
+    }
+    for (const auto& [name, axis, summary] :
+         {std::tuple("brdf", kLutBrdfAxes, kLutBrdfSummary),
+          {"layered", std::string_view("row, theta_deg"), kLutLayeredSummary}}) {
+        names.emplace_back(name);
+        axes.emplace_back(axis);
+        summaries.emplace_back(summary);
     }
     write_records({{{"kind", names}, {"axes", axes}, {"summary", summaries}}}, output);
     return 0;
@@ -381,7 +290,7 @@ std::vector<std::string> problems_of_table(const std::string& file) {
         const tables::Lut lut = tables::read_lut(file);
         std::vector<std::string> problems = tables::lut_problems(lut);
         const tables::LutKind* const kind = tables::find_lut_kind(lut.kind);
-        if (!kind && lut.kind != "layered")
+        if (!kind && lut.kind != "layered" && lut.kind != "brdf")
             problems.push_back("unknown kind '" + lut.kind + "'");
         else if (kind && problems.empty() && kind->problems)
             problems = kind->problems(lut);
@@ -441,9 +350,7 @@ void add_shader(CLI::App& lut, Run& run) {
     for (const std::string_view name : tables::shader_names())
         names += (names.empty() ? "" : ", ") + std::string(name);
     shader->add_option("NAME", typed->name, "one of " + names)->required();
-    shader
-        ->add_option("--language", typed->language,
-                     "glsl, hlsl or, for scratch and scratch-nodes, wgsl [glsl]")
+    shader->add_option("--language", typed->language, "glsl, hlsl or wgsl [glsl]")
         ->type_name("NAME");
     offer(*shader, "NAME", tables::shader_names);
     offer(*shader, "language", tables::shader_languages);
@@ -459,10 +366,6 @@ void add_shader(CLI::App& lut, Run& run) {
                 throw UsageError("NAME: " + not_one_of(known, typed->name));
             if (std::ranges::find(languages, typed->language) == languages.end())
                 throw UsageError("--language: " + not_one_of(languages, typed->language));
-            const auto written = tables::shader_names_in(typed->language);
-            if (std::ranges::find(written, typed->name) == written.end())
-                throw UsageError("NAME: in " + typed->language + " " +
-                                 not_one_of(written, typed->name));
             tables::write_stdout(tables::shader_source(typed->name, typed->language));
             return 0;
         };

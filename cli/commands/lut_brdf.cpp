@@ -3,12 +3,22 @@
 #include <memory>
 
 #include "cli/commands/lut_brdf.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/options/long_work.hpp"
+#include "cli/options/picture_options.hpp"
 #include "cli/options/surface_options.hpp"
+#include "cli/options/table_options.hpp"
+#include "cli/progress.hpp"
 #include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
 #include "core/color/held_stack.hpp"
+#include "core/math/degrees.hpp"
+#include "core/rough/walk/rest_table.hpp"
 #include "core/rough/walk/tabulated_scattering.hpp"
+#include "schemas/documents/canonical_stack.hpp"
 #include "schemas/input_error.hpp"
+#include "tables/lut/lut_figure.hpp"
+#include "tables/lut/measured/half_angle_table.hpp"
 #include "tables/lut/measured/measured_bsdf.hpp"
 #include "tables/lut/measured/merl.hpp"
 #include "tables/version.hpp"
@@ -17,28 +27,80 @@ namespace irido::cli {
 
 namespace {
 
-/// Number of wavelengths, 2 nm apart, for colours in MERL tables.
-constexpr std::size_t kMerlWavelengths = 236;
+/// Wavelengths 1 nm apart, of colours.
+constexpr std::size_t kPairWavelengths = 471;
+
+/// Relative, of what is by adding.
+constexpr double kRestTolerance = 1e-2;
+
+constexpr const char* kBsdfWavelengths = "360:830:10";
 
 struct LutBrdfCommand {
     SurfaceOptions surface;
     SurfaceQuery query;
-    std::string wavelengths = "360:830:10";
+    std::string wavelengths, phi_d, theta_h, theta_d;
+    TableOptions table;
+    PictureOptions picture;
     OutputOptions output;
     unsigned threads = 0;
     bool quiet = false;
 };
 
-/// "binary" or "bsdf".
-std::string measured_format(const OutputOptions& output) {
-    if (output.file.empty() && output.format.empty())
+std::vector<std::string_view> brdf_format_names() {
+    std::vector<std::string_view> names{"binary", "merl", "bsdf"};
+    for (const tables::LutFormat* format : tables::lut_formats()) names.push_back(format->name);
+    for (const tables::PictureFormat* format : tables::picture_formats())
+        names.push_back(format->name);
+    return names;
+}
+
+/// The kind of output: a file for renderers, or a table or its picture.
+enum class BrdfOutput { merl, bsdf, table };
+
+BrdfOutput output_of(const LutBrdfCommand& command) {
+    const std::string typed = resolved_format(command.output);
+    const bool is_merl = typed == "binary" || typed == "merl";
+    const std::size_t dot = command.output.file.find_last_of('.');
+    const std::string extension =
+        dot == std::string::npos ? "" : command.output.file.substr(dot + 1);
+    const bool is_renderers = extension == "binary" || extension == "bsdf";
+    if (!command.output.format.empty() && extension != typed &&
+        !(is_merl && extension == "binary") && (is_renderers || tables::find_lut_format(extension)))
+        throw UsageError("--format: " + typed + " contradicts the extension ." + extension);
+    if (!is_merl && typed != "bsdf") {
+        if (!command.wavelengths.empty())
+            throw UsageError("--wavelengths: takes .bsdf files; tables are colours");
+        return BrdfOutput::table;
+    }
+    if (command.output.file.empty())
         throw UsageError("--output: is required: FILE.binary (MERL) or FILE.bsdf");
-    const std::string typed = resolved_format(output), name = typed == "merl" ? "binary" : typed;
-    constexpr std::array<std::string_view, 3> names{"binary", "merl", "bsdf"};
-    if (name != "binary" && name != "bsdf")
+    const TableOptions& table = command.table;
+    for (const auto& [name, is_typed] : {std::pair("--phi-d", !command.phi_d.empty()),
+                                         {"--theta-h", !command.theta_h.empty()},
+                                         {"--theta-d", !command.theta_d.empty()},
+                                         {"--dtype", !table.type.empty()},
+                                         {"--size", !table.size.empty()},
+                                         {"--tolerance", !table.tolerance.empty()},
+                                         {"--any-size", table.any_size},
+                                         {"--zstd", table.layout.zstd},
+                                         {"--layers", table.layout.layers}})
+        if (is_typed)
+            throw UsageError(std::string(name) + ": ." + typed +
+                             " files have a layout of their own");
+    if (is_merl && !command.wavelengths.empty())
+        throw UsageError("--wavelengths: takes .bsdf files; MERL's are colours");
+    return is_merl ? BrdfOutput::merl : BrdfOutput::bsdf;
+}
+
+/// Of a table or, to say so, of a file for renderers.
+void resolved_brdf_format(const OutputOptions& output) {
+    try {
+        resolved_lut_format(output);
+    } catch (const UsageError&) {
+        if (!output.format.empty() && tables::find_lut_format(output.format)) throw;
         throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
-                         not_one_of(names, typed));
-    return name;
+                         not_one_of(brdf_format_names(), resolved_format(output)));
+    }
 }
 
 const LayeredSurface& layered(const schemas::SurfaceDocument& document) {
@@ -48,24 +110,71 @@ const LayeredSurface& layered(const schemas::SurfaceDocument& document) {
         "must be a layered surface: the BRDF of a scratched one depends on place and azimuth");
 }
 
-std::string merl_bytes(const LayeredScattering& scattering, const ColorColumns& colors,
+/// XYZ of the BRDF of very many pairs.
+class PairColors {
+public:
+    PairColors(const LayeredScattering& scattering, const Sensitivity& sensitivity,
+               const SurfaceQuery& query, Paths paths, bool quiet)
+        : is_coated_(scattering.coating().is_there()),
+          table_(scattering, equal_rule(sensitivity, kPairWavelengths), sensitivity.white(),
+                 scattering.is_closed() ? paths : Paths::single,
+                 parse_crossings(query.transmission), query.execution) {
+        if (paths == Paths::single || scattering.is_closed()) return;
+        Progress progress(quiet);
+        rest_.emplace(scattering, sensitivity, kRestTolerance, query.execution,
+                      [&](double done) { progress.set(done, "all paths"); });
+    }
+
+    Triple operator()(const tables::TablePair& pair) const {
+        return with_rest(pair, table_(table_.direction(pair.theta_i_deg),
+                                      table_.direction(pair.theta_o_deg), pair.near, pair.far));
+    }
+
+    /// Below the horizon too: with the half vector and theta_d as they are where nothing is
+    /// refracted, and masking as it is at the horizon.
+    Triple operator()(const tables::HalfAnglePair& one) const {
+        if (is_coated_) return (*this)(one.pair);
+        const tables::TablePair& pair = one.pair;
+        const double sine = sin_deg(one.angles.theta_h_deg);
+        const double cosine = cos_deg(one.angles.theta_h_deg);
+        const MirrorFacet facet{one.angles.theta_d_deg,    sine * sine,
+                                cosine * cosine,           sin_deg(pair.theta_i_deg),
+                                cos_deg(pair.theta_i_deg), sin_deg(pair.theta_o_deg),
+                                cos_deg(pair.theta_o_deg)};
+        return with_rest(pair, table_(table_.direction(pair.theta_i_deg),
+                                      table_.direction(pair.theta_o_deg), facet));
+    }
+
+private:
+    Triple with_rest(const tables::TablePair& pair, Triple xyz) const {
+        if (!rest_) return xyz;
+        const Triple more = (*rest_)(pair.theta_i_deg, pair.theta_o_deg, pair.near, pair.far);
+        for (std::size_t c = 0; c < 3; ++c) xyz[c] += more[c];
+        return xyz;
+    }
+
+    bool is_coated_;
+    TabulatedScattering table_;
+    std::optional<RestTable> rest_;
+};
+
+std::string merl_bytes(const PairColors& pairs, const ColorColumns& colors,
                        const SurfaceQuery& query) {
-    const Sensitivity& sensitivity = colors.illumination().tables.sensitivity();
-    const TabulatedScattering table(scattering, equal_rule(sensitivity, kMerlWavelengths),
-                                    sensitivity.white(), parse_paths(query.paths),
-                                    parse_crossings(query.transmission), query.execution);
     tables::MerlReport report;
-    std::string bytes = tables::merl_file(
-        [&](const tables::TablePair& pair) {
-            return colors.drawn(table(table.direction(pair.theta_i_deg),
-                                      table.direction(pair.theta_o_deg), pair.near, pair.far));
-        },
-        query.execution.threads, report);
+    std::string bytes =
+        tables::merl_file([&](const tables::TablePair& pair) { return colors.drawn(pairs(pair)); },
+                          query.execution.threads, report);
     if (report.clamped > 0)
         query.note(to_text(static_cast<double>(report.clamped)) + " of " +
                    to_text(static_cast<double>(report.cells - report.below)) +
                    " cells above the horizon lie outside of sRGB: components below 0 are 0");
     return bytes;
+}
+
+double smoothest(const LayeredSurface& surface) {
+    double alpha = 1;
+    for (const RoughLayer& layer : surface.layers) alpha = std::min(alpha, layer.alpha);
+    return alpha;
 }
 
 std::string bsdf_bytes(const LayeredScattering& scattering,
@@ -74,11 +183,10 @@ std::string bsdf_bytes(const LayeredScattering& scattering,
     tables::MeasuredBsdf bsdf;
     bsdf.description = (document.name.empty() ? document.file : document.name) + ", irido " +
                        tables::this_build().version;
-    bsdf.alpha = 1;
-    for (const RoughLayer& layer : scattering.surface().layers)
-        bsdf.alpha = std::min(bsdf.alpha, layer.alpha);
-    bsdf.wavelength_nm = parse_list("--wavelengths", command.wavelengths, kAllWavelengths.first_nm,
-                                    kAllWavelengths.last_nm);
+    bsdf.alpha = smoothest(scattering.surface());
+    bsdf.wavelength_nm = parse_list(
+        "--wavelengths", command.wavelengths.empty() ? kBsdfWavelengths : command.wavelengths,
+        kAllWavelengths.first_nm, kAllWavelengths.last_nm);
     if (!std::ranges::is_sorted(bsdf.wavelength_nm, std::less_equal<>()))
         throw UsageError("--wavelengths: must ascend for a .bsdf file");
     constexpr int kLast = 32;
@@ -89,62 +197,191 @@ std::string bsdf_bytes(const LayeredScattering& scattering,
     });
 }
 
+std::vector<double> parse_half_angles(const std::string& option, const std::string& typed) {
+    return typed.empty() ? std::vector<double>() : parse_list(option, typed, 0, 90);
+}
+
+tables::LutPlan plan_of(const PairColors& pairs, const ColorColumns& colors,
+                        const LayeredSurface& surface, const LutBrdfCommand& command,
+                        const SurfaceQuery& query) {
+    const Illumination& light = colors.illumination();
+    const bool is_xyz = query.color.space == "xyz";
+    tables::LutPlan plan =
+        tables::half_angle_plan({parse_half_angles("--theta-h", command.theta_h),
+                                 parse_half_angles("--theta-d", command.theta_d),
+                                 parse_half_angles("--phi-d", command.phi_d), smoothest(surface),
+                                 [&pairs](const tables::HalfAnglePair& one) { return pairs(one); },
+                                 light.transform, light.white(), is_xyz});
+    plan.facts = surface_facts(surface, query);
+    plan.facts["color_space"] = query.color.space;
+    const Triple& white = light.white();
+    plan.facts["request"]["white_xyz"] = {white[0], white[1], white[2]};
+    plan.facts["request"]["theta_h_scale_deg"] = plan.axes[1].axis.half_at;
+    return plan;
+}
+
+int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
+                      const std::string& title) {
+    const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
+    const tables::LutFormat* const format =
+        picture ? nullptr : &resolved_lut_format(command.output);
+    if (picture && plan.axes[0].axis.count() > 1)
+        throw UsageError("--phi-d: a picture shows one value (got " +
+                         std::to_string(plan.axes[0].axis.count()) + ")");
+    tables::LutMaking making = making_of(command.table, format, "f32", plan.axes.size());
+    making.measure = !command.output.file.empty();
+    making.threads = command.threads;
+    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+    note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
+    Progress progress(command.quiet);
+    making.progress = [&progress](double done, const std::string& what) {
+        progress.set(done, what);
+    };
+    static const tables::LutKind kind{
+        .name = "brdf", .summary = kLutBrdfSummary, .axes = kLutBrdfAxes};
+    tables::Lut lut;
+    try {
+        lut = tables::make_lut(kind, std::move(plan), making);
+    } catch (const ToleranceError& error) {
+        progress.clear();
+        print_error(error.what());
+        return kCheckFailed;
+    }
+    progress.clear();
+    for (const auto& text : lut.facts["notes"]) say(text.get<std::string>());
+    if (!picture) {
+        write_table(lut, *format, command.table.layout, command.output, command.quiet);
+        return 0;
+    }
+    const auto figure = [&] {
+        tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture));
+        for (const std::string& text : drawn.notes) say(text);
+        return drawn;
+    };
+    write_picture(figure, command.picture, *picture, command.output);
+    return 0;
+}
+
 int run_lut_brdf(const LutBrdfCommand& command) {
-    const std::string format = measured_format(command.output);
+    const BrdfOutput kind = output_of(command);
+    if (kind == BrdfOutput::table && !asked_picture(command.output, command.picture))
+        resolved_brdf_format(command.output);
     SurfaceQuery query = command.query;
     query.execution = execution_of(command.threads);
     query.note = [&](const std::string& text) { note(text, command.quiet); };
-    if (query.paths != "single" && query.paths != "all")
-        throw UsageError("--paths: must be single or all (got '" + query.paths + "')");
+    const Paths paths = parse_table_paths(query.paths);
+    const Crossings crossings = parse_crossings(query.transmission);
     const ColorColumns colors(query.color);
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
     check_writable(command.output);
     const Sensitivity& sensitivity = colors.illumination().tables.sensitivity();
     LayeredSurface surface = layered(document);
     try {
-        if (format == "binary") {
+        if (kind != BrdfOutput::bsdf) {
             report_held_layers(surface, document, sensitivity, query);
             for (RoughLayer& layer : surface.layers)
                 layer.stack = held_stack(layer.stack, sensitivity);
         }
-        const LayeredScattering scattering(surface, parse_crossings(query.transmission),
-                                           query.execution);
-        if (query.paths == "all" && !scattering.is_closed())
+        const LayeredScattering scattering(surface, crossings, query.execution);
+        if (paths == Paths::all && scattering.layers() > 1)
             throw UsageError(
-                "--paths all: requires a closed form: one layer without a coating, or a base "
-                "alone");
-        write_bytes(format == "binary" ? merl_bytes(scattering, colors, query)
-                                       : bsdf_bytes(scattering, document, command, query),
-                    command.output, true);
+                "--paths all: files and tables take it for up to one layer: between several, light "
+                "goes in peaks that take seconds for every wavelength (irido brdf has single "
+                "pairs)");
+        if (kind == BrdfOutput::bsdf && paths == Paths::all && !scattering.is_closed())
+            throw UsageError(
+                "--paths all: .bsdf files, which are spectral, take it where it has a closed form, "
+                "of one layer without a coating or of a base alone; .binary and tables take a "
+                "coating as well");
+        if (kind == BrdfOutput::bsdf) {
+            write_bytes(bsdf_bytes(scattering, document, command, query), command.output, true);
+            return 0;
+        }
+        const PairColors pairs(scattering, sensitivity, query, paths, command.quiet);
+        if (kind == BrdfOutput::merl) {
+            write_bytes(merl_bytes(pairs, colors, query), command.output, true);
+            return 0;
+        }
+        return write_half_angles(plan_of(pairs, colors, surface, command, query), command,
+                                 title_of(document, command.surface));
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());
     }
-    return 0;
 }
 
 }  // namespace
 
+nlohmann::json surface_facts(const LayeredSurface& surface, const SurfaceQuery& query) {
+    nlohmann::json layers = nlohmann::json::array();
+    for (const RoughLayer& layer : surface.layers)
+        layers.push_back(
+            {{"alpha", layer.alpha}, {"stack", schemas::canonical_stack(layer.stack)}});
+    nlohmann::json albedo;
+    if (const auto* table = std::get_if<Table>(&surface.base_albedo)) {
+        for (std::size_t k = 0; k < table->value.size(); ++k)
+            albedo.push_back({table->wavelength_nm[k], table->value[k]});
+    } else {
+        albedo = std::get<Constant>(surface.base_albedo).value;
+    }
+    return {{"request",
+             {{"layers", layers},
+              {"base", {{"albedo", albedo}}},
+              {"paths", query.paths},
+              {"transmission", query.transmission},
+              {"illuminant", query.color.illuminant},
+              {"observer", query.color.observer}}}};
+}
+
+Paths parse_table_paths(const std::string& text) {
+    if (text == "single") return Paths::single;
+    if (text == "all") return Paths::all;
+    throw UsageError("--paths: must be single or all (got '" + text + "')");
+}
+
 void add_lut_brdf(CLI::App& lut, Run& run) {
-    CLI::App* command = lut.add_subcommand(
-        "brdf", "BRDF of a rough layered surface as a file that renderers read.");
+    CLI::App* command = lut.add_subcommand("brdf", std::string(kLutBrdfSummary));
     const auto options = std::make_shared<LutBrdfCommand>();
     add_surface_options(*command, options->surface);
     add_table_paths_options(*command, options->query.paths, options->query.transmission);
+    command
+        ->add_option("--phi-d", options->phi_d,
+                     "azimuths of the light about the half vector, degrees, [0, 90] [0:90/32]")
+        ->type_name("LIST");
+    command
+        ->add_option("--theta-h", options->theta_h,
+                     "angles of the half vector, degrees, [0, 90] [128, closest in the lobe]")
+        ->type_name("LIST");
+    command
+        ->add_option("--theta-d", options->theta_d,
+                     "half the angle between the directions, degrees, [0, 90] [0:90/64]")
+        ->type_name("LIST");
     command
         ->add_option("-w,--wavelengths", options->wavelengths,
                      "of .bsdf files, nm, [1, 1e7] [360:830:10]")
         ->type_name("LIST");
     add_light_options(*command, options->query.color);
-    add_output_options(*command, options->output, "binary (merl) or bsdf");
+    add_space_options(*command, options->query.color);
+    add_table_size_options(*command, options->table, "[f32]");
+    add_output_options(*command, options->output, "binary (merl), bsdf, " + table_formats_text());
+    add_picture_options(*command, options->picture);
+    add_table_layout_options(*command, options->table);
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(
         *command,
         {"irido lut brdf schemas/examples/surfaces/green-on-pale.json -o green.binary",
-         "irido lut brdf \"1 | (1@250 | 1.5@250)^10 | 1\" --alpha 0.1 -o mirror.bsdf"},
-        ".binary: the MERL format, 90 x 90 x 180 cells in theta_h, theta_d, phi_d, linear sRGB,\n"
-        "33 MB. .bsdf: the tensor file that Mitsuba's and pbrt's measured materials read,\n"
-        "spectral. A coating's mirror is in neither.");
+         "irido lut brdf \"1 | (1@250 | 1.5@250)^10 | 1\" --alpha 0.1 -o mirror.bsdf",
+         "irido lut brdf schemas/examples/surfaces/beetle-green.json --tolerance 1 -o beetle.ktx2",
+         "irido lut brdf schemas/examples/surfaces/beetle-green.json --phi-d 90 -o beetle.png"},
+        "Axes: " + std::string(kLutBrdfAxes) + ".\n" +
+            "Tables hold the BRDF per steradian, without a coating's mirror; phi_d from 0 to 90\n"
+            "is all, by symmetry. Samples with a direction below the horizon continue those\n"
+            "above. The error, in CIEDE2000 of pi times the BRDF, where brighter than white\n"
+            "brought down to it, is that above the horizon.\n"
+            ".binary: the MERL format, 90 x 90 x 180 cells in theta_h, theta_d, phi_d, linear "
+            "sRGB,\n"
+            "33 MB. .bsdf: the tensor file that Mitsuba's and pbrt's measured materials read,\n"
+            "spectral.");
     command->callback([options, &run] { run = [options] { return run_lut_brdf(*options); }; });
 }
 

@@ -3,188 +3,163 @@
 #include <memory>
 
 #include "cli/commands/lut_brdf.hpp"
+#include "cli/exit_status.hpp"
 #include "cli/options/surface_options.hpp"
+#include "cli/options/table_options.hpp"
 #include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
 #include "core/color/held_stack.hpp"
-#include "core/colorimetry/difference.hpp"
-#include "core/math/constants.hpp"
-#include "core/math/random.hpp"
-#include "core/rough/walk/layered_bands.hpp"
+#include "core/rough/walk/layered_nodes.hpp"
 #include "schemas/input_error.hpp"
-#include "tables/lut/lut_file.hpp"
 
 namespace irido::cli {
 
 namespace {
 
-/// Number of wavelengths, 2 nm apart, over which bands are averaged.
-constexpr std::size_t kBandWavelengths = 236;
-constexpr std::size_t kMostBands = 60, kMostAngles = 8192;
+/// Wavelengths 1 nm apart that tables are computed with.
+constexpr std::size_t kTableWavelengths = 471;
+constexpr std::size_t kMostAngles = 8192, kMostTableLayers = 16;
+
+/// CIEDE2000, of a table whose nodes and tolerance were not typed.
+constexpr double kUsualDifference = 1;
 
 struct LutLayeredCommand {
     SurfaceOptions surface;
     SurfaceQuery query;
-    std::string bands = "12", size = "256", type = "f32";
+    std::string nodes, size, tolerance, type = "f32";
     OutputOptions output;
     unsigned threads = 0;
     bool quiet = false;
 };
 
-/// CIEDE2000 between pi times two BRDFs; both are scaled down together if brighter than white.
-double difference_of(const Triple& a, const Triple& b, const Triple& white) {
-    const double scale = kPi / std::max({1.0, kPi * a[1], kPi * b[1]});
-    const auto lab_of = [&](const Triple& xyz) {
-        Triple scaled{};
-        for (std::size_t c = 0; c < 3; ++c) scaled[c] = std::max(0.0, scale * xyz[c]);
-        return lab(scaled, white);
-    };
-    return ciede2000(lab_of(a), lab_of(b));
-}
-
-struct BandErrors {
-    double bands = 0, colors = 0;  ///< largest CIEDE2000
-};
-
-/// Errors of the bands, and of only three, like an RGB colour, at random pairs of directions.
-BandErrors band_errors(const LayeredScattering& scattering, const LayeredBands& bands,
-                       const LayeredBands& three, const TabulatedScattering& exact,
-                       const Triple& white) {
-    constexpr int kPairs = 300;
-    Random random(1);
-    BandErrors errors;
-    for (int k = 0; k < kPairs; ++k) {
-        const double theta = random.uniform(0, 80);
-        const bool is_near = k % 2 == 0;  // to the mirror reflection
-        const ScatterPair pair{theta,
-                               is_near ? std::clamp(theta + random.uniform(-10, 10), 0.0, 85.0)
-                                       : random.uniform(0, 80),
-                               is_near ? random.uniform(170, 180) : random.uniform(0, 180)};
-        const double half = 0.5 * pair.phi_deg * kDegree;
-        const Triple truth =
-            exact(exact.direction(pair.theta_i_deg), exact.direction(pair.theta_o_deg),
-                  std::cos(half), std::sin(half));
-        errors.bands = std::max(errors.bands, difference_of(bands(scattering, pair), truth, white));
-        errors.colors =
-            std::max(errors.colors, difference_of(three(scattering, pair), truth, white));
-    }
-    return errors;
-}
-
-/// Rows of the table: for every three bands, R and f_t cos / G1 of each layer, the base, and the
-/// weights of the bands in r, g and b.
-tables::Lut table_of(const LayeredBands& bands, const Illumination& illumination) {
+/// Rows of colours of theta_d and of straight light by the angle inside: the top layer; then for
+/// every three nodes and each layer that is crossed f_t cos / G1 at the nodes, and what is below at
+/// each of them.
+tables::Lut table_of(const LayeredNodes& nodes, const RgbTransform& transform) {
     tables::Lut lut;
     lut.kind = "layered";
-    lut.channels = {"band_0", "band_1", "band_2"};
-    const std::size_t groups = bands.bands / 3;
-    const auto add_row = [&](const auto& value) {
-        for (std::size_t k = 0; k < bands.angles; ++k)
-            for (std::size_t b = 0; b < 3; ++b) lut.values.push_back(value(k, b));
-    };
-    std::vector<Triple> weights;
-    for (const Triple& xyz : bands.weight) weights.push_back(illumination.transform(xyz));
+    lut.channels = {"0", "1", "2"};
     std::size_t rows = 0;
-    for (std::size_t g = 0; g < groups; ++g) {
-        for (std::size_t l = 0; l < bands.reflected.size(); ++l)
-            for (const auto* table : {&bands.reflected[l], &bands.straight[l]}) {
-                add_row([&](std::size_t k, std::size_t b) {
-                    return (*table)[k * bands.bands + 3 * g + b];
-                });
-                ++rows;
-            }
-        add_row([&](std::size_t, std::size_t b) { return bands.base[3 * g + b]; });
-        for (std::size_t c = 0; c < 3; ++c)
-            add_row([&](std::size_t, std::size_t b) { return weights[3 * g + b][c]; });
-        rows += 4;
-    }
+    const auto add_row = [&](const auto& texel) {
+        for (std::size_t k = 0; k < nodes.angles; ++k) {
+            const Triple three = texel(k);
+            lut.values.insert(lut.values.end(), three.begin(), three.end());
+        }
+        ++rows;
+    };
+    const std::size_t count = nodes.wavelength_nm.size();
+    add_row([&](std::size_t k) { return transform(nodes.top[k]); });
+    for (std::size_t first = 0; first < count; first += 3)
+        for (std::size_t l = 0; l < nodes.straight.size(); ++l) {
+            add_row([&](std::size_t k) {
+                const double* const three = nodes.straight[l].data() + k * count + first;
+                return Triple{three[0], three[1], three[2]};
+            });
+            for (std::size_t j = first; j < first + 3; ++j)
+                add_row([&](std::size_t k) { return transform(nodes.below[l][k * count + j]); });
+        }
     lut.axes = {{"row", "", tables::equally_spaced(0, static_cast<double>(rows - 1), rows)},
-                {"theta_deg", "deg", tables::equally_spaced(0, 90, bands.angles)}};
+                {"theta_deg", "deg", tables::equally_spaced(0, 90, nodes.angles)}};
     return lut;
 }
 
-tables::LutType type_of(const std::string& text) {
-    for (const tables::LutType type :
-         {tables::LutType::f16, tables::LutType::f32, tables::LutType::f64})
-        if (name_of(type) == text) return type;
-    throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + text + "')");
+NodeRequest request_of(const LutLayeredCommand& command, tables::LutType type) {
+    NodeRequest request;
+    if (!command.nodes.empty()) {
+        const auto count = parse_whole_number("--nodes", command.nodes, 3, kMostNodes);
+        request.nodes = static_cast<std::size_t>(count);
+        if (*request.nodes % 3 != 0)
+            throw UsageError("--nodes: must be a multiple of 3 (got " + command.nodes + ")");
+        if (!command.tolerance.empty())
+            throw UsageError("--tolerance: cannot be combined with --nodes");
+    }
+    if (!command.size.empty())
+        request.angles = static_cast<std::size_t>(
+            parse_whole_number("--size", command.size, 2, static_cast<double>(kMostAngles)));
+    request.tolerance = command.tolerance.empty()
+                            ? kUsualDifference
+                            : parse_one_number("--tolerance", command.tolerance, 1e-3, 100);
+    request.stored = [type](double value) { return rounded(value, type); };
+    return request;
+}
+
+LayeredSurface crossed_surface(const schemas::SurfaceDocument& document) {
+    const auto* read = std::get_if<LayeredSurface>(&document.surface);
+    if (!read) throw schemas::InputError(document.file, "", "must be a layered surface");
+    if (read->layers.empty())
+        throw schemas::InputError(document.file, "/layers", "must have at least one layer");
+    if (read->layers.size() > kMostTableLayers)
+        throw schemas::InputError(
+            document.file, "/layers",
+            "must be at most " + std::to_string(kMostTableLayers) +
+                " layers: every layer costs a shader five look-ups for three nodes (got " +
+                std::to_string(read->layers.size()) + ")");
+    return *read;
+}
+
+double hundredths(double value) {
+    return std::round(100 * value) / 100;
+}
+
+nlohmann::json facts_of(const FoundNodes& found, const LayeredScattering& scattering,
+                        const SurfaceQuery& query) {
+    nlohmann::json facts = surface_facts(scattering.surface(), query);
+    nlohmann::json alphas = nlohmann::json::array();
+    for (const RoughLayer& layer : scattering.surface().layers) alphas.push_back(layer.alpha);
+    facts["color_space"] = query.color.space;
+    facts["error"] = {{"measure", "delta_e_2000"}, {"value", found.error}};
+    facts["notes"] = {
+        "rows: the top layer's colour over theta_d; for every three nodes and each layer that is "
+        "crossed f_t cos / G1 over the angle inside, then for each of the three what is directly "
+        "below over theta_d, a colour"};
+    facts["request"].update({{"alpha", alphas},
+                             {"delta_e_of_products", found.products},
+                             {"groups", found.table.wavelength_nm.size() / 3},
+                             {"n_outside_per_n_inside", std::sqrt(scattering.coating().dilution())},
+                             {"nodes_nm", found.table.wavelength_nm}});
+    return facts;
 }
 
 int run_lut_layered(const LutLayeredCommand& command) {
-    const tables::LutFormat* const format =
-        tables::find_lut_format(resolved_format(command.output));
-    if (!format || (command.output.file.empty() && format->is_binary))
-        throw UsageError(
-            "--output: must name a table's file, such as FILE.ktx2, FILE.exr, FILE.npy, FILE.bin "
-            "or "
-            "FILE.csv");
-    const auto band_count =
-        static_cast<std::size_t>(parse_whole_number("--bands", command.bands, 3, kMostBands));
-    if (band_count % 3 != 0)
-        throw UsageError("--bands: must be a multiple of 3 (got " + command.bands + ")");
-    const auto angles =
-        static_cast<std::size_t>(parse_whole_number("--size", command.size, 2, kMostAngles));
+    const tables::LutFormat& format = resolved_lut_format(command.output, false);
+    const tables::LutType type = parse_type(command.type);
+    const NodeRequest request = request_of(command, type);
     SurfaceQuery query = command.query;
     query.execution = execution_of(command.threads);
     query.note = [&](const std::string& text) { note(text, command.quiet); };
-    if (query.paths != "single" && query.paths != "all")
-        throw UsageError("--paths: must be single or all (got '" + query.paths + "')");
-    const tables::LutType type = type_of(command.type);
+    const Paths paths = parse_table_paths(query.paths);
+    const Crossings crossings = parse_crossings(query.transmission);
     const ColorColumns colors(query.color);
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
     check_writable(command.output);
-    const auto* read = std::get_if<LayeredSurface>(&document.surface);
-    if (!read) throw schemas::InputError(document.file, "", "must be a layered surface");
-    const Sensitivity& sensitivity = colors.illumination().tables.sensitivity();
-    LayeredSurface surface = *read;
+    LayeredSurface surface = crossed_surface(document);
+    const ColorTables& tables = colors.illumination().tables;
+    const Sensitivity& sensitivity = tables.sensitivity();
     report_held_layers(surface, document, sensitivity, query);
     try {
         for (RoughLayer& layer : surface.layers) layer.stack = held_stack(layer.stack, sensitivity);
-        const Crossings crossings = parse_crossings(query.transmission);
-        const Paths paths = parse_paths(query.paths);
         const LayeredScattering scattering(surface, crossings, query.execution);
-        if (query.paths == "all" && !scattering.is_closed())
+        if (paths == Paths::all && !scattering.is_closed())
             throw UsageError(
-                "--paths all: requires a closed form: one layer without a coating, or a base "
-                "alone");
-        const SampleRule rule = equal_rule(sensitivity, kBandWavelengths);
-        const auto bands_of = [&](std::size_t count) {
-            return layered_bands(scattering, sensitivity, rule, paths, crossings, count, angles,
-                                 query.execution);
-        };
-        const LayeredBands bands = bands_of(band_count), three = bands_of(3);
-        const TabulatedScattering exact(scattering, rule, sensitivity.white(), paths, crossings,
-                                        query.execution);
-        const BandErrors errors = band_errors(scattering, bands, three, exact, sensitivity.white());
-        tables::Lut lut = table_of(bands, colors.illumination());
-        lut.type = type;
-        nlohmann::json alphas = nlohmann::json::array(), nodes = nlohmann::json::array();
-        for (const RoughLayer& layer : surface.layers) alphas.push_back(layer.alpha);
-        lut.facts["color_space"] = query.color.space;
-        lut.facts["error"] = {{"measure", "delta_e_2000"}, {"value", errors.bands}};
-        lut.facts["notes"] = {
-            "rows, for every three bands: R over theta_d and f_t cos / G1 over the angle inside of "
-            "each layer, the base's albedo, and what the bands weigh in r, g and b",
-            "products of three bands alone would err by up to " +
-                to_text(std::round(100 * errors.colors) / 100) + " in CIEDE2000"};
-        lut.facts["request"] = {
-            {"alpha", alphas},
-            {"bands", band_count},
-            {"groups", band_count / 3},
-            {"layers", surface.layers.size()},
-            {"n_outside_per_n_inside", std::sqrt(scattering.coating().dilution())},
-            {"paths", query.paths},
-            {"transmission", query.transmission},
-            {"illuminant", query.color.illuminant},
-            {"observer", query.color.observer}};
-        query.note("CIEDE2000 of " + command.bands + " bands: up to " +
-                   to_text(std::round(100 * errors.bands) / 100) +
-                   "; of three bands: " + to_text(std::round(100 * errors.colors) / 100));
-        if (command.output.file.empty()) {
-            write_bytes(format->write(lut, {}).back().bytes, command.output, false);
-            return 0;
+                "--paths all: a table of this kind takes it where it has a closed form, of one "
+                "layer without a coating; lut brdf takes a coating as well");
+        const TabulatedScattering exact(scattering, equal_rule(sensitivity, kTableWavelengths),
+                                        sensitivity.white(), paths, crossings, query.execution);
+        const FoundNodes found = find_nodes(scattering, exact, tables, request, query.execution);
+        const std::string error = to_text(hundredths(found.error));
+        if (!command.tolerance.empty() && !(found.error <= request.tolerance)) {
+            print_error(document.file + ": no table of up to " + std::to_string(kMostNodes) +
+                        " nodes reaches " + command.tolerance + " in CIEDE2000: " + error +
+                        " remains");
+            return kCheckFailed;
         }
-        tables::write_lut(lut, command.output.file, *format, {});
+        tables::Lut lut = table_of(found.table, colors.illumination().transform);
+        lut.type = type;
+        lut.facts = facts_of(found, scattering, query);
+        query.note("CIEDE2000 with " + std::to_string(found.table.wavelength_nm.size()) +
+                   " nodes: up to " + error +
+                   "; of colours multiplied: " + to_text(hundredths(found.products)));
+        write_table(lut, format, {}, command.output, command.quiet);
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());
     }
@@ -194,31 +169,37 @@ int run_lut_layered(const LutLayeredCommand& command) {
 }  // namespace
 
 void add_lut_layered(CLI::App& lut, Run& run) {
-    CLI::App* command = lut.add_subcommand(
-        "layered", "All that a shader needs of a rough layered surface, in bands of the spectrum.");
+    CLI::App* command = lut.add_subcommand("layered", std::string(kLutLayeredSummary));
     const auto options = std::make_shared<LutLayeredCommand>();
     add_surface_options(*command, options->surface);
     command
-        ->add_option("--bands", options->bands,
-                     "bands of the spectrum, a multiple of 3, [3, 60] [12]")
+        ->add_option("--nodes", options->nodes,
+                     "wavelengths at which straight light is known, a multiple of 3, [3, 60]\n"
+                     "[the fewest that meet the tolerance]")
         ->type_name("N");
-    command->add_option("--size", options->size, "angles from 0 to 90 degrees, [2, 8192] [256]")
+    command
+        ->add_option("--tolerance", options->tolerance,
+                     "largest error, CIEDE2000 at random pairs of directions, [0.001, 100] [1];\n"
+                     "exit status 1 if one that is given cannot be met")
+        ->type_name("E");
+    command
+        ->add_option("--size", options->size,
+                     "angles from 0 to 90 degrees, [2, 8192] [256, 512 or 1024, by the tolerance]")
         ->type_name("N");
     add_table_paths_options(*command, options->query.paths, options->query.transmission);
     add_light_options(*command, options->query.color);
     add_space_options(*command, options->query.color);
-    command->add_option("--dtype", options->type, "number format: f16, f32 or f64 [f32]")
-        ->type_name("NAME");
-    offer(*command, "dtype", "f16 f32 f64");
+    add_dtype_option(*command, options->type, "[f32]");
     add_output_options(*command, options->output, "csv, npy, bin, ktx2 or exr");
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(*command,
                  {"irido lut layered schemas/examples/surfaces/green-on-pale.json -o green.ktx2",
-                  "irido lut layered schemas/examples/surfaces/blue-over-red.json --bands 24 "
+                  "irido lut layered schemas/examples/surfaces/blue-over-red.json --tolerance 0.5 "
                   "-o blue.exr"},
                  "irido lut shader layered prints the code that reads it. The metadata has the\n"
-                 "roughnesses, the number of groups of three bands, and the error in CIEDE2000.");
+                 "roughnesses, the number of groups of three nodes, the error in CIEDE2000, and\n"
+                 "that of a shader that multiplies colours.");
     command->callback([options, &run] { run = [options] { return run_lut_layered(*options); }; });
 }
 

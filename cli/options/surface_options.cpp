@@ -92,8 +92,8 @@ void add_surface_options(CLI::App& command, SurfaceOptions& options) {
 void add_table_paths_options(CLI::App& command, std::string& paths, std::string& transmission) {
     command
         .add_option("--paths", paths,
-                    "single: light reflected once; all: as often as it may be, where that has a\n"
-                    "closed form [single]")
+                    "single: light reflected once; all: as often as it may be, of one layer at\n"
+                    "most [single]")
         ->type_name("PATHS");
     offer(command, "paths", "single all");
     command

@@ -418,11 +418,8 @@ SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::Surfac
         throw UsageError(typed + " applies to surfaces with scratches only");
     try {
         const bool is_transmitted = wants_transmission(query);
-        if (query.scatterogram && is_transmitted)
-            throw UsageError("--scatterogram requires reflected light (got --side T)");
         if (!query.wants_color && query.color.method != "auto")
             throw UsageError("--method: requires --color");
-        if (query.scatterogram) return layered_scatterogram(surface, document, query);
         if (is_transmitted)
             return query.wants_color ? refracted_colors(surface, document, query)
                                      : refracted_rows(surface, query);

@@ -8,6 +8,7 @@
 #include "core/math/constants.hpp"
 #include "core/rough/layered/adding.hpp"
 #include "core/rough/layered/layered_color.hpp"
+#include "schemas/input_error.hpp"
 #include "tables/pictures/scatterogram.hpp"
 
 namespace irido::cli {
@@ -67,41 +68,56 @@ Triple mixed(const Triple& a, const Triple& b, double share) {
 
 }  // namespace
 
-SurfaceRows layered_scatterogram(const LayeredSurface& surface,
-                                 const schemas::SurfaceDocument& document,
+SurfaceRows layered_scatterogram(std::span<const schemas::SurfaceDocument> documents,
                                  const SurfaceQuery& query) {
     if (query.paths != "single" && query.paths != "all")
         throw UsageError("--scatterogram: requires --paths single or all (got '" + query.paths +
                          "')");
     if (query.quantity != "brdf")
         throw UsageError("--scatterogram: shows albedo and BRDF together; leave out --quantity");
+    if (const std::string typed = query.scratch.typed(); !typed.empty())
+        throw UsageError(typed + ": takes surfaces with scratches");
+    if (query.color.sides != "R")
+        throw UsageError("--scatterogram requires reflected light (got --side " +
+                         query.color.sides + ")");
+    if (query.color.method != "auto") throw UsageError("--method: requires --color");
     const std::vector<double> lights = parse_light_thetas(query.directions);
     if (lights.size() != 1)
         throw UsageError("--scatterogram: requires a single --light-theta, that of the beam");
     const ColorColumns columns(query.color);
     const Sensitivity& sensitivity = columns.illumination().tables.sensitivity();
-    report_held_layers(surface, document, sensitivity, query);
-    const DiscColors colors = disc_colors(surface, query, lights[0], sensitivity);
 
-    std::vector<Triple> white, beam;  // linear sRGB
-    for (const Triple& xyz : colors.white) white.push_back(columns.drawn(xyz));
+    std::vector<Triple> all;                       // XYZ of all rows
+    std::vector<std::vector<Triple>> white, beam;  // linear sRGB, of each surface
     double brightest = 1;
-    for (const Triple& xyz : colors.beam) {
-        beam.push_back(columns.drawn(xyz));
-        brightest = std::max(brightest, *std::ranges::max_element(beam.back()));
+    for (const schemas::SurfaceDocument& document : documents) {
+        const auto* surface = std::get_if<LayeredSurface>(&document.surface);
+        if (!surface) throw schemas::InputError(document.file, "", "must be a layered surface");
+        report_held_layers(*surface, document, sensitivity, query);
+        const DiscColors colors = disc_colors(*surface, query, lights[0], sensitivity);
+        all.insert(all.end(), colors.white.begin(), colors.white.end());
+        all.insert(all.end(), colors.beam.begin(), colors.beam.end());
+        white.emplace_back();
+        beam.emplace_back();
+        for (const Triple& xyz : colors.white) white.back().push_back(columns.drawn(xyz));
+        for (const Triple& xyz : colors.beam) {
+            beam.back().push_back(columns.drawn(xyz));
+            brightest = std::max(brightest, std::ranges::max(beam.back().back()));
+        }
     }
     NumberColumns keys{{"beam", {}}, {"view_theta_deg", {}}, {"view_phi_deg", {}}};
-    std::vector<Triple> all = colors.white;
-    all.insert(all.end(), colors.beam.begin(), colors.beam.end());
-    const auto add = [&](double is_beam, double theta, double phi) {
-        keys[0].second.push_back(is_beam);
-        keys[1].second.push_back(theta);
-        keys[2].second.push_back(phi);
+    if (documents.size() > 1) keys.insert(keys.begin(), {"surface", {}});
+    const auto add = [&](std::size_t surface, double is_beam, double theta, double phi) {
+        const std::array row{static_cast<double>(surface + 1), is_beam, theta, phi};
+        for (std::size_t c = 0; c < keys.size(); ++c)
+            keys[c].second.push_back(row[c + row.size() - keys.size()]);
     };
-    for (std::size_t t = 0; t <= kPolarSteps; ++t) add(0, static_cast<double>(t), 0);
-    for (std::size_t t = 0; t <= kPolarSteps; ++t)
-        for (std::size_t p = 0; p <= kAzimuthSteps; ++p)
-            add(1, static_cast<double>(t), kAzimuthStep_deg * static_cast<double>(p));
+    for (std::size_t s = 0; s < documents.size(); ++s) {
+        for (std::size_t t = 0; t <= kPolarSteps; ++t) add(s, 0, static_cast<double>(t), 0);
+        for (std::size_t t = 0; t <= kPolarSteps; ++t)
+            for (std::size_t p = 0; p <= kAzimuthSteps; ++p)
+                add(s, 1, static_cast<double>(t), kAzimuthStep_deg * static_cast<double>(p));
+    }
     SurfaceRows rows = columns.rows(std::move(keys), all);
     rows.plot.notes.clear();
     if (brightest > 1)
@@ -109,22 +125,26 @@ SurfaceRows layered_scatterogram(const LayeredSurface& surface,
                                   to_text(std::ceil(brightest)));
     tables::InkMixer mixer(tables::GamutMapping::clip);
     const double exposure = 1 / std::ceil(brightest);
-    rows.pixels =
-        tables::scatterogram(2, kDiscPixels, [&](std::size_t disc, double theta, double phi) {
-            const auto t = std::min(static_cast<std::size_t>(theta), kPolarSteps - 1);
-            const double up = theta - static_cast<double>(t);
-            if (disc == 0) return mixer(mixed(white[t], white[t + 1], up));
-            const double folded = std::min(phi, 360 - phi) / kAzimuthStep_deg;
-            const auto p = std::min(static_cast<std::size_t>(folded), kAzimuthSteps - 1);
-            const double across = folded - static_cast<double>(p);
-            const auto at = [&](std::size_t theta_step) {
-                const std::size_t row = theta_step * (kAzimuthSteps + 1);
-                return mixed(beam[row + p], beam[row + p + 1], across);
-            };
-            Triple color = mixed(at(t), at(t + 1), up);
-            for (double& part : color) part *= exposure;
-            return mixer(color);
-        });
+    const auto ink = [&](std::size_t row, std::size_t column, double theta, double phi) {
+        const std::size_t discs = documents.size();
+        const std::size_t s = discs > 1 ? column : 0;
+        const bool is_beam = (discs > 1 ? row : column) > 0;
+        const auto t = std::min(static_cast<std::size_t>(theta), kPolarSteps - 1);
+        const double up = theta - static_cast<double>(t);
+        if (!is_beam) return mixer(mixed(white[s][t], white[s][t + 1], up));
+        const double folded = std::min(phi, 360 - phi) / kAzimuthStep_deg;
+        const auto p = std::min(static_cast<std::size_t>(folded), kAzimuthSteps - 1);
+        const double across = folded - static_cast<double>(p);
+        const auto at = [&](std::size_t theta_step) {
+            const std::size_t first = theta_step * (kAzimuthSteps + 1);
+            return mixed(beam[s][first + p], beam[s][first + p + 1], across);
+        };
+        Triple color = mixed(at(t), at(t + 1), up);
+        for (double& part : color) part *= exposure;
+        return mixer(color);
+    };
+    rows.pixels = documents.size() > 1 ? tables::scatterogram(2, documents.size(), kDiscPixels, ink)
+                                       : tables::scatterogram(1, 2, kDiscPixels, ink);
     if (std::string share = mixer.note(); !share.empty())
         rows.plot.notes.push_back(std::move(share));
     return rows;

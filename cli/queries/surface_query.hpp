@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,10 +53,10 @@ Crossings parse_crossings(const std::string& text);
 void report_held_layers(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                         const Sensitivity& sensitivity, const SurfaceQuery& query);
 
-/// Two discs of directions: a white environment, where a pixel is the albedo, and a beam from the
-/// light's direction, where it is pi times the BRDF. Throws like rows_of_surface().
-SurfaceRows layered_scatterogram(const LayeredSurface& surface,
-                                 const schemas::SurfaceDocument& document,
+/// Two discs of directions for each surface: in a white environment, where a pixel is the albedo,
+/// and in a beam from the light's direction, pi times the BRDF; of several surfaces side by side,
+/// the beam's below. Throws as rows_of_surface() does.
+SurfaceRows layered_scatterogram(std::span<const schemas::SurfaceDocument> documents,
                                  const SurfaceQuery& query);
 
 /// Evaluates a layered surface. Throws UsageError and InputError.

@@ -24,30 +24,32 @@ Ink circle_ink(const Ink& below) {
 
 }  // namespace
 
-Pixels scatterogram(
-    std::size_t discs, std::size_t diameter,
-    const std::function<Ink(std::size_t disc, double theta_deg, double phi_deg)>& ink) {
+Pixels scatterogram(std::size_t rows, std::size_t columns, std::size_t diameter,
+                    const std::function<Ink(std::size_t row, std::size_t column, double theta_deg,
+                                            double phi_deg)>& ink) {
     Pixels pixels;
-    pixels.width = discs * (diameter + kMargin) + kMargin;
-    pixels.height = diameter + 2 * kMargin;
+    const std::size_t step = diameter + kMargin;
+    pixels.width = columns * step + kMargin;
+    pixels.height = rows * step + kMargin;
     pixels.inks.resize(pixels.width * pixels.height);
     const double radius = 0.5 * static_cast<double>(diameter);
-    for (std::size_t disc = 0; disc < discs; ++disc)
-        for (std::size_t row = 0; row < diameter; ++row)
-            for (std::size_t column = 0; column < diameter; ++column) {
-                const double x = (static_cast<double>(column) + 0.5 - radius) / radius;
-                const double y = (radius - static_cast<double>(row) - 0.5) / radius;
-                const double theta = 90 * std::hypot(x, y);
-                if (theta > 90) continue;
-                const double turn = std::atan2(y, x) / kDegree;
-                Ink color = ink(disc, theta, turn < 0 ? turn + 360 : turn);
-                const double half = 45 / radius;  // half a pixel, in degrees
-                for (const double circle : kCircles_deg)
-                    if (std::abs(theta - std::min(circle, 90 - half)) <= half)
-                        color = circle_ink(color);
-                pixels.inks[(row + kMargin) * pixels.width + kMargin + disc * (diameter + kMargin) +
-                            column] = color;
-            }
+    for (std::size_t down = 0; down < rows * diameter; ++down)
+        for (std::size_t right = 0; right < columns * diameter; ++right) {
+            const std::size_t row = down / diameter, column = right / diameter;
+            const std::size_t py = down % diameter, px = right % diameter;
+            const double x = (static_cast<double>(px) + 0.5 - radius) / radius;
+            const double y = (radius - static_cast<double>(py) - 0.5) / radius;
+            const double theta = 90 * std::hypot(x, y);
+            if (theta > 90) continue;
+            const double turn = std::atan2(y, x) / kDegree;
+            Ink color = ink(row, column, theta, turn < 0 ? turn + 360 : turn);
+            const double half = 45 / radius;  // of a pixel, in degrees
+            for (const double circle : kCircles_deg)
+                if (std::abs(theta - std::min(circle, 90 - half)) <= half)
+                    color = circle_ink(color);
+            pixels.inks[(row * step + kMargin + py) * pixels.width + kMargin + column * step + px] =
+                color;
+        }
     return pixels;
 }
 

@@ -16,21 +16,23 @@ float irido_bragg_polarized(float q, float a, float b, float periods)
         float kappa = 2.0 * log(x + sqrt(x * x + 1.0));
         // sinh(kappa) / sinh(N kappa)
         float fall = exp(-2.0 * periods * kappa);
-        inverse_U = kappa > 1e-6
-                        ? exp(-(periods - 1.0) * kappa) * (1.0 - exp(-2.0 * kappa)) / (1.0 - fall)
-                        : 1.0 / periods;
+        inverse_U = 1.0 / periods;
+        if (kappa > 1e-6)
+        {
+            inverse_U = exp(-(periods - 1.0) * kappa) * (1.0 - exp(-2.0 * kappa)) / (1.0 - fall);
+        }
     }
     else
     {
         float KL = 2.0 * atan2(sqrt(FF), sqrt(GG));
         float s = 2.0 * sqrt(FF * GG), S = sin(periods * KL);
         // at a closed gap U = N
-        if (s * periods < 1e-4)
-            inverse_U = 1.0 / periods;
-        else if (abs(S) < 1e-12)
-            return 0.0;
-        else
+        inverse_U = 1.0 / periods;
+        if (s * periods >= 1e-4)
+        {
+            if (abs(S) < 1e-12) { return 0.0; }
             inverse_U = s / S;
+        }
     }
     return C * C / (C * C + inverse_U * inverse_U);
 }
@@ -42,7 +44,7 @@ float irido_bragg(float n1, float d1_nm, float n2, float d2_nm, float periods, f
 {
     float k0 = 6.28318530718 / wavelength_nm;
     float s2 = n1 * n1 * (1.0 - cos_theta * cos_theta);
-    if (s2 >= n2 * n2 || cos_theta <= 0.0) return 1.0;  // tunnelling left out
+    if (s2 >= n2 * n2 || cos_theta <= 0.0) { return 1.0; }  // tunnelling left out
     float q1 = n1 * cos_theta, q2 = sqrt(n2 * n2 - s2);
     float a = k0 * d1_nm * q1, b = k0 * d2_nm * q2;
     float s = irido_bragg_polarized(q2 / q1, a, b, periods);

@@ -39,9 +39,10 @@ float3 irido_color_of_spread(TEXTURE2D(table), float3 angle_axis, float3 value_a
     float low = floor(level);
     float3 color = irido_color_level(PASS2D(table), angle_axis, value_axis, angle, value, low);
     if (level > low)
-        color = lerp(color,
-                     irido_color_level(PASS2D(table), angle_axis, value_axis, angle, value,
-                                       low + 1.0),
-                     level - low);
+    {
+        float3 next = irido_color_level(PASS2D(table), angle_axis, value_axis, angle, value,
+                                        low + 1.0);
+        color = lerp(color, next, level - low);
+    }
     return color;
 }

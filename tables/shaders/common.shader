@@ -2,7 +2,8 @@
 // of samples, as the table's metadata gives them. Samples lie at the centres of texels.
 float irido_texel(float x, float3 axis)
 {
-    float t = axis.z > 1.0 ? clamp((x - axis.x) / (axis.y - axis.x), 0.0, 1.0) : 0.0;
+    float t = 0.0;
+    if (axis.z > 1.0) { t = clamp((x - axis.x) / (axis.y - axis.x), 0.0, 1.0); }
     return (0.5 + (axis.z - 1.0) * t) / axis.z;
 }
 

@@ -15,5 +15,5 @@ float2 irido_sqrt(float2 a)
     float size = length(a);
     float re = sqrt(max(0.5 * (size + a.x), 0.0));
     float im = sqrt(max(0.5 * (size - a.x), 0.0));
-    return float2(re, a.y < 0.0 ? -im : im);
+    return float2(re, PICK(a.y < 0.0, -im, im));
 }

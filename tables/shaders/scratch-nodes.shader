@@ -18,7 +18,7 @@ float irido_slit_integral(float x)
         g /= (((a2 + 48.196927) * a2 + 482.485984) * a2 + 1114.978885) * a2 + 449.690326;
         value = 1.57079632679 - (1.0 + (f - 1.0) * cos(a) + g / a * sin(a)) / a;
     }
-    return x < 0.0 ? -value : value;
+    return PICK(x < 0.0, -value, value);
 }
 
 // Radiance over a light's that covers q0 to q1, times 1/rho; v is the optical path of the depth D,
@@ -46,7 +46,7 @@ float3 irido_scratch_nodes_slope(TEXTURE2D(nodes), float count, float u, float v
     {
         float4 node = SAMPLE2D(nodes, float2(i / count, 0.5), 0.0);
         float groove = sin(3.14159265359 * fract(v * node.x));
-        float x = 3.14159265359 * u * node.x, s = abs(x) < 0.01 ? 1.0 - x * x / 6.0 : sin(x) / x;
+        float x = 3.14159265359 * u * node.x, s = PICK(abs(x) < 0.01, 1.0 - x * x / 6.0, sin(x) / x);
         sum += node.yzw * (4.0 * groove * groove * node.x * s * s);
     }
     return sum;

@@ -43,7 +43,7 @@ float3 irido_scratch_wide(TEXTURE2D(table), float2 u_axis, float4 depth_axis, fl
                                          width_um * q1, depth_um);
     float3 low = irido_scratch_of_table(PASS2D(table), u_axis, depth_axis, carrier_um,
                                         width_um * q0, depth_um);
-    return (q1 < 0.0 ? -high : high) - (q0 < 0.0 ? -low : low);
+    return PICK(q1 < 0.0, -high, high) - PICK(q0 < 0.0, -low, low);
 }
 
 // The same for narrower lights, by a table made with --per-place, which may be f16: two Gauss
@@ -68,8 +68,7 @@ float irido_scratch_footprint(TEXTURE2D(table), float2 counts, float distance_um
                               float sigma_um)
 {
     float y = abs(distance_um) / (half_um + 3.0 * sigma_um), x = half_um / (half_um + sigma_um);
-    if (y > 1.0)
-        return 0.0;
+    if (y > 1.0) { return 0.0; }
     float2 place = (float2(0.5, 0.5) + (counts.yx - float2(1.0, 1.0)) * float2(x, y)) / counts.yx;
     return SAMPLE2D(table, place, 0.0).r / (1.0 + half_um / sigma_um);
 }

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "tables/shaders/wgsl.hpp"
 #include "tables/version.hpp"
 
 namespace irido::tables {
@@ -20,31 +21,48 @@ constexpr Snippet kSnippets[] = {
 #include "shaders.inc"
 };
 
-/// Snippets available in WGSL, complete.
-constexpr Snippet kWgslSnippets[] = {
-#include "wgsl_shaders.inc"
-};
-
-/// Parts of other snippets, useless on their own.
+/// Parts of others, nothing by themselves.
 constexpr std::array<std::string_view, 2> kParts{"common", "complex"};
 
 struct Word {
-    std::string_view word, glsl, hlsl;
+    std::string_view word;
+    std::array<std::string_view, 3> in;  ///< glsl, hlsl, wgsl
 };
 
-/// Types and functions. $ stands for the first argument, & for the others with their commas.
+constexpr std::array<std::string_view, 3> kLanguages{"glsl", "hlsl", "wgsl"};
+constexpr std::size_t kWgsl = 2;
+
+/// Types and functions. $1, $2, $3 stand for arguments.
 constexpr Word kWords[] = {
-    {"float2", "vec2", "float2"},
-    {"float3", "vec3", "float3"},
-    {"float4", "vec4", "float4"},
-    {"lerp", "mix", "lerp"},
-    {"fract", "fract", "frac"},
-    {"atan2", "atan", "atan2"},
-    {"TEXTURE2D", "highp sampler2D $", "Texture2D $, SamplerState $_sampler"},
-    {"TEXTURE3D", "highp sampler3D $", "Texture3D $, SamplerState $_sampler"},
-    {"PASS2D", "$", "$, $_sampler"},
-    {"SAMPLE2D", "textureLod($&)", "$.SampleLevel($_sampler&)"},
-    {"SAMPLE3D", "textureLod($&)", "$.SampleLevel($_sampler&)"},
+    {"float", {"float", "float", "f32"}},
+    {"float2", {"vec2", "float2", "vec2f"}},
+    {"float3", {"vec3", "float3", "vec3f"}},
+    {"float4", {"vec4", "float4", "vec4f"}},
+    {"int", {"int", "int", "i32"}},
+    {"lerp", {"mix", "lerp", "mix"}},
+    {"fract", {"fract", "frac", "fract"}},
+    {"atan2", {"atan", "atan2", "atan2"}},
+    // a condition, and values for true and false
+    {"PICK", {"($1 ? $2 : $3)", "($1 ? $2 : $3)", "select($3, $2, $1)"}},
+    // parameters: tables, an array of numbers (name, length), results (type, name)
+    {"TEXTURE2D",
+     {"highp sampler2D $1", "Texture2D $1, SamplerState $1_sampler",
+      "$1: texture_2d<f32>, $1_sampler: sampler"}},
+    {"TEXTURE3D",
+     {"highp sampler3D $1", "Texture3D $1, SamplerState $1_sampler",
+      "$1: texture_3d<f32>, $1_sampler: sampler"}},
+    {"FLOATS", {"float $1[$2]", "float $1[$2]", "$1: array<f32, $2>"}},
+    {"OUT", {"out $1 $2", "out $1 $2", "$2: ptr<function, $1>"}},
+    // a table handed on, or looked up; a result that is set, or asked for
+    {"PASS2D", {"$1", "$1, $1_sampler", "$1, $1_sampler"}},
+    {"SAMPLE2D",
+     {"textureLod($1, $2, $3)", "$1.SampleLevel($1_sampler, $2, $3)",
+      "textureSampleLevel($1, $1_sampler, $2, $3)"}},
+    {"SAMPLE3D",
+     {"textureLod($1, $2, $3)", "$1.SampleLevel($1_sampler, $2, $3)",
+      "textureSampleLevel($1, $1_sampler, $2, $3)"}},
+    {"RESULT", {"$1", "$1", "*$1"}},
+    {"ASK", {"$1", "$1", "&$1"}},
 };
 
 bool is_letter(char c) {
@@ -66,29 +84,48 @@ std::size_t after_parentheses(std::string_view text, std::size_t open) {
     return i;
 }
 
-std::string translated(std::string_view text, bool is_glsl);
+std::string translated(std::string_view text, std::size_t language);
 
-/// A word that takes arguments, with these filled in.
-std::string filled(std::string_view pattern, std::string_view arguments, bool is_glsl) {
-    const std::size_t comma = arguments.find(',');
-    const std::string_view first = arguments.substr(0, comma);
+/// Arguments between commas that are in no parentheses, translated.
+std::vector<std::string> arguments_of(std::string_view text, std::size_t language) {
+    std::vector<std::string> arguments;
+    int depth = 0;
+    std::size_t from = 0;
+    for (std::size_t i = 0; i <= text.size(); ++i) {
+        const bool ends = i == text.size() || (text[i] == ',' && depth == 0);
+        if (!ends) {
+            depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+            continue;
+        }
+        const std::string_view one = text.substr(from, i - from);
+        const std::size_t first = std::min(one.find_first_not_of(" \n"), one.size());
+        arguments.push_back(translated(one.substr(first), language));
+        from = i + 1;
+    }
+    return arguments;
+}
+
+/// A word that takes arguments, with them filled in.
+std::string filled(std::string_view pattern, const std::vector<std::string>& arguments) {
     std::string result;
-    for (const char c : pattern) {
-        if (c == '$')
-            result += first;
-        else if (c == '&')
-            result += comma == std::string_view::npos
-                          ? std::string()
-                          : translated(arguments.substr(comma), is_glsl);
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        if (pattern[i] == '$')
+            result += arguments.at(static_cast<std::size_t>(pattern[++i] - '1'));
         else
-            result += c;
+            result += pattern[i];
     }
     return result;
 }
 
-std::string translated(std::string_view text, bool is_glsl) {
+std::string translated(std::string_view text, std::size_t language) {
     std::string result;
     for (std::size_t i = 0; i < text.size();) {
+        if (text.substr(i).starts_with("//")) {
+            const std::size_t end = std::min(text.find('\n', i), text.size());
+            result += text.substr(i, end - i);
+            i = end;
+            continue;
+        }
         if (!is_letter(text[i])) {
             result += text[i++];
             continue;
@@ -102,13 +139,14 @@ std::string translated(std::string_view text, bool is_glsl) {
             result += word;
             continue;
         }
-        const std::string_view pattern = is_glsl ? known->glsl : known->hlsl;
-        if (pattern.find('$') == std::string_view::npos) {
+        const std::string_view pattern = known->in[language];
+        const bool takes_arguments = known->in[kWgsl].find('$') != std::string_view::npos;
+        if (!takes_arguments) {
             result += pattern;
             continue;
         }
         const std::size_t close = after_parentheses(text, i);
-        result += filled(pattern, text.substr(i + 1, close - i - 2), is_glsl);
+        result += filled(pattern, arguments_of(text.substr(i + 1, close - i - 2), language));
         i = close;
     }
     return result;
@@ -140,31 +178,24 @@ std::vector<std::string_view> shader_names() {
 }
 
 std::vector<std::string_view> shader_languages() {
-    return {"glsl", "hlsl", "wgsl"};
-}
-
-std::vector<std::string_view> shader_names_in(std::string_view language) {
-    if (language != "wgsl") return shader_names();
-    std::vector<std::string_view> names;
-    for (const Snippet& s : kWgslSnippets) names.push_back(s.name);
-    return names;
+    return {kLanguages.begin(), kLanguages.end()};
 }
 
 std::string shader_source(std::string_view name, std::string_view language) {
+    constexpr std::array<std::string_view, 3> titles{"GLSL (ES 3.00 and later; needs highp float)",
+                                                     "HLSL (shader model 4 and later)", "WGSL"};
     std::string body;
     std::vector<std::string_view> there;
-    const bool is_wgsl = language == "wgsl";
-    if (is_wgsl)
-        body = "\n" + std::string(std::ranges::find(kWgslSnippets, name, &Snippet::name)->text);
-    else
-        append(body, name, there);
-    std::string head = "// irido " + this_build().version + ": " + std::string(name) + ", ";
-    head += is_wgsl              ? "WGSL\n"
-            : language == "glsl" ? "GLSL (ES 3.00 and later; needs highp float)\n"
-                                 : "HLSL (shader model 4 and later)\n";
-    head += "// SPDX-License-Identifier: MIT-0. No notice is needed where you paste this.\n";
-    head += "// Tables: bilinear filtering, clamped to the edge. Lengths in nm.\n";
-    return head + (is_wgsl ? body : translated(body, language == "glsl"));
+    append(body, name, there);
+    const auto place =
+        static_cast<std::size_t>(std::ranges::find(kLanguages, language) - kLanguages.begin());
+    body = translated(body, place);
+    if (place == kWgsl) body = wgsl_declarations(body);
+    return "// irido " + this_build().version + ": " + std::string(name) + ", " +
+           std::string(titles[place]) +
+           "\n// SPDX-License-Identifier: MIT-0. No notice is needed where you paste this.\n"
+           "// Tables: bilinear filtering, clamped to the edge. Lengths in nm.\n" +
+           body;
 }
 
 }  // namespace irido::tables

@@ -6,7 +6,7 @@ import { runInBrowser } from './support/chromium.js';
 import { kinds, temporaryFolder } from './support/irido.js';
 
 const rooms = ['textures', 'color', 'cumulative', 'sensitivity', 'fourier', 'bragg', 'falpha-closed', 'kinds', 'scratch',
-               'engines', 'layered'];
+               'engines', 'layered', 'brdf'];
 const folder = temporaryFolder();
 const jobs = [], skipped = [];
 for (const room of rooms) {

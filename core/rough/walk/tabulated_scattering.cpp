@@ -11,7 +11,9 @@ namespace irido {
 TabulatedScattering::TabulatedScattering(const LayeredScattering& scattering,
                                          const SampleRule& rule, Triple white, Paths paths,
                                          Crossings crossings, const Execution& execution)
-    : scattering_(scattering), wavelengths_(rule.wavelength_nm.size()) {
+    : scattering_(scattering),
+      wavelength_nm_(rule.wavelength_nm),
+      wavelengths_(rule.wavelength_nm.size()) {
     for (std::size_t c = 0; c < 3; ++c) {
         const double light = std::accumulate(rule.weight[c].begin(), rule.weight[c].end(), 0.0);
         for (const double weight : rule.weight[c]) weight_[c].push_back(white[c] * weight / light);
@@ -41,6 +43,11 @@ TabulatedScattering::Direction TabulatedScattering::direction(double theta_deg) 
 
 Triple TabulatedScattering::operator()(const Direction& i, const Direction& o, double near,
                                        double far) const {
+    return (*this)(i, o, MirrorFacets(i.theta_inside_deg, o.theta_inside_deg)(near, far));
+}
+
+Triple TabulatedScattering::operator()(const Direction& i, const Direction& o,
+                                       const MirrorFacet& facet) const {
     const double factor = i.transmittance * o.transmittance * scattering_.coating().dilution();
     if (factor <= 0) return {};
     thread_local std::vector<double> R, sum;
@@ -51,12 +58,9 @@ Triple TabulatedScattering::operator()(const Direction& i, const Direction& o, d
         const double* const out = o.straight.data() + l * wavelengths_;
         for (std::size_t w = 0; w < wavelengths_; ++w) sum[w] += scale * values[w] * in[w] * out[w];
     };
-    if (!facets_.empty()) {
-        const MirrorFacet facet = MirrorFacets(i.theta_inside_deg, o.theta_inside_deg)(near, far);
-        for (std::size_t l = 0; l < facets_.size(); ++l) {
-            facets_[l].at(facet.theta_d_deg, R);
-            add(l, factor * lobe(scattering_.layer(l).alpha(), facet), R);
-        }
+    for (std::size_t l = 0; l < facets_.size(); ++l) {
+        facets_[l].at(facet.theta_d_deg, R);
+        add(l, factor * lobe(scattering_.layer(l).alpha(), facet), R);
     }
     if (!base_.empty()) add(facets_.size(), factor / kPi, base_);
     Triple xyz{};

@@ -31,11 +31,24 @@ public:
     /// X, Y, Z of the BRDF, per steradian.
     ///   near, far  cos and sin of half the azimuth between the directions
     Triple operator()(const Direction& i, const Direction& o, double near, double far) const;
+    /// The same of a facet, inside the coating, that is given.
+    Triple operator()(const Direction& i, const Direction& o, const MirrorFacet& facet) const;
+
+    std::size_t wavelengths() const { return wavelengths_; }
+    const std::vector<double>& wavelength_nm() const { return wavelength_nm_; }
+    /// X of a spectrum is the sum of its products with weight()[0].
+    const std::array<std::vector<double>, 3>& weight() const { return weight_; }
+    /// R and T of each layer; f_t cos / G1 of each that light crosses.
+    const std::vector<AngleTable>& facets() const { return facets_; }
+    const std::vector<AngleTable>& straight() const { return straight_; }
+    /// Albedo of the base by wavelength, for all paths over 1 - albedo rbar; none if it is black.
+    const std::vector<double>& base() const { return base_; }
 
 private:
     const LayeredScattering& scattering_;
+    std::vector<double> wavelength_nm_;
     std::size_t wavelengths_;
-    std::array<std::vector<double>, 3> weight_;  ///< X of a spectrum is the sum of its products
+    std::array<std::vector<double>, 3> weight_;
     std::vector<AngleTable> facets_, straight_;
     std::vector<double> base_;
 };

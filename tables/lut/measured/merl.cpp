@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/math/constants.hpp"
-#include "core/math/degrees.hpp"
 #include "core/math/parallel.hpp"
 
 namespace irido::tables {
@@ -18,36 +16,10 @@ namespace {
 constexpr std::size_t kHalf = 90, kDifference = 90, kAzimuth = 180;
 constexpr std::array kMerlScale{1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
 
-/// Cosine of the polar angle just above the horizon.
-constexpr double kJustAbove = 1e-4;
-
 template <class Number>
 void append_bytes(std::string& out, Number value) {
     const auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(value);
     out.append(bytes.data(), bytes.size());
-}
-
-struct Vector {
-    double x, y, z;
-};
-
-/// The directions of a cell's corner or centre, rotated from the frame whose normal is h.
-std::pair<Vector, Vector> directions_of(double theta_h_deg, double theta_d_deg, double phi_d_deg) {
-    const double sd = sin_deg(theta_d_deg), cd = cos_deg(theta_d_deg);
-    const double dx = sd * cos_deg(phi_d_deg), dy = sd * sin_deg(phi_d_deg);
-    const double sh = sin_deg(theta_h_deg), ch = cos_deg(theta_h_deg);
-    const auto turned = [&](double x, double y) {
-        return Vector{ch * x + sh * cd, y, ch * cd - sh * x};
-    };
-    return {turned(dx, dy), turned(-dx, -dy)};
-}
-
-/// Half the azimuth between two directions, from their horizontal components.
-TablePair pair_of(const Vector& i, const Vector& o) {
-    const double cos_i = std::clamp(i.z, kJustAbove, 1.0), cos_o = std::clamp(o.z, kJustAbove, 1.0);
-    const double turn = std::atan2(i.x * o.y - i.y * o.x, i.x * o.x + i.y * o.y);
-    return {std::acos(cos_i) / kDegree, std::acos(cos_o) / kDegree, std::abs(std::cos(0.5 * turn)),
-            std::abs(std::sin(0.5 * turn))};
 }
 
 }  // namespace
@@ -67,25 +39,21 @@ std::string merl_file(const std::function<Triple(const TablePair&)>& rgb, unsign
             for (std::size_t p = 0; p < kAzimuth; ++p) {
                 const std::size_t cell = (h * kDifference + d) * kAzimuth + p;
                 const auto at = [&](double part_h, double part_d, double part_p) {
-                    return directions_of(theta_h(part_h), static_cast<double>(d) + part_d,
-                                         static_cast<double>(p) + part_p);
+                    return directions_of({theta_h(part_h), static_cast<double>(d) + part_d,
+                                          static_cast<double>(p) + part_p});
                 };
-                auto [i, o] = at(0.5, 0.5, 0.5);
-                bool is_above = i.z > 0 && o.z > 0;
-                // a cell whose centre is below the horizon may have corners above it
-                for (std::size_t corner = 0; corner < 8 && !is_above; ++corner) {
-                    const auto [ci, co] = at(corner & 1 ? 0.98 : 0.02, corner & 2 ? 0.98 : 0.02,
-                                             corner & 4 ? 0.98 : 0.02);
-                    is_above = ci.z > 0 && co.z > 0;
-                    if (is_above) std::tie(i, o) = std::pair(ci, co);
-                }
+                HalfAnglePair one = at(0.5, 0.5, 0.5);
+                // a cell whose centre is below may have corners above
+                for (std::size_t corner = 0; corner < 8 && !one.is_above; ++corner)
+                    one = at(corner & 1 ? 0.98 : 0.02, corner & 2 ? 0.98 : 0.02,
+                             corner & 4 ? 0.98 : 0.02);
                 ++counts[h].cells;
-                if (!is_above) {
+                if (!one.is_above) {
                     ++counts[h].below;
                     for (std::size_t c = 0; c < 3; ++c) values[c * cells + cell] = -1;
                     continue;
                 }
-                const Triple color = rgb(pair_of(i, o));
+                const Triple color = rgb(one.pair);
                 bool is_clamped = false;
                 for (std::size_t c = 0; c < 3; ++c) {
                     is_clamped = is_clamped || color[c] < 0;

@@ -4,16 +4,11 @@
 #include <string>
 
 #include "core/colorimetry/space.hpp"
+#include "tables/lut/measured/half_angles.hpp"
 
 namespace irido::tables {
 
-/// A pair of directions above the surface: polar angles in degrees, [0, 90), and cosine and sine of
-/// half the azimuth between them.
-struct TablePair {
-    double theta_i_deg, theta_o_deg, near, far;
-};
-
-/// Statistics about the cells of a table.
+/// Counts of what the cells of a table are.
 struct MerlReport {
     std::size_t cells = 0, below = 0, clamped = 0;  ///< below the horizon; colours below 0
 };

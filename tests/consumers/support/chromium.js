@@ -11,7 +11,7 @@ const root = fileURLToPath(new URL('..', import.meta.url));
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json' };
 
 /** Runs the jobs of support/PAGE.js; tables are files in `folder`, with URLs /tables/NAME. */
-export async function runInBrowser(jobs, folder, { seconds = 120, page = 'page' } = {}) {
+export async function runInBrowser(jobs, folder, { seconds = 120, page = 'page', flags = [] } = {}) {
     let settle;
     const answered = new Promise((resolve, reject) => { settle = { resolve, reject }; });
     const server = createServer((request, response) => {
@@ -46,7 +46,7 @@ export async function runInBrowser(jobs, folder, { seconds = 120, page = 'page' 
         '--disable-dev-shm-usage',
         '--no-first-run', '--disable-extensions', '--disable-background-networking', '--disable-sync',
         '--disable-component-update', `--user-data-dir=${profile}`,
-        `http://127.0.0.1:${server.address().port}/support/${page}.html`], {
+        ...flags, `http://127.0.0.1:${server.address().port}/support/${page}.html`], {
         detached: true,
         stdio: ['ignore', 'ignore', 'pipe'],
         env: { ...process.env, TMPDIR: profile },

@@ -2,9 +2,15 @@
 // texture as the language passes it.
 const axis = 'float3(0.0, 1.0, 8.0)';
 
+const wgslOf = (code) => code.replace(/float(\d)/g, 'vec$1f');
+
 export const calls = {
     albedo: [`float4(irido_albedo($table, ${axis}, ${axis}, x, y), 1.0)`],
     bragg: ['float4(irido_bragg(1.0, 100.0, 1.5, 90.0, 20.0, x, 550.0), 0.0, 0.0, 1.0)'],
+    brdf: [
+        `float4(irido_brdf($volume, ${axis}, float2(5.0, 8.0), ${axis}, normalize(float3(x, y, 1.0)), normalize(float3(y, -x, 1.0))), 1.0)`,
+        `float4(irido_brdf_slice($table, float2(0.0, 8.0), ${axis}, normalize(float3(x, y, 1.0)), normalize(float3(y, -x, 1.0))), 1.0)`,
+    ],
     color: [
         `float4(irido_color($table, ${axis}, ${axis}, x, y), 1.0)`,
         `float4(irido_color_of_angle($table, ${axis}, x), 1.0)`,
@@ -66,6 +72,12 @@ export const helpers = {
     return float4(irido_layered(table, table_sampler, ${axis}, ${axis}, 4, alpha, 1.0, 1.35,
         normalize(float3(x, y, 1.0)), normalize(float3(y, x, 1.0))), 1.0);
 }`,
+        wgsl: `fn two_layers(table: texture_2d<f32>, table_sampler: sampler, x: f32, y: f32) -> vec4f {
+    var alpha: array<f32, IRIDO_LAYERS>;
+    for (var layer = 0; layer < IRIDO_LAYERS; layer++) { alpha[layer] = 0.1; }
+    return vec4f(irido_layered(table, table_sampler, ${wgslOf(axis)}, ${wgslOf(axis)}, 4, alpha, 1.0, 1.35,
+        normalize(vec3f(x, y, 1.0)), normalize(vec3f(y, x, 1.0))), 1.0);
+}`,
     },
     sensitivity: {
         glsl: `vec4 both(highp sampler2D table, float x, float y) {
@@ -77,6 +89,11 @@ export const helpers = {
     float3 re, im;
     irido_sensitivity(table, table_sampler, ${axis}, float3(0.0, 0.0, 0.0), x, y, re, im);
     return float4(re + im, 1.0);
+}`,
+        wgsl: `fn both(table: texture_2d<f32>, table_sampler: sampler, x: f32, y: f32) -> vec4f {
+    var re: vec3f; var im: vec3f;
+    irido_sensitivity(table, table_sampler, ${wgslOf(axis)}, vec3f(0.0), x, y, &re, &im);
+    return vec4f(re + im, 1.0);
 }`,
     },
 };
@@ -95,6 +112,35 @@ ${helpers[name]?.glsl ?? ''}
 void main() {
     float x = place.x, y = place.y;
     color = ${sum};
+}
+`;
+}
+
+/** WGSL of `fn called(x: f32, y: f32) -> vec4f`, the sum of the calls of a snippet, with two textures. */
+export function wgslCalled(name, source) {
+    const sum = calls[name].map((call) => wgslOf(call.replace(/\$(\w+)/g, '$1, $1_sampler'))).join(' + ');
+    return `@group(0) @binding(0) var table: texture_2d<f32>;
+@group(0) @binding(1) var table_sampler: sampler;
+@group(0) @binding(2) var volume: texture_3d<f32>;
+@group(0) @binding(3) var volume_sampler: sampler;
+${name === 'layered' ? 'const IRIDO_LAYERS = 1;' : ''}
+${source}
+${helpers[name]?.wgsl ?? ''}
+fn called(x: f32, y: f32) -> vec4f {
+    return ${sum};
+}
+`;
+}
+
+/** The same in GLSL. */
+export function glslCalled(name, source) {
+    const sum = calls[name].map((call) => call.replace(/\$/g, '').replace(/float(\d)/g, 'vec$1')).join(' + ');
+    return `uniform highp sampler2D table;
+uniform highp sampler3D volume;
+${source}
+${helpers[name]?.glsl ?? ''}
+vec4 called(float x, float y) {
+    return ${sum};
 }
 `;
 }

@@ -263,15 +263,3 @@ TEST_CASE("a measured BSDF", "[tables][measured][slow]") {
     CHECK(errors[errors.size() / 2] < 0.01);
     CHECK(errors[errors.size() * 95 / 100] < 0.08);
 }
-
-TEST_CASE("lut brdf refuses what it cannot write", "[cli][brdf]") {
-    const TemporaryFolder folder;
-    const std::string pale = "schemas/examples/surfaces/green-on-pale.json";
-    check_refused(run_irido({"lut", "brdf", pale, "-o", folder / "x.csv"}),
-                  "must be one of binary, merl, bsdf");
-    check_refused(run_irido({"lut", "brdf", pale, "-f", "merl"}), "--output: is required");
-    check_refused(run_irido({"lut", "brdf", pale, "--paths", "all", "-o", folder / "x.bsdf"}),
-                  "--paths all: requires a closed form");
-    check_refused(run_irido({"lut", "brdf", pale, "-w", "500,400", "-o", folder / "x.bsdf"}),
-                  "--wavelengths: must ascend");
-}

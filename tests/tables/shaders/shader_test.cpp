@@ -4,6 +4,8 @@
 #include <regex>
 #include <utility>
 
+#include "tables/shaders/wgsl.hpp"
+
 using namespace irido;
 using namespace irido::tables;
 using Catch::Matchers::Contains;
@@ -41,7 +43,7 @@ TEST_CASE("snippets mix the mip levels on both sides of a level", "[tables][lut]
 }
 
 TEST_CASE("snippets in WGSL have the functions of the others", "[tables][lut]") {
-    const std::regex function(R"((?:^|\n)(?:fn|float3?|void) (irido_scratch\w*|irido_slit\w*)\()");
+    const std::regex function(R"((?:^|\n)(?:fn|bool|float\d?|void) (irido_\w+)\()");
     const auto functions = [&](const std::string& source) {
         std::vector<std::string> names;
         for (auto at = std::sregex_iterator(source.begin(), source.end(), function);
@@ -49,11 +51,22 @@ TEST_CASE("snippets in WGSL have the functions of the others", "[tables][lut]") 
             names.push_back((*at)[1]);
         return names;
     };
-    CHECK(shader_names_in("wgsl").size() == 2);
-    CHECK(shader_names_in("glsl") == shader_names());
-    for (const std::string_view name : shader_names_in("wgsl")) {
-        const auto names = functions(shader_source(name, "wgsl"));
-        CHECK(names.size() >= 3);
+    for (const std::string_view name : shader_names()) {
+        INFO(name);
+        const std::string wgsl = shader_source(name, "wgsl");
+        const auto names = functions(wgsl);
+        CHECK_FALSE(names.empty());
         CHECK(names == functions(shader_source(name, "hlsl")));
+        CHECK_THAT(wgsl, !Contains("float") && !Contains("#if") && !Contains("SAMPLE"));
     }
+}
+
+TEST_CASE("declarations of WGSL", "[tables][lut]") {
+    CHECK(wgsl_declarations("f32 f(f32 x, vec2f y)\n{\n    f32 a = max(x, 1.0), b, c[3];\n}\n") ==
+          "fn f(x: f32, y: vec2f) -> f32\n{\n    var a: f32 = max(x, 1.0); var b: f32; var c: "
+          "array<f32, 3>;\n}\n");
+    CHECK(wgsl_declarations("#define A 1\nvoid f(r: ptr<function, vec3f>)\n{\n}\n") ==
+          "fn f(r: ptr<function, vec3f>)\n{\n}\n");
+    CHECK(wgsl_declarations("for (i32 i = 0; i < 3; i++) { f32(i); }  // f32 x, y;\n") ==
+          "for (var i: i32 = 0; i < 3; i++) { f32(i); }  // f32 x, y;\n");
 }

@@ -1,0 +1,126 @@
+#include "cli/options/table_options.hpp"
+
+#include <algorithm>
+
+#include "cli/options/picture_options.hpp"
+#include "tables/lut/lut_file.hpp"
+
+namespace irido::cli {
+
+namespace {
+
+constexpr double kMostSamples = 8192;
+
+std::vector<std::string_view> table_format_names(bool has_pictures = true) {
+    std::vector<std::string_view> names;
+    for (const tables::LutFormat* format : tables::lut_formats()) names.push_back(format->name);
+    if (!has_pictures) return names;
+    for (const tables::PictureFormat* format : tables::picture_formats())
+        names.push_back(format->name);
+    return names;
+}
+
+/// "64x512": one number for each axis; one number alone is for all.
+std::vector<std::size_t> parse_size(std::string text, std::size_t axes) {
+    std::vector<std::size_t> counts;
+    if (text.empty()) return counts;
+    std::ranges::replace(text, 'x', ',');
+    for (const std::string_view part : comma_separated(text))
+        counts.push_back(
+            static_cast<std::size_t>(parse_whole_number("--size", part, 1, kMostSamples)));
+    if (counts.size() == 1) counts.resize(axes, counts.front());
+    return counts;
+}
+
+}  // namespace
+
+void add_dtype_option(CLI::App& command, std::string& type, const std::string& usual) {
+    command.add_option("--dtype", type, "number format: f16, f32 or f64 " + usual)
+        ->type_name("NAME");
+    offer(command, "dtype", "f16 f32 f64");
+}
+
+void add_table_size_options(CLI::App& command, TableOptions& options, const std::string& usual) {
+    add_dtype_option(command, options.type, usual);
+    command
+        .add_option("--size", options.size,
+                    "samples per axis, [1, 8192]: 64x512, in the order of the axes, or one\n"
+                    "number for all [as many as the axes' lists have]")
+        ->type_name("SIZE");
+    command
+        .add_option("--tolerance", options.tolerance,
+                    "choose the smallest size with this interpolation error (in CIEDE2000\n"
+                    "for colours, else as defined below); an axis along which the table\n"
+                    "is constant gets one sample. Exit status 1 if it cannot be met")
+        ->type_name("E");
+    command.add_flag("--any-size", options.any_size,
+                     "with --tolerance: allow sizes other than powers of two");
+}
+
+void add_table_layout_options(CLI::App& command, TableOptions& options) {
+    command.add_flag("--zstd", options.layout.zstd, "ktx2: compress with Zstandard");
+    command.add_flag("--layers", options.layout.layers,
+                     "ktx2: store a third axis as array layers, not as depth or mip levels");
+}
+
+std::string table_formats_text() {
+    std::string text;
+    for (const std::string_view name : table_format_names())
+        text.append(text.empty() ? "" : ", ").append(name);
+    return text + " [csv]; pictures are for\nlooking only";
+}
+
+const tables::LutFormat& resolved_lut_format(const OutputOptions& output, bool has_pictures) {
+    const std::string name = resolved_format(output);
+    const std::size_t dot = output.file.find_last_of('.');
+    const std::string extension = dot == std::string::npos ? "" : output.file.substr(dot + 1);
+    if (!output.format.empty() && extension != name && tables::find_lut_format(extension))
+        throw UsageError("--format: " + name + " contradicts the extension ." + extension);
+    if (const tables::LutFormat* format = tables::find_lut_format(name)) return *format;
+    throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
+                     not_one_of(table_format_names(has_pictures), name));
+}
+
+tables::LutType parse_type(std::string_view text) {
+    for (const tables::LutType type :
+         {tables::LutType::f16, tables::LutType::f32, tables::LutType::f64})
+        if (name_of(type) == text) return type;
+    throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + std::string(text) + "')");
+}
+
+tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat* format,
+                            std::string_view text_type, std::size_t axes) {
+    tables::LutMaking making;
+    making.sizing.counts = parse_size(options.size, axes);
+    making.sizing.power_of_two = !options.any_size;
+    if (options.any_size && options.tolerance.empty())
+        throw UsageError("--any-size: requires --tolerance");
+    if (!options.tolerance.empty()) {
+        if (!making.sizing.counts.empty())
+            throw UsageError("--tolerance: cannot be combined with --size");
+        making.sizing.tolerance = parse_one_number("--tolerance", options.tolerance, 1e-12, 1e3);
+    }
+    const std::string_view usual = format && format->name == "csv" ? text_type : "f32";
+    making.type = parse_type(options.type.empty() ? usual : options.type);
+    making.mips = format && format->name == "ktx2" && !options.layout.layers;
+    return making;
+}
+
+void write_table(const tables::Lut& lut, const tables::LutFormat& format,
+                 const tables::LutLayout& layout, const OutputOptions& output, bool quiet) {
+    if (output.file.empty()) {
+        const std::vector<tables::LutFile> files = format.write(lut, layout);
+        const auto table = std::ranges::find(files, std::string(), &tables::LutFile::suffix);
+        write_bytes(table->bytes, output, format.is_binary);
+    } else {
+        tables::write_lut(lut, output.file, format, layout);
+    }
+    if (layout.layers) note("three.js reads only the first array layer of a file", quiet);
+    if (format.name == "ktx2" || format.name == "exr")
+        for (const tables::LutAxis& axis : lut.axes)
+            if (!axis.is_linear() && axis.half_at == 0 && !(lut.mips && &axis == &lut.axes.front()))
+                note(axis.name + ": samples are not equally spaced: fetch texels, do not filter",
+                     quiet);
+}
+
+}  // namespace irido::cli

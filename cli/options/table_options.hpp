@@ -1,0 +1,42 @@
+#pragma once
+
+#include "cli/options/command.hpp"
+#include "tables/lut/lut_format.hpp"
+#include "tables/lut/lut_maker.hpp"
+
+namespace irido::cli {
+
+/// How a table is sampled and stored, as typed; "" if not typed.
+struct TableOptions {
+    std::string type, size, tolerance;
+    bool any_size = false;
+    tables::LutLayout layout;
+};
+
+/// --dtype; `usual` is what it is if not typed, as the help has it.
+void add_dtype_option(CLI::App& command, std::string& type, const std::string& usual);
+
+/// --dtype, --size, --tolerance, --any-size, --zstd, --layers; the output's stand between the
+/// last two and these.
+void add_table_size_options(CLI::App& command, TableOptions& options, const std::string& usual);
+void add_table_layout_options(CLI::App& command, TableOptions& options);
+
+/// "csv, ktx2, png [csv]": what --format of a table may be, for --help.
+std::string table_formats_text();
+
+/// The table's format. Throws UsageError, which names pictures among the others if they are drawn.
+const tables::LutFormat& resolved_lut_format(const OutputOptions& output, bool has_pictures = true);
+
+tables::LutType parse_type(std::string_view text);
+
+/// What was typed for a table of that many axes. Throws UsageError.
+///   format     nullptr for pictures
+///   text_type  number format of CSV if none was typed
+tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat* format,
+                            std::string_view text_type, std::size_t axes);
+
+/// Writes a table to its files, or as CSV to standard output; notes what readers should know.
+void write_table(const tables::Lut& lut, const tables::LutFormat& format,
+                 const tables::LutLayout& layout, const OutputOptions& output, bool quiet);
+
+}  // namespace irido::cli
