@@ -120,7 +120,8 @@ int run_bench_design(const BenchDesignOptions& options) {
 
 void add_bench_design(CLI::App& bench, Run& run) {
     CLI::App* command = bench.add_subcommand(
-        "design", "Searches on published problems and on problems of its own, beside the best merits known.");
+        "design",
+        "Searches on published problems and on problems of its own, beside the best merits known.");
     const auto options = std::make_shared<BenchDesignOptions>();
     command->add_option("-c,--cases", options->cases, cases_help(design_cases()))
         ->type_name("NAMES");

@@ -32,8 +32,8 @@ struct LutMaking {
 /// The error of a table that is interpolated linearly along all axes that are ranges. Measured at
 /// the middles of the cells along each axis and along all axes, and on a finer grid in the eight
 /// worst cells: a sampled maximum, not a bound. Of more than 8192 middles, those along lines where
-/// the table's own curvature promises the largest errors, and along as many evenly spaced ones. Uses
-/// the values as stored.
+/// the table's own curvature promises the largest errors, and along as many evenly spaced ones.
+/// Uses the values as stored.
 struct InterpolationError {
     double value = 0;
     std::vector<double> at;       ///< its location, one number per axis

@@ -33,7 +33,7 @@ StackColor color(const Stack& stack, double angle_deg, const ColorRequest& reque
 StackColor by_spectra(const Stack& stack, double angle_deg, const ColorRequest& request = {}) {
     StackColor result;
     (*quadrature_color(white_light(), stack, request))(stack, std::span(&angle_deg, 1),
-                                                    std::span(&result, 1));
+                                                       std::span(&result, 1));
     return result;
 }
 
