@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <new>
@@ -24,6 +26,14 @@ std::string version_text() {
 int fail(const std::string& text, int status = kBadInput) {
     print_error(text);
     return status;
+}
+
+/// Memory of a block of rows stays for the next one: to get it anew costs a page fault for every
+/// 4 KB, more than what is computed into it.
+void keep_freed_memory() {
+    constexpr int kMostBlock = 1 << 25, kMostKept = 1 << 28;  // of one block, that of glibc
+    mallopt(M_MMAP_THRESHOLD, kMostBlock);
+    mallopt(M_TRIM_THRESHOLD, kMostKept);
 }
 
 /// Adds the command that was typed, or all of them where none was: to build all of them takes half
@@ -104,6 +114,7 @@ int run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     handle_signals();
+    keep_freed_memory();
     try {
         return run_command_line(argc, argv);
     } catch (const tables::BrokenPipe&) {

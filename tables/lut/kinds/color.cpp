@@ -89,8 +89,13 @@ private:
             nullptr};
         level.stack->at(last);  // throws now rather than later
         const Stack stack = level.stack->at(first);
-        if (level.stack->varies_thickness_only())
-            level.algorithm = color_algorithm(*tables_, stack, {}, color_);
+        if (level.stack->varies_thickness_only()) {
+            ColorRequest asked = color_;
+            if (!request.source.reverse)
+                for (const VariedValue& vary : request.vary)
+                    asked.varied.push_back(schemas::VariedStack::place_of(vary.path));
+            level.algorithm = color_algorithm(*tables_, stack, {}, asked);
+        }
         levels_.push_back(std::move(level));
     }
 
