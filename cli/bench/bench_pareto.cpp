@@ -253,7 +253,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         "formulas of KHR_materials_iridescence; smits: two beams. A method that cannot\n"
         "compute the stacks of a case has no rows there.\n"
         "Columns: parameter and tolerance, 0 where there is none; evaluations: wavelengths\n"
-        "per colour; ns_per_color: the fastest of repeated runs, including each stack's\n"
+        "per colour; ns_per_color: processor time of the fastest run, including each stack's\n"
         "preparation in the random sets; max_dXYZ: largest error of X, Y, Z against\n"
         "quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours: mean, 95th percentile\n"
         "and maximum over the case's `colors`. For methods with a tolerance:\n"

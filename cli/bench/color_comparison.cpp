@@ -73,11 +73,11 @@ ColorComparison::Run ColorComparison::run(const ColorMethod& method, double tole
     const ColorRequest asked = request(tolerance);
     Algorithms ready;
     std::vector<StackColor> found;
-    const double preparing = seconds_of([&] { ready = algorithms(method, asked); });
-    const double calling = seconds_of([&] { found = colors(ready); });
+    const double preparing = thread_seconds_of([&] { ready = algorithms(method, asked); });
+    const double calling = thread_seconds_of([&] { found = colors(ready); });
     double seconds = is_set_ ? preparing + calling : calling;
     if (seconds < kSlow * seconds_)
-        seconds = best_seconds(seconds_, [&] {
+        seconds = best_thread_seconds(seconds_, [&] {
             if (is_set_) ready = algorithms(method, asked);
             found = colors(ready);
         });

@@ -30,9 +30,8 @@ std::string count_of(std::size_t part, std::size_t all, const std::string& what)
 }
 
 /// Why a request is left to the plain kernel; see --stats.
-std::string why_plain(const StackPower& stack, const Needs& needs, SimdLevel simd) {
+std::string why_plain(const StackPower& stack, SimdLevel simd) {
     if (simd == SimdLevel::plain) return "IRIDO_SIMD=plain";
-    if (needs.layers) return "A_layers";
     if (!stack.chain()) return "thickness distributions";
     return "groups of many layers in groups, or phases beyond 1e12";
 }
@@ -45,7 +44,8 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
         lines.push_back(points + "one at a time (" + plain_reason + ")");
     } else {
         lines.push_back(points + "vectorized (" + std::string(name_of(work.kernel)) + "), " +
-                        std::to_string(work.layers) + " layers");
+                        std::to_string(work.layers) + " layers" +
+                        (needs.layers ? ", A_layers one at a time" : ""));
     }
     const auto skipped = [&](const std::string& what) { lines.push_back("skipped: " + what); };
     if (work.normal_angles > 0 && needs.s && needs.p)
@@ -499,7 +499,7 @@ std::vector<std::string> SpectrumQuery::stats(const PreparedStack& prepared) con
     const Needs needs = spectrum_needs(polarizations_, columns_, power).power;
     const Work work = work_of(power, static_cast<const SpectrumStack&>(prepared).table,
                               incident_angles_of(angles_deg_), needs, execution_);
-    return lines_of(work, needs, angles_deg_.size(), why_plain(power, needs, execution_.simd));
+    return lines_of(work, needs, angles_deg_.size(), why_plain(power, execution_.simd));
 }
 
 std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {

@@ -9,6 +9,7 @@
 
 #include "core/color/held_stack.hpp"
 #include "core/color/stack_color.hpp"
+#include "core/colorimetry/difference.hpp"
 #include "core/stack/index_table.hpp"
 
 namespace irido {
@@ -29,7 +30,8 @@ constexpr double kShort_nm = 400;
 /// which on spectra with their closed forms are quicker.
 constexpr double kForNine = 0.67, kForAny = 12;
 
-/// Round trips whose fringes are to be resolved, and intervals that the Gaussian takes itself.
+/// Round trips whose fringes are to be resolved at the default tolerance, as many more as it is
+/// smaller; and intervals that the Gaussian takes itself.
 constexpr double kRoundTrips = 4, kOfGaussian = 10;
 
 /// Colours for one.
@@ -173,10 +175,6 @@ Stack without_spread(Stack stack, const std::vector<LayerPlace>& places) {
     return stack;
 }
 
-double largest_difference_of(const Triple& a, const Triple& b) {
-    return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
-}
-
 class SpreadColor : public ColorAlgorithm {
 public:
     SpreadColor(const ColorTables& tables, const Stack& stack, const ColorMethod& method,
@@ -184,7 +182,8 @@ public:
         : places_(std::move(places)),
           sides_(request.sides.size()),
           tolerance_(request.tolerance),
-          reach_(std::sqrt(-2 * std::log(kOfTails * request.tolerance))) {
+          reach_(std::sqrt(-2 * std::log(kOfTails * request.tolerance))),
+          more_(std::max(1.0, std::log(request.tolerance) / std::log(kDefaultTolerance))) {
         ColorRequest plain = request;
         plain.tolerance = std::max(kSmallestTolerance, kOfColors * request.tolerance);
         plain.colors *= kNine.size();
@@ -239,11 +238,12 @@ private:
     std::size_t first_level(const Layer& layer, std::size_t spread) const {
         const double phase = turn_per_nm_[spread] * layer.thickness_sigma_nm;
         if (!(phase < kForAny)) return kLevels;
-        if (!is_cut(layer) && phase < kForNine) return 0;
+        if (!is_cut(layer) && phase * more_ < kForNine) return 0;
         const double wide = reach_ * layer.thickness_sigma_nm +
                             std::min(layer.thickness_nm, reach_ * layer.thickness_sigma_nm);
         // equal steps need two a wave, Clenshaw and Curtis's pi
-        const double waves = kRoundTrips * turn_per_nm_[spread] * wide / (2 * std::numbers::pi);
+        const double waves =
+            more_ * kRoundTrips * turn_per_nm_[spread] * wide / (2 * std::numbers::pi);
         const double least = kOfGaussian + (is_cut(layer) ? std::numbers::pi : 2) * waves;
         std::size_t level = kGaussLevels;
         while (level < kLevels && static_cast<double>(kIntervals.at(level - kGaussLevels)) < least)
@@ -312,8 +312,8 @@ private:
         }
         for (std::size_t i = 0; i < sums.size(); ++i) {
             const Sum& sum = sums[i];
-            const double range = largest_difference_of(sum.most, sum.least);
-            const double agreement = largest_difference_of(sum.all, sum.inside);
+            const double range = largest_difference(sum.most, sum.least);
+            const double agreement = largest_difference(sum.all, sum.inside);
             const double rule =
                 agreement > 0 ? std::min(agreement, kSafety * agreement * (agreement / range)) : 0;
             StackColor& color = colors[open[i / sides_] * sides_ + i % sides_];
@@ -326,6 +326,7 @@ private:
     std::size_t sides_;
     double tolerance_;
     double reach_;  ///< standard deviations from the mean to the last thickness that counts
+    double more_;   ///< of the usual round trips
     std::unique_ptr<ColorAlgorithm> plain_;
     std::vector<double> turn_per_nm_;  ///< phase of a round trip through each spread layer
 };

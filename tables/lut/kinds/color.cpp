@@ -97,9 +97,13 @@ private:
         const Stack stack = level.stack->at(first);
         if (remap_width_nm_ > 0) {
             with_remapped_film(stack, remap_width_nm_);
-            color_.varied.clear();
-        } else if (level.stack->varies_thickness_only())
-            level.algorithm = color_algorithm(*tables_, stack, {}, color_);
+        } else if (level.stack->varies_thickness_only()) {
+            ColorRequest asked = color_;
+            if (!request.source.reverse)
+                for (const VariedValue& vary : request.vary)
+                    asked.varied.push_back(schemas::VariedStack::place_of(vary.path));
+            level.algorithm = color_algorithm(*tables_, stack, {}, asked);
+        }
         levels_.push_back(std::move(level));
     }
 

@@ -318,6 +318,7 @@ TEST_CASE("auto sums the series where quadrature would take long") {
     Stack spread = one_film(1.5, 400, 1.2);
     std::get<Layer>(spread.elements[0].value).thickness_sigma_nm = 5;
     CHECK(method_of(spread, 1) == quadrature);
+    spread = one_film(1.5, 4000, 1.2);
     std::get<Layer>(spread.elements[0].value).thickness_sigma_nm = 120;
     CHECK(method_of(spread, 1) == fourier);
 }
