@@ -130,6 +130,51 @@ std::vector<double> with_tables(const LayeredScattering& scattering, const Layer
     return f;
 }
 
+/// What all paths add to single reflections, by Adding, over both angles and the azimuth; linear in
+/// between.
+class RestTable {
+public:
+    RestTable(const LayeredScattering& scattering, const std::vector<double>& nm,
+              const Execution& execution)
+        : wavelengths_(nm.size()) {
+        std::vector<ScatterPair> pairs;
+        for (std::size_t i = 0; i < kThetas; ++i)
+            for (std::size_t o = 0; o <= i; ++o)
+                for (std::size_t k = 0; k < kAzimuths; ++k)
+                    pairs.push_back({kThetaStep_deg * static_cast<double>(i),
+                                     kThetaStep_deg * static_cast<double>(o),
+                                     kAzimuthStep_deg * static_cast<double>(k)});
+        values_ = Adding(scattering, 1e-3, execution).brdf_rest(pairs, nm).values;
+    }
+
+    void add(const ScatterPair& pair, std::span<double> out) const {
+        const auto [i, u] = place(pair.theta_i_deg / kThetaStep_deg, kThetas);
+        const auto [o, v] = place(pair.theta_o_deg / kThetaStep_deg, kThetas);
+        const auto [k, t] = place(pair.phi_deg / kAzimuthStep_deg, kAzimuths);
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const std::size_t a = i + (corner & 1), b = o + (corner >> 1 & 1);
+            const std::size_t c = k + (corner >> 2);
+            const double weight =
+                (corner & 1 ? u : 1 - u) * (corner & 2 ? v : 1 - v) * (corner & 4 ? t : 1 - t);
+            const std::size_t both = a > b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a;
+            const double* from = values_.data() + (both * kAzimuths + c) * wavelengths_;
+            for (std::size_t w = 0; w < out.size(); ++w) out[w] += weight * from[w];
+        }
+    }
+
+private:
+    static constexpr std::size_t kThetas = 41, kAzimuths = 46;
+    static constexpr double kThetaStep_deg = 2, kAzimuthStep_deg = 4;
+
+    static std::pair<std::size_t, double> place(double at, std::size_t count) {
+        const std::size_t below = std::min(static_cast<std::size_t>(at), count - 2);
+        return {below, at - static_cast<double>(below)};
+    }
+
+    std::size_t wavelengths_;
+    std::vector<double> values_;  ///< [i >= o][azimuth][wavelength]
+};
+
 /// Colours of one layer by tables made for that, against exact ones: what a renderer does.
 void add_prepared(const MirrorCase& of, const LayeredBench& bench, std::vector<LayeredRow>& rows) {
     const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
@@ -239,6 +284,17 @@ void add_mirror(const MirrorCase& of, const LayeredBench& bench, std::vector<Lay
             for (std::size_t k = 0; k < values.size(); ++k) values[k] += rest[k];
         });
         add("all", 0, evaluate, count, values);
+        std::unique_ptr<RestTable> rest;
+        prepare = seconds_of([&] {
+            tables.facets = facet_table(fresh->layer(0), nm, 1);
+            rest = std::make_unique<RestTable>(*fresh, nm, one);
+        });
+        evaluate = best_seconds(bench.budget_s, [&] {
+            values = with_tables(*fresh, tables, pairs, nm);
+            for (std::size_t p = 0; p < pairs.size(); ++p)
+                rest->add(pairs[p], std::span(values).subspan(p * nm.size(), nm.size()));
+        });
+        add("all-table", prepare, evaluate, count, values);
         return;
     }
     prepare = seconds_of([&] { fresh->brdf(pairs, nm, Paths::all); });

@@ -273,7 +273,8 @@ void add_film_remapped(const LayeredBench& bench, std::vector<LayeredRow>& rows)
 void add_landmarks(const LayeredBench& bench, std::vector<LayeredRow>& rows) {
     constexpr std::array ways{NamedWay{"spectral", {}},
                               NamedWay{"landmarks", {ColorMethod::Kind::landmarks, 1}},
-                              NamedWay{"landmarks/3", {ColorMethod::Kind::landmarks, 3}}};
+                              NamedWay{"landmarks/3", {ColorMethod::Kind::landmarks, 3}},
+                              NamedWay{"landmarks/6", {ColorMethod::Kind::landmarks, 6}}};
     StackBuilder builder{Complex(1)};
     const Element first = builder.layer(Complex(1), 250);
     const Element second = builder.layer(Complex(1.5), 250);

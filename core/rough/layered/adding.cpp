@@ -12,6 +12,7 @@
 #include "core/math/degrees.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/parallel.hpp"
+#include "core/rough/ggx.hpp"
 #include "core/rough/layered/lobe.hpp"
 
 namespace irido {
@@ -20,12 +21,26 @@ namespace {
 
 using ModeMatrix = Eigen::MatrixXd;
 
-/// Panels of 16 angles per quarter turn, and azimuths per half turn.
+/// Panels of 16 angles over a quarter turn, and azimuths over half a turn where no layer is
+/// smoother than alpha = 0.08; smoother ones take more, but for their peaks' own modes.
 struct AddingLevel {
     std::size_t panels, azimuths;
 };
-constexpr std::array kLevels{AddingLevel{2, 24}, AddingLevel{4, 40},  AddingLevel{6, 48},
-                             AddingLevel{8, 64}, AddingLevel{10, 96}, AddingLevel{12, 192}};
+constexpr std::array kLevels{AddingLevel{2, 24}, AddingLevel{4, 32},  AddingLevel{6, 40},
+                             AddingLevel{8, 56}, AddingLevel{10, 72}, AddingLevel{12, 96}};
+constexpr double kRoughEnough = 0.08, kMostFiner = 3;
+
+double smoothest_of(const LayeredScattering& scattering) {
+    double alpha = kRoughest;
+    for (std::size_t l = 0; l < scattering.layers(); ++l)
+        alpha = std::min(alpha, scattering.layer(l).alpha());
+    return alpha;
+}
+
+std::size_t azimuths_of(const LayeredScattering& scattering, std::size_t level) {
+    const double finer = std::clamp(kRoughEnough / smoothest_of(scattering), 1.0, kMostFiner);
+    return static_cast<std::size_t>(finer * static_cast<double>(kLevels[level].azimuths));
+}
 
 /// Wavelengths at which a level is judged.
 constexpr std::size_t kJudged = 8;
@@ -143,10 +158,8 @@ Adding::Adding(const LayeredScattering& scattering, double tolerance, const Exec
     : scattering_(scattering), tolerance_(tolerance), execution_(execution) {}
 
 std::size_t Adding::first_level() const {
-    double alpha = 1;
-    for (std::size_t l = 0; l < scattering_.layers(); ++l)
-        alpha = std::min(alpha, scattering_.layer(l).alpha());
-    return alpha >= 0.08 ? 0 : alpha >= 0.03 ? 1 : 3;
+    const double alpha = smoothest_of(scattering_);
+    return alpha >= kRoughEnough ? 0 : alpha >= 0.03 ? 1 : 3;
 }
 
 Adding::Grid Adding::grid_of(std::size_t level, std::span<const double> extra_deg) const {
@@ -370,15 +383,15 @@ std::vector<double> Adding::block_at(std::span<const ScatterPair> pairs,
     const std::vector<double> once = scattering_.brdf(pairs, wavelength_nm, Paths::single);
     const Grid grid = grid_of(level, extra);
     std::vector<Lobes> lobes;
-    for (std::size_t l = 0; l < layers; ++l)
-        lobes.push_back(lobes_of(grid, l, kLevels[level].azimuths));
+    const std::size_t azimuths = azimuths_of(scattering_, level);
+    for (std::size_t l = 0; l < layers; ++l) lobes.push_back(lobes_of(grid, l, azimuths));
     const std::vector<double> tau = straight_of(grid, wavelength_nm);
     const std::size_t all = grid.theta_deg.size();
     std::vector<double> rest(pairs.size() * W);
     parallel_for(W, execution_.threads, [&](std::size_t w) {
         std::size_t small = 0;
         solve(grid, lobes, std::span(tau).subspan(w * layers * all, layers * all), wavelength_nm[w],
-              kLevels[level].azimuths - 1, false, [&](std::size_t mode, const ModeMatrix& more) {
+              azimuths - 1, false, [&](std::size_t mode, const ModeMatrix& more) {
                   bool is_small = true;
                   for (std::size_t p = 0; p < seen.size(); ++p) {
                       const auto& [i, o, factor, turn_deg] = seen[p];
@@ -484,7 +497,7 @@ Adding::Values Adding::albedo_rest(std::span<const double> theta_i_deg,
         const Grid grid = grid_of(level, extra);
         std::vector<Lobes> lobes;
         for (std::size_t l = 0; l < layers; ++l)
-            lobes.push_back(lobes_of(grid, l, kLevels[level].azimuths));
+            lobes.push_back(lobes_of(grid, l, azimuths_of(scattering_, level)));
         const std::vector<double> tau = straight_of(grid, nm);
         const std::size_t all = grid.theta_deg.size();
         std::vector<double> rest(extra.size() * W);
