@@ -76,9 +76,11 @@ Lamp::Lamp(LampShape shape) : shape_(std::move(shape)) {
         areas_.push_back(sum_of_areas += length(twice) / 2);
     }
     if (!(sum_of_areas > 0)) throw DomainError("vertices must not lie in one line");
+    constexpr double kFlat = 1e-6;
+    if (!(length(sum) > kFlat * sum_of_areas))
+        throw DomainError("vertices must be those of a convex polygon, in order");
     normal_ = normalized(sum);
     // of a flat convex polygon all corners turn the same way about its normal
-    constexpr double kFlat = 1e-6;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vector3& a = points[i];
         const Vector3& b = points[(i + 1) % points.size()];

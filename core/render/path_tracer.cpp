@@ -15,6 +15,8 @@ namespace {
 constexpr double kOffFace = 1e-7;  ///< from a face on which a ray begins
 /// Samples of a table of a smooth stack that is worth making.
 constexpr std::size_t kMostFaceSamples = 1U << 15U;
+/// Meetings with a clear wall after which both ways are followed, not one by chance.
+constexpr std::size_t kSplits = 3;
 /// Chance of the mirror after the first reflection, where a surface scatters as well.
 constexpr double kMirrorPart = 0.5;
 /// A path whose light is less is given up: a part of white.
@@ -264,7 +266,7 @@ Triple PathTracer::follow(const Ray& ray, const Place& place, std::size_t step,
     return scatter_on(ray, place, step, (pick - kMirrorPart) / (1 - kMirrorPart), numbers, scratch);
 }
 
-/// Mirrored, and refracted where the shape is clear: both at first, then one by chance.
+/// Mirrored, and refracted where the shape is clear.
 Triple PathTracer::pass_smooth(const Ray& ray, const Place& place, std::size_t step,
                                const Numbers& numbers, Scratch& scratch) const {
     const std::size_t count = nodes_.count(), half = 2 * count;
@@ -285,11 +287,16 @@ Triple PathTracer::pass_smooth(const Ray& ray, const Place& place, std::size_t s
     const double index = scene_.shape == ShapeKind::bubble ? 1 : scene_.inner_index;
     const std::optional<Vector3> through =
         refracted(ray.direction, place.hit.normal, place.is_inside ? index : 1 / index);
-    if (step == 0) {
+    if (step < kSplits) {
+        const std::vector<float> before = scratch.through_;
+        const bool was_split = scratch.split_;
+        const Triple tint = scratch.tint_;
         multiply_split(R, scratch);
         Triple color = go_on(place.hit.point, back, step, numbers, scratch);
         if (!through) return color;
-        reset(scratch);
+        scratch.through_ = before;
+        scratch.split_ = was_split;
+        scratch.tint_ = tint;
         multiply_split(T, scratch);
         increase(color, go_on(place.hit.point, *through, step, numbers, scratch));
         return color;

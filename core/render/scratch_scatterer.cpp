@@ -22,7 +22,7 @@ using Channels = Eigen::Map<Eigen::ArrayXf>;
 
 constexpr double kPerMicrometre = 1000;                 // nm
 constexpr double kMostXi = 2, kMostRise = 2;            // |xi| and cos + cos
-constexpr std::size_t kMostScratchSamples = 1U << 16U;  // of a table
+constexpr std::size_t kMostScratchSamples = 1U << 18U;  // of a table
 constexpr std::size_t kXiSteps = 512;                   // chances of |xi|
 constexpr double kBaseShare = 0.5;                      // of draws by the facets of a rough base
 constexpr double kMiddle_um = 0.55;

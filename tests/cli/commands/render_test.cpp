@@ -202,8 +202,9 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     };
     document(R"({"inside": 1.35, "layers": [{"stack": "1 | 2@3 | 1", "alpha": 0.1}]})",
              "/layers/0/stack");
-    document(R"({"scratches": [{"width_um": 1, "depth_um": 0.1, "angle_deg": 0}]})",
-             "scratches are drawn as fields");
+    document(
+        R"({"scratches": [{"width_um": 1, "depth_um": 0.1, "angle_deg": 0, "point_um": [0, 0]}]})",
+        "scratches are drawn as fields");
     document(R"({"materials": {"a": {"stack": "s.json"}}})",
              "/materials: must be an array of 1 to 10000 materials");
     document(R"({"materials": []})", "/materials: must be an array of 1 to 10000 materials");
@@ -252,7 +253,7 @@ TEST_CASE("a surface in white surroundings has the albedo of irido brdf", "[cli]
             for (std::size_t i = c; i < image.rgb.size(); i += 3)
                 sum += static_cast<double>(image.rgb[i]);
             const double expected = std::stod(rows[1][4 + c]);
-            CHECK_THAT(sum / 64, WithinAbs(expected, 0.01 * std::max(0.2, expected)));
+            CHECK_THAT(sum / 128, WithinAbs(expected, 0.01 * std::max(0.2, expected)));
         }
     };
     check(R"({"inside": 1.35, "layers": [{"stack": "1.35 | (1.35@250 | 1.5@250)^10 | 1.35",
@@ -267,7 +268,7 @@ TEST_CASE("a surface in white surroundings has the albedo of irido brdf", "[cli]
 TEST_CASE("a scratched surface is drawn, and says what it left out", "[cli][render]") {
     TemporaryFolder folder;
     write_text(folder / "worn.json", R"({"base": "air | Ag",
-        "scratches": [{"width_um": 2, "depth_um": 0.14, "angle_deg": 30}],
+        "scratches": [{"width_um": 2, "depth_um": 0.14, "angle_deg": 30, "point_um": [0, 0]}],
         "fields": [{"count_per_mm2": 40, "length_um": [200, 3000], "width_um": [1, 2],
                     "depth_um": [0.1, 0.2], "angle_deg": [-180, 180]}]})");
     const Outcome outcome =
@@ -287,8 +288,9 @@ TEST_CASE("scenes make a sheet of their materials, or a picture of one", "[cli][
         {"name": "two", "stack": "air | 1.33@500 | 1.5", "shading": "color"}]})");
     const std::string scene = folder / "scene.json";
     CHECK(render({"--size", "16", "-o", folder / "sheet.png"}, scene).status == 0);
-    REQUIRE(render({"--size", "16", "--show", "two", "-o", folder / "two.exr"}, scene).status == 0);
-    REQUIRE(render({"--size", "16", "-o", folder / "same.exr"}, "air | 1.33@500 | 1.5").status ==
+    REQUIRE(render({"--size", "32,16", "--show", "two", "-o", folder / "two.exr"}, scene).status ==
+            0);
+    REQUIRE(render({"--size", "32,16", "-o", folder / "same.exr"}, "air | 1.33@500 | 1.5").status ==
             0);
     CHECK(exr(folder / "two.exr").rgb == exr(folder / "same.exr").rgb);
     check_refused(render({"--show", "three", "-o", folder / "x.png"}, scene),
