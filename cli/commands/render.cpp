@@ -3,17 +3,20 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/progress.hpp"
-#include "cli/queries/other_documents.hpp"
 #include "cli/queries/picture_query.hpp"
 #include "cli/sweep/space.hpp"
 #include "core/error.hpp"
 #include "core/rough/ggx.hpp"
 #include "schemas/documents/canonical_stack.hpp"
+#include "schemas/documents/json_document.hpp"
+#include "schemas/documents/scene_document.hpp"
 #include "schemas/documents/varied_stack.hpp"
+#include "schemas/input_error.hpp"
 #include "tables/pictures/glyphs.hpp"
 #include "tables/pictures/png_file.hpp"
 #include "tables/pictures/rendered.hpp"
@@ -30,6 +33,7 @@ struct RenderCommand {
     schemas::StackRequest stack;
     PictureQueryOptions picture;
     std::vector<std::string> vary;
+    std::string show;  ///< a material of a scene, "" for all
     OutputOptions output;
     std::string bits;
     unsigned threads = 0;
@@ -78,9 +82,9 @@ unsigned bits_of(const RenderCommand& command) {
     return command.bits == "16" ? 16 : 8;
 }
 
-std::string metadata_of_picture(const PictureQuery& query, nlohmann::json stack) {
+std::string metadata_of_picture(const PictureQuery& query, nlohmann::json shown) {
     nlohmann::json metadata{{"irido", tables::this_build().version},
-                            {"stack", std::move(stack)},
+                            {"stack", std::move(shown)},
                             {"request", query.request()}};
     if (!tables::this_build().commit.empty()) metadata["commit"] = tables::this_build().commit;
     return metadata.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -93,40 +97,86 @@ void print_stats(const RenderCommand& command, const PictureQuery& query,
         std::cerr << "irido: stats: " << line << '\n';
 }
 
-int render_one(const RenderCommand& command, const PictureQuery& query,
-               const schemas::StackSource& source, RenderFormat format) {
+/// What one picture shows: a surface, or a stack and its roughness if that is not the one typed.
+struct Shown {
+    std::variant<schemas::StackDocument, schemas::SurfaceDocument> document;
+    std::optional<double> alpha{};
+    std::string label{};     ///< in a sheet
+    nlohmann::json written;  ///< for the metadata
+};
+
+Shown shown_stack(schemas::StackDocument document, std::optional<double> alpha = {}) {
+    nlohmann::json written = schemas::canonical_stack(document.stack);
+    return {std::move(document), alpha, "", std::move(written)};
+}
+
+Shown shown_surface(const schemas::StackSource& source) {
+    return {schemas::read_surface(source.document, source.file, source.folder),
+            {},
+            "",
+            source.document};
+}
+
+/// What is to be said of a document before it is drawn.
+void note_document(const RenderCommand& command, const PictureQuery& query, const Shown& shown) {
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const schemas::StackDocument document = schemas::read_source(source);
-    for (const std::string& text : document.notes) say(text);
-    report_held_ranges(document, query.sensitivity(), false, say);
+    const auto held = [&](schemas::StackDocument document) {
+        report_held_ranges(document, query.sensitivity(), false, say);
+    };
+    if (const auto* const stack = std::get_if<schemas::StackDocument>(&shown.document)) {
+        for (const std::string& text : stack->notes) say(text);
+        return held(*stack);
+    }
+    const auto& surface = std::get<schemas::SurfaceDocument>(shown.document);
+    for (const std::string& text : surface.notes) say(text);
+    const auto part = [&](const Stack& stack, const std::string& pointer) {
+        schemas::StackDocument document;
+        document.stack = stack;
+        document.file = surface.file;
+        document.material_pointers.assign(stack.materials.size(), pointer);
+        held(std::move(document));
+    };
+    if (const auto* const layered = std::get_if<LayeredSurface>(&surface.surface)) {
+        for (std::size_t l = 0; l < layered->layers.size(); ++l)
+            part(layered->layers[l].stack, "/layers/" + std::to_string(l) + "/stack");
+    } else if (const auto& base = std::get<ScratchedSurface>(surface.surface).base) {
+        part(*base, "/base");
+    }
+}
+
+DrawnPicture draw_shown(const PictureQuery& query, const Shown& shown,
+                        const std::function<void(double)>& progress) {
+    if (const auto* const stack = std::get_if<schemas::StackDocument>(&shown.document))
+        return query.draw(*stack, progress, shown.alpha);
+    return query.draw(std::get<schemas::SurfaceDocument>(shown.document), progress);
+}
+
+int render_one(const RenderCommand& command, const PictureQuery& query, const Shown& shown,
+               RenderFormat format) {
+    note_document(command, query, shown);
     RenderProgress progress(command.quiet, 1);
-    const DrawnPicture drawn = query.draw(document, [&](double part) { progress.set(0, part); });
+    const DrawnPicture drawn =
+        draw_shown(query, shown, [&](double part) { progress.set(0, part); });
     progress.clear();
-    const std::string metadata =
-        metadata_of_picture(query, schemas::canonical_stack(document.stack));
+    const std::string metadata = metadata_of_picture(query, shown.written);
     write_bytes(format == RenderFormat::exr ? tables::exr_file(drawn.picture, metadata)
                                             : tables::png_file(tables::pixels_of(drawn.picture),
                                                                bits_of(command), 0, metadata),
                 command.output, true);
-    if (const std::string text = PictureQuery::caution(drawn); !text.empty()) say(text);
+    if (const std::string text = PictureQuery::caution(drawn); !text.empty())
+        note(text, command.quiet);
     print_stats(command, query, drawn);
     return 0;
 }
 
 // --- contact sheets ---------------------------------------------------------------------------
 
-/// Positions of the pictures on a sheet: the last varied value along rows, or as square as possible
-/// if there is only one value.
+/// Where the pictures of a sheet stand.
 struct SheetLayout {
     static constexpr std::size_t kGap = 8, kLabel = 22;
 
-    SheetLayout(const SweepSpace& space, const Camera& camera)
-        : width(camera.width), height(camera.height) {
-        const auto count = static_cast<std::size_t>(space.size());
-        const auto& columns_varied = space.columns();
-        columns = columns_varied.size() > 1
-                      ? columns_varied.back().size()
-                      : static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+    SheetLayout(std::size_t count, std::size_t in_a_row, const Camera& camera)
+        : width(camera.width), height(camera.height), columns(in_a_row) {
         rows = (count + columns - 1) / columns;
     }
     std::size_t left(std::size_t i) const { return kGap + i % columns * (width + kGap); }
@@ -137,7 +187,12 @@ struct SheetLayout {
     std::size_t width, height, columns = 1, rows = 1;
 };
 
-/// "thickness_nm=100" for "layers.0.thickness_nm=100", as much of it as fits.
+/// As square as can be.
+std::size_t square_columns(std::size_t count) {
+    return static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
+}
+
+/// "thickness_nm=100" of "layers.0.thickness_nm=100", as much as the room for it has.
 std::string sheet_label(const SweepSpace& space, std::size_t i, double room) {
     constexpr double kSmallest = 11;
     const auto text_of = [&](bool with_names) {
@@ -154,62 +209,39 @@ std::string sheet_label(const SweepSpace& space, std::size_t i, double room) {
     return tables::text_width(whole, kSmallest) <= room ? whole : text_of(false);
 }
 
-/// The sheet's background with the labels of all pictures.
-tables::Pixels labelled_ground(const SweepSpace& space, const SheetLayout& layout) {
+/// The sheet's ground with the labels of all pictures.
+tables::Pixels labelled_ground(const std::vector<Shown>& all, const SheetLayout& layout) {
     constexpr double kSize = 11, kBaseline = 15;
     tables::Drawing drawing;
     drawing.width = static_cast<double>(layout.total_width());
     drawing.height = static_cast<double>(layout.total_height());
     tables::DrawnGroup labels{.name = "labels"};
-    for (std::size_t i = 0; i < space.size(); ++i) {
-        const auto room = static_cast<double>(layout.width + SheetLayout::kGap / 2);
+    for (std::size_t i = 0; i < all.size(); ++i)
         labels.items.emplace_back(tables::Text{
             .at = {static_cast<double>(layout.left(i)) + static_cast<double>(layout.width) / 2,
                    static_cast<double>(layout.top(i) + layout.height) + kBaseline},
-            .text = sheet_label(space, i, room),
+            .text = all[i].label,
             .anchor = tables::Anchor::middle,
             .size = kSize,
             .ink = tables::ink(0x222222)});
-    }
     drawing.groups.push_back(std::move(labels));
     return tables::rasterized(drawing, 1);
 }
 
 int render_sheet(const RenderCommand& command, const PictureQuery& query,
-                 const schemas::StackSource& source, const SweepSpace& space) {
-    const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    std::vector<std::string> paths;
-    for (const SweptColumn& column : space.columns())
-        if (column.path != kRoughness) paths.push_back(column.path);
-    const schemas::VariedStack varied(source, paths);
-    const SheetLayout layout(space, query.scene().camera);
+                 const std::vector<Shown>& all, const SheetLayout& layout) {
     constexpr std::size_t kMostSide = 16384;
     if (std::max(layout.total_width(), layout.total_height()) > kMostSide)
-        throw UsageError("--vary: the sheet would be " + std::to_string(layout.total_width()) +
-                         " x " + std::to_string(layout.total_height()) +
+        throw UsageError("the sheet would be " + std::to_string(layout.total_width()) + " x " +
+                         std::to_string(layout.total_height()) +
                          " pixels, at most 16384 a side are drawn");
-    const auto count = static_cast<std::size_t>(space.size());
-    std::vector<schemas::StackDocument> documents;
-    std::vector<std::optional<double>> alphas(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        std::vector<nlohmann::json> values;
-        for (std::size_t c = 0; c < space.columns().size(); ++c) {
-            nlohmann::json value = space.columns()[c].value(space.at(c, i));
-            if (space.columns()[c].path == kRoughness)
-                alphas[i] = value.get<double>();
-            else
-                values.push_back(std::move(value));
-        }
-        documents.push_back(varied.document(values));
-    }
-    for (const std::string& text : documents.front().notes) say(text);
-    report_held_ranges(documents.front(), query.sensitivity(), false, say);
-    tables::Pixels sheet = labelled_ground(space, layout);
-    RenderProgress progress(command.quiet, count);
+    note_document(command, query, all.front());
+    tables::Pixels sheet = labelled_ground(all, layout);
+    RenderProgress progress(command.quiet, all.size());
     constexpr Triple kWhite{1, 1, 1};
-    for (std::size_t i = 0; i < count; ++i) {
-        const DrawnPicture drawn = query.draw(
-            documents[i], [&](double part) { progress.set(i, part); }, alphas[i]);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const DrawnPicture drawn =
+            draw_shown(query, all[i], [&](double part) { progress.set(i, part); });
         const tables::Pixels pixels = tables::pixels_over(drawn.picture, kWhite);
         for (std::size_t y = 0; y < layout.height; ++y)
             std::copy_n(&pixels.inks[y * layout.width], layout.width,
@@ -220,19 +252,99 @@ int render_sheet(const RenderCommand& command, const PictureQuery& query,
         }
     }
     progress.clear();
-    nlohmann::json stack = schemas::canonical_stack(documents.front().stack);
-    write_bytes(
-        tables::png_file(sheet, bits_of(command), 0, metadata_of_picture(query, std::move(stack))),
-        command.output, true);
+    write_bytes(tables::png_file(sheet, bits_of(command), 0,
+                                 metadata_of_picture(query, all.front().written)),
+                command.output, true);
     return 0;
 }
 
-/// Throws UsageError for values that cannot be varied between pictures.
-void check_column(const SweptColumn& column, ShapeKind shape) {
+/// A picture for every combination of the varied values.
+std::vector<Shown> varied_pictures(const schemas::StackSource& source, const SweepSpace& space,
+                                   std::size_t width) {
+    const bool is_surface = schemas::is_surface(source.document);
+    std::vector<std::string> paths;
+    for (const SweptColumn& column : space.columns())
+        if (column.path != kRoughness) paths.push_back(column.path);
+    std::optional<schemas::VariedStack> varied;
+    if (!is_surface) varied.emplace(source, paths);
+    std::vector<Shown> all;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(space.size()); ++i) {
+        std::vector<nlohmann::json> values;
+        std::optional<double> alpha;
+        schemas::StackSource other = source;
+        for (std::size_t c = 0; c < space.columns().size(); ++c) {
+            const SweptColumn& column = space.columns()[c];
+            nlohmann::json value = column.value(space.at(c, i));
+            if (column.path == kRoughness)
+                alpha = value.get<double>();
+            else if (is_surface)
+                schemas::set_value(other.document, column.path, std::move(value));
+            else
+                values.push_back(std::move(value));
+        }
+        all.push_back(is_surface ? shown_surface(other)
+                                 : shown_stack(varied->document(values), alpha));
+        all.back().label =
+            sheet_label(space, i, static_cast<double>(width + SheetLayout::kGap / 2));
+    }
+    return all;
+}
+
+// --- scenes -----------------------------------------------------------------------------------
+
+/// Each material of a scene, or the one that is asked for.
+std::vector<Shown> scene_pictures(const RenderCommand& command, const schemas::Scene& scene) {
+    std::vector<Shown> all;
+    std::string names;
+    for (const schemas::SceneMaterial& material : scene.materials) {
+        names += (names.empty() ? "" : ", ") + material.name;
+        if (!command.show.empty() && command.show != material.name) continue;
+        if (!material.faults.empty()) {
+            const schemas::SceneFault& fault = material.faults.front();
+            throw schemas::InputError(scene.file, fault.pointer,
+                                      "material " + material.name + ": " + fault.reason);
+        }
+        std::optional<double> alpha;
+        if (material.is_rough) alpha = (material.alpha.first + material.alpha.last) / 2;
+        all.push_back(shown_stack(material.document, alpha));
+        all.back().label = material.name;
+    }
+    if (all.empty())
+        throw UsageError("--show: the scene has no material " + command.show + ", it has " + names);
+    return all;
+}
+
+int render_scene(const RenderCommand& command, const schemas::StackSource& source,
+                 RenderFormat format) {
+    const schemas::Scene scene = schemas::read_scene(source.document, source.file, source.folder);
+    if (!command.vary.empty()) throw UsageError("--vary: takes a stack or a surface, not a scene");
+    const std::vector<Shown> all = scene_pictures(command, scene);
+    PictureQueryOptions typed = command.picture;
+    if (typed.light.illuminant == ColorOptions{}.illuminant)
+        typed.light.illuminant = scene.illuminant;
+    if (typed.light.observer == ColorOptions{}.observer)
+        typed.light.observer = std::to_string(scene.observer_deg);
+    const bool is_sheet = all.size() > 1;
+    const PictureQuery query(typed, execution_of(command.threads), is_sheet ? 192 : 512);
+    check_writable(command.output);
+    if (!is_sheet) return render_one(command, query, all.front(), format);
+    if (format != RenderFormat::png)
+        throw UsageError(
+            "--output: a scene of several materials makes a contact sheet, .png; "
+            "--show NAME draws one");
+    return render_sheet(command, query, all,
+                        {all.size(), square_columns(all.size()), query.scene().camera});
+}
+
+/// Throws UsageError for values that pictures cannot vary.
+void check_column(const SweptColumn& column, ShapeKind shape, bool is_surface) {
     if (column.is_light())
         throw UsageError("--vary: " + column.path + " is not a value of the stack");
     if (column.path != kRoughness) return;
-    if (!is_simple(shape)) throw UsageError("--vary alpha: only spheres and planes can be rough");
+    if (is_surface)
+        throw UsageError("--vary alpha: a surface document has its own, such as layers.0.alpha");
+    if (!is_opaque(shape))
+        throw UsageError("--vary alpha: only spheres, planes and rings can be rough");
     if (column.is_text()) throw UsageError("--vary alpha: must be numbers");
     for (const double alpha : column.numbers)
         if (!(alpha >= kSmoothest && alpha <= kRoughest))
@@ -241,26 +353,39 @@ void check_column(const SweptColumn& column, ShapeKind shape) {
 
 int run_render(const RenderCommand& command) {
     const RenderFormat format = render_format(command);
+    const schemas::StackSource source = schemas::load_stack(command.stack);
+    const bool is_surface = schemas::is_surface(source.document);
+    const bool is_scene = source.document.is_object() && source.document.contains("materials") &&
+                          !source.document.contains("incident") && !is_surface;
+    if (is_scene) return render_scene(command, source, format);
+    if (!command.show.empty()) throw UsageError("--show: takes a scene, of which it is a material");
     const bool is_sheet = !command.vary.empty();
     const PictureQuery query(command.picture, execution_of(command.threads), is_sheet ? 192 : 512);
-    const schemas::StackSource source = schemas::load_stack(command.stack);
-    refuse_other_documents(source, "drawn");
     check_writable(command.output);
-    if (!is_sheet) return render_one(command, query, source, format);
+    if (!is_sheet)
+        return render_one(
+            command, query,
+            is_surface ? shown_surface(source) : shown_stack(schemas::read_source(source)), format);
     if (format != RenderFormat::png) throw UsageError("--vary: a contact sheet must be .png");
     const SweepSpace space(command.vary, "");
-    for (const SweptColumn& column : space.columns()) check_column(column, query.scene().shape);
+    for (const SweptColumn& column : space.columns())
+        check_column(column, query.scene().shape, is_surface);
     if (space.size() > kMostSheetPictures)
         throw UsageError("--vary: must be at most " + std::to_string(kMostSheetPictures) +
                          " pictures (got " + std::to_string(space.size()) + ")");
-    return render_sheet(command, query, source, space);
+    const auto count = static_cast<std::size_t>(space.size());
+    const std::size_t columns =
+        space.columns().size() > 1 ? space.columns().back().size() : square_columns(count);
+    const Camera& camera = query.scene().camera;
+    return render_sheet(command, query, varied_pictures(source, space, camera.width),
+                        {count, columns, camera});
 }
 
 }  // namespace
 
 void add_render_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "render", "Pictures of a stack on a shape, and contact sheets of many.");
+        "render", "Pictures of a stack or a surface on a shape, and contact sheets of many.");
     const auto options = std::make_shared<RenderCommand>();
     add_stack_options(*command, options->stack);
     options->picture.add(*command);
@@ -271,6 +396,10 @@ void add_render_command(CLI::App& program, Run& run) {
                      "layers.0.thickness_nm=100:700/6; alpha is the roughness")
         ->type_name("PATH=LIST")
         ->allow_extra_args(false);
+    command
+        ->add_option("--show", options->show,
+                     "of a scene: the material to draw [a contact sheet of all]")
+        ->type_name("NAME");
     add_output_options(*command, options->output, "png or exr");
     command->add_option("--bits", options->bits, "bits of a component of .png: 8 or 16 [8]")
         ->type_name("N");
@@ -283,7 +412,8 @@ void add_render_command(CLI::App& program, Run& run) {
         *command,
         {"irido render \"air | 1.33@400 | air\" --shape bubble --thickness-noise 100:800,3,1 "
          "-o bubble.png",
-         "irido render \"air | TiO2@60 | Ti\" --environment white -o sphere.exr",
+         "irido render schemas/examples/surfaces/green-on-pale.json --environment studio -o "
+         "sphere.exr",
          "irido render \"air | 1.38@100 | 1.9+1.5i\" --vary layers.0.thickness_nm=100:700/6 "
          "--vary alpha=0.05,0.1,0.2 -o sheet.png"},
         "PNG is sRGB; EXR is linear, single precision, with alpha multiplied in. A pixel is the\n"

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/queries/surface_query.hpp"
 #include "core/error.hpp"
 #include "core/rough/ggx.hpp"
+#include "schemas/documents/lamp_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
 #include "tables/files/hash.hpp"
@@ -64,7 +66,7 @@ Environment parse_environment(const std::string& text, std::string& hash) {
         const auto names = environment_names();
         if (std::ranges::find(names, text) == names.end())
             throw UsageError(
-                "--environment: must be one of studio, sky, white or an .exr file "
+                "--environment: must be one of studio, sky, white, none or an .exr file "
                 "(got '" +
                 text + "')");
         return named_environment(text);
@@ -114,7 +116,7 @@ void PictureQueryOptions::add(CLI::App& command) {
     option("--tilt", tilt, "angle between a plane's normal and the line of sight, degrees [0]",
            "ANGLE");
     option("--environment", environment,
-           "light from all around: studio, sky, white (radiance 1), or a\n"
+           "light from all around: studio, sky, white (radiance 1), none, or a\n"
            "latitude-longitude picture .exr, twice as wide as high, in linear\n"
            "sRGB; its channels multiply those of the colours [studio]",
            "NAME");
@@ -131,12 +133,33 @@ void PictureQueryOptions::add(CLI::App& command) {
            "the layers of a group count once [1]",
            "N");
     option("--alpha", alpha,
-           "roughness of a sphere or a plane: facets of the GGX distribution, each the\n"
-           "stack, [1e-4, 1] [smooth]",
+           "roughness of a sphere, a plane or a ring: facets of the GGX distribution,\n"
+           "each the stack, [1e-4, 1] [smooth]",
            "ALPHA");
+    command
+        .add_option("--light", lamps,
+                    "a lamp, as JSON or a file of it; repeatable:\n"
+                    "{\"direction\": [x, y, z], \"irradiance\": 1, \"angle_deg\": 0.53}\n"
+                    "{\"center\": [x, y, z], \"radius\": r, \"radiance\": 10}\n"
+                    "{\"vertices\": [[x, y, z], ...], \"radiance\": 10}, or an array of them;\n"
+                    "\"illuminant\": \"A\" gives it one of its own. The sphere has the radius 1;\n"
+                    "x points right, y up, z towards the viewer; radiance 1 is that of a white\n"
+                    "diffuser in the environment white. Lamps are seen in mirrors alone")
+        ->type_name("LIGHT")
+        ->allow_extra_args(false);
+    option("--floor", floor,
+           "a white, grey or coloured diffuser to stand on, looked at from above: its\n"
+           "albedo, [0, 1], or #rrggbb [none]",
+           "ALBEDO");
+    option("--paths", paths,
+           "of surface documents: single or all, as of irido brdf, where all have a closed\n"
+           "form [single]",
+           "PATHS");
+    option("--transmission", transmission, "single or multiple, as of irido brdf [single]",
+           "CROSSINGS");
     option("--samples", samples,
            "rays per pixel, spread over it, [1, 65536] [one, through its centre; 64\n"
-           "with --alpha]",
+           "where light is scattered]",
            "N");
     option("--seed", seed, "of the rays' places in a pixel, and of facets [1]", "N");
     option("--exposure", exposure, "brighten by 2^EV, [-40, 40] [0]", "EV");
@@ -147,7 +170,9 @@ void PictureQueryOptions::add(CLI::App& command) {
     offer(command, "shape", "sphere bubble plane ring gem");
     offer(command, "camera", "orthographic perspective");
     offer(command, "background", "none environment");
-    offer(command, "environment", "studio sky white", OfferedWords::Use::one_or_file);
+    offer(command, "environment", "studio sky white none", OfferedWords::Use::one_or_file);
+    offer(command, "paths", "single all");
+    offer(command, "transmission", "single multiple");
 }
 
 PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& execution,
@@ -173,8 +198,10 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
                                             static_cast<double>(kMostPictureSamples));
     if (!typed.alpha.empty())
         scene_.alpha = parse_one_number("--alpha", typed.alpha, kSmoothest, kRoughest);
-    if (scene_.alpha && !is_simple(scene_.shape))
-        throw UsageError("--alpha: a rough " + typed.shape + " cannot be drawn yet");
+    if (scene_.alpha && !is_opaque(scene_.shape))
+        throw UsageError("--alpha: a rough " + typed.shape +
+                         " cannot be drawn: what its walls let through is not known in all "
+                         "directions");
     scene_.seed = parse_whole_number("--seed", typed.seed, 0, kMostSeed);
     exposure_ = parse_one_number("--exposure", typed.exposure, -kMostExposure, kMostExposure);
     tolerance_ = parse_one_number("--tolerance", typed.tolerance, 0.001, 10);
@@ -183,10 +210,100 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
         scene_.background = scene_.environment;
     else if (typed.background != "none")
         scene_.background = parse_background(typed.background);
+    paths_ = parse_paths(typed.paths);
+    crossings_ = parse_crossings(typed.transmission);
+    if (typed.paths.starts_with("simulation"))
+        throw UsageError("--paths: must be single or all (got " + typed.paths + ")");
     light_ = std::make_unique<Illumination>(
         typed.light.illuminant,
         Sensitivity(parse_observer(typed.light.observer), parse_illuminant(typed.light.illuminant)),
         rgb_space("srgb"), Adaptation::bradford);
+    set_lights(typed);
+}
+
+/// Lamps and the floor.
+void PictureQuery::set_lights(const PictureQueryOptions& typed) {
+    std::vector<std::string> names{typed.light.illuminant};
+    lamp_request_ = nlohmann::json::array();
+    for (const std::string& text : typed.lamps)
+        for (schemas::LampDocument& lamp : schemas::read_lamps(text)) {
+            std::size_t number = 0;
+            if (!lamp.illuminant.empty()) {
+                number = static_cast<std::size_t>(std::ranges::find(names, lamp.illuminant) -
+                                                  names.begin());
+                if (number == names.size()) {
+                    names.push_back(lamp.illuminant);
+                    lamp_lights_.push_back(std::make_unique<Sensitivity>(
+                        parse_observer(typed.light.observer), parse_illuminant(lamp.illuminant)));
+                }
+            }
+            lamp_request_.push_back(std::move(lamp.document));
+            scene_.lamps.push_back({std::move(lamp.lamp), number});
+        }
+    if (typed.environment == "none" && scene_.lamps.empty())
+        throw UsageError("--environment none: requires a --light, else nothing is seen");
+    if (typed.floor.empty()) return;
+    if (scene_.shape == ShapeKind::plane)
+        throw UsageError("--floor: a plane fills the picture and stands on no floor");
+    if (typed.floor.starts_with('#')) {
+        try {
+            scene_.floor = rgb_of_hex(rgb_space("srgb"), typed.floor);
+        } catch (const DomainError&) {
+            throw UsageError("--floor: must be an albedo or #rrggbb (got '" + typed.floor + "')");
+        }
+    } else {
+        const double albedo = parse_one_number("--floor", typed.floor, 0, 1);
+        scene_.floor = Triple{albedo, albedo, albedo};
+    }
+    scene_.camera.elevation_deg = usual_elevation_deg(scene_.shape);
+}
+
+TracedRequest PictureQuery::traced(const std::function<void(double)>& progress) const {
+    if (typed_.exact)
+        throw DomainError(
+            "--exact: light that is scattered, lamps and floors are computed by tables; "
+            "--tolerance sets their error");
+    TracedRequest request{.light = light_.get(),
+                          .others = {},
+                          .paths = paths_,
+                          .crossings = crossings_,
+                          .tolerance = tolerance_,
+                          .execution = execution_,
+                          .progress = progress};
+    for (const auto& other : lamp_lights_) request.others.push_back(other.get());
+    return request;
+}
+
+void PictureQuery::expose(Picture& picture) const {
+    const auto gain = static_cast<float>(std::exp2(exposure_));
+    if (gain == 1) return;
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+        if (i % 4 != 3) picture.rgba[i] *= gain;
+}
+
+DrawnPicture PictureQuery::draw(const schemas::SurfaceDocument& document,
+                                const std::function<void(double)>& progress) const {
+    if (scene_.alpha) throw UsageError("--alpha: a surface document has its own roughness");
+    try {
+        // facets over a black base are those of a stack with a roughness
+        if (const auto* const layered = std::get_if<LayeredSurface>(&document.surface)) {
+            const bool is_stack = layered->layers.size() == 1 && !layered->is_coated() &&
+                                  (!layered->layers[0].is_passable ||
+                                   layered->base_albedo == Dispersion{Constant{0}});
+            if (is_stack)
+                return draw_stack(layered->layers[0].stack, progress, layered->layers[0].alpha);
+        }
+        if (scene_.noise)
+            throw DomainError(
+                "--thickness-noise: takes a stack, or a surface of one layer over a black base");
+        PictureScene scene = scene_;
+        if (typed_.samples.empty()) scene.samples = kRoughSamples;
+        DrawnPicture drawn = trace_surface(scene, document.surface, traced(progress));
+        expose(drawn.picture);
+        return drawn;
+    } catch (const DomainError& error) {
+        throw schemas::InputError(document.file, "", error.what());
+    }
 }
 
 DrawnPicture PictureQuery::draw(const schemas::StackDocument& document,
@@ -215,8 +332,18 @@ DrawnPicture PictureQuery::draw_stack(const Stack& stack,
         surface.varied = layer_number(stack, noise_layer_);
         scene.thickness_nm = thickness_at(stack, surface.varied);
     }
+    const bool is_traced =
+        scene.floor || !scene.lamps.empty() || (alpha && !is_simple(scene.shape));
+    if (is_traced) {
+        if (scene.samples == 0 && (scene.floor || !is_opaque(scene.shape)))
+            scene.samples = kRoughSamples;
+        DrawnPicture drawn = trace_stack(scene, surface, traced(progress));
+        expose(drawn.picture);
+        return drawn;
+    }
     const Painter painter(std::move(scene));
-    DrawnPicture drawn{{}, painter.survey(execution_.threads), {}};
+    DrawnPicture drawn;
+    drawn.survey = painter.survey(execution_.threads);
     ColorPlan plan{.range = drawn.survey.range,
                    .points = drawn.survey.points,
                    .tolerance = tolerance_,
@@ -232,10 +359,7 @@ DrawnPicture PictureQuery::draw_stack(const Stack& stack,
     else
         paint(
             PathColors(light_->tables, light_->transform, surface, is_opaque(scene_.shape), plan));
-    const auto gain = static_cast<float>(std::exp2(exposure_));
-    if (gain == 1) return drawn;
-    for (std::size_t i = 0; i < drawn.picture.rgba.size(); ++i)
-        if (i % 4 != 3) drawn.picture.rgba[i] *= gain;
+    expose(drawn.picture);
     return drawn;
 }
 
@@ -252,6 +376,10 @@ nlohmann::json PictureQuery::request() const {
         {"exposure", exposure_},
         {"observer", typed_.light.observer}};
     if (scene_.alpha) request["alpha"] = *scene_.alpha;
+    if (!lamp_request_.empty()) request["lights"] = lamp_request_;
+    if (scene_.floor) request["floor"] = *scene_.floor;
+    if (typed_.paths != "single") request["paths"] = typed_.paths;
+    if (typed_.transmission != "single") request["transmission"] = typed_.transmission;
     if (scene_.shape == ShapeKind::plane) request["tilt_deg"] = scene_.tilt_deg;
     request["illuminant"] = typed_.light.illuminant;
     if (typed_.exact)
@@ -281,15 +409,23 @@ std::vector<std::string> PictureQuery::stats(const DrawnPicture& drawn) const {
     const auto degrees = [](double cosine) {
         return rounded_text(std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi);
     };
-    lines.push_back(std::to_string(drawn.survey.points) + " places where light meets the stack, " +
-                    "angles " + degrees(range.largest_cosine) + " to " +
-                    degrees(range.least_cosine) + " degrees" +
-                    (scene_.noise ? ", thickness " + rounded_text(range.least_nm) + " to " +
-                                        rounded_text(range.largest_nm) + " nm"
-                                  : ""));
+    if (drawn.is_traced)
+        lines.push_back(std::to_string(drawn.survey.points) + " paths of up to " +
+                        std::to_string(PathTracer::kBounces) +
+                        " reflections, drawn by the surface and by lights, weighted by the balance "
+                        "heuristic");
+    else
+        lines.push_back(std::to_string(drawn.survey.points) +
+                        " places where light meets the stack, " + "angles " +
+                        degrees(range.largest_cosine) + " to " + degrees(range.least_cosine) +
+                        " degrees" +
+                        (scene_.noise ? ", thickness " + rounded_text(range.least_nm) + " to " +
+                                            rounded_text(range.largest_nm) + " nm"
+                                      : ""));
     const std::string what = report.wavelengths > 0 ? "spectra" : "colours";
     if (report.wavelengths > 0)
-        lines.push_back("reflectance and transmittance multiplied at " +
+        lines.push_back((drawn.is_traced ? "what a path meets multiplied at "
+                                         : "reflectance and transmittance multiplied at ") +
                         std::to_string(report.wavelengths) + " wavelengths");
     if (report.cosines > 0)
         lines.push_back(what + " from a table of " + std::to_string(report.cosines) + " angles x " +
@@ -298,7 +434,8 @@ std::vector<std::string> PictureQuery::stats(const DrawnPicture& drawn) const {
                         rounded_text(report.error) + " CIEDE2000: " + report.reason);
     else
         lines.push_back(what + " computed one by one: " + report.reason);
-    if (is_simple(scene_.shape))
+    for (const std::string& text : drawn.skipped) lines.push_back("skipped: " + text);
+    if (!drawn.is_traced && is_simple(scene_.shape))
         lines.emplace_back("skipped: what the stack transmits, as nothing is seen through a " +
                            typed_.shape);
     if (!scene_.noise) lines.emplace_back("skipped: the axis of thickness, which does not vary");

@@ -2,14 +2,13 @@
 
 #include <functional>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/options/color_options.hpp"
-#include "cli/queries/color_query.hpp"
-#include "core/render/picture.hpp"
+#include "cli/queries/traced_picture.hpp"
 
 namespace irido::cli {
 
@@ -24,6 +23,9 @@ struct PictureQueryOptions {
     std::string thickness_noise;  ///< "" for none
     std::string octaves = "1";
     std::string noise_layer = "1";
+    std::vector<std::string> lamps;  ///< each a lamp or several, JSON or a file
+    std::string floor;               ///< "" for none
+    std::string paths = "single", transmission = "single";
     std::string alpha;    ///< "" for a smooth surface
     std::string samples;  ///< "" for the default
     std::string seed = "1";
@@ -35,14 +37,7 @@ struct PictureQueryOptions {
     void add(CLI::App& command);
 };
 
-/// A picture, and how its colours were computed.
-struct DrawnPicture {
-    Picture picture;
-    Painter::Survey survey;
-    ColorReport report;
-};
-
-/// Pictures of a smooth stack on a shape.
+/// Pictures of a stack or a surface on a shape.
 class PictureQuery {
 public:
     /// usual_size: the default size. Throws UsageError, or InputError for errors in a file.
@@ -54,6 +49,9 @@ public:
     DrawnPicture draw(const schemas::StackDocument& document,
                       const std::function<void(double)>& progress,
                       std::optional<double> alpha = {}) const;
+    /// Of a surface document, which has a roughness of its own.
+    DrawnPicture draw(const schemas::SurfaceDocument& document,
+                      const std::function<void(double)>& progress) const;
 
     const PictureScene& scene() const { return scene_; }
     const Sensitivity& sensitivity() const { return light_->tables.sensitivity(); }
@@ -65,8 +63,11 @@ public:
     static std::string caution(const DrawnPicture& drawn);
 
 private:
+    void set_lights(const PictureQueryOptions& typed);
     DrawnPicture draw_stack(const Stack& stack, const std::function<void(double)>& progress,
                             std::optional<double> alpha) const;
+    TracedRequest traced(const std::function<void(double)>& progress) const;
+    void expose(Picture& picture) const;
 
     PictureQueryOptions typed_;
     Execution execution_;
@@ -75,6 +76,10 @@ private:
     std::size_t noise_layer_;
     double exposure_, tolerance_;
     std::unique_ptr<Illumination> light_;
+    std::vector<std::unique_ptr<Sensitivity>> lamp_lights_;  ///< of lamps' own illuminants
+    nlohmann::json lamp_request_;                            ///< lamps as they were read
+    Paths paths_;
+    Crossings crossings_;
 };
 
 }  // namespace irido::cli

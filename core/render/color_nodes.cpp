@@ -1,19 +1,23 @@
 #include "core/render/color_nodes.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/colorimetry/difference.hpp"
+#include "core/error.hpp"
 
 namespace irido {
 
 namespace {
 
 /// Of panels that are equally wide in 1/wavelength, as fringes are.
-ColorNodes nodes_of(const Sensitivity& sensitivity, const RgbTransform& to_srgb, std::size_t panels,
-                    std::size_t degree) {
+ColorNodes nodes_of(const Sensitivity& sensitivity, WavelengthRange range,
+                    const RgbTransform& to_srgb, std::size_t panels, std::size_t degree) {
     ColorNodes nodes;
-    const auto [first, last] = sensitivity.support();
+    nodes.panels = panels;
+    nodes.degree = degree;
+    const auto [first, last] = range;
     const std::array rows{to_srgb({1, 0, 0}), to_srgb({0, 1, 0}), to_srgb({0, 0, 1})};
     const auto end = [&](std::size_t i) {
         const double part = static_cast<double>(i) / static_cast<double>(panels);
@@ -46,6 +50,36 @@ double srgb_difference(std::span<const double> a, std::span<const double> b) {
     return ciede2000(in_lab(a), in_lab(b));
 }
 
+PictureNodes::PictureNodes(ColorNodes nodes, WavelengthRange range,
+                           std::span<const Sensitivity* const> others, const RgbTransform& to_srgb)
+    : wavelength_nm_(std::move(nodes.wavelength_nm)) {
+    const auto add = [&](const std::array<std::vector<double>, 3>& weight) {
+        auto& added = weights_.emplace_back();
+        for (std::size_t c = 0; c < 3; ++c)
+            for (const double value : weight[c]) added[c].push_back(static_cast<float>(value));
+    };
+    add(nodes.weight);
+    for (const Sensitivity* const other : others) {
+        const auto [first, last] = other->support();
+        if (first > range.first_nm || last < range.last_nm)
+            throw DomainError("the illuminant of a light must be given from " +
+                              to_text(range.first_nm) + " to " + to_text(range.last_nm) +
+                              " nm, as that of the picture is (got " + to_text(first) + " to " +
+                              to_text(last) + " nm)");
+        add(nodes_of(*other, range, to_srgb, nodes.panels, nodes.degree).weight);
+    }
+}
+
+Triple PictureNodes::rgb(std::span<const float> spectrum, std::size_t illuminant) const {
+    using Values = Eigen::Map<const Eigen::ArrayXf>;
+    const auto size = static_cast<Eigen::Index>(count());
+    const Values values(spectrum.data(), size);
+    Triple rgb{};
+    for (std::size_t c = 0; c < 3; ++c)
+        rgb[c] = static_cast<double>((Values(weights_[illuminant][c].data(), size) * values).sum());
+    return rgb;
+}
+
 ColorNodes enough_nodes(const Sensitivity& sensitivity, const RgbTransform& to_srgb,
                         const std::function<std::vector<Triple>(const ColorNodes&)>& colors,
                         double tolerance, std::size_t most) {
@@ -57,7 +91,7 @@ ColorNodes enough_nodes(const Sensitivity& sensitivity, const RgbTransform& to_s
     ColorNodes nodes;
     std::vector<Triple> before;
     for (const auto& [panels, degree] : sizes) {
-        ColorNodes more = nodes_of(sensitivity, to_srgb, panels, degree);
+        ColorNodes more = nodes_of(sensitivity, sensitivity.support(), to_srgb, panels, degree);
         const std::vector<Triple> now = colors(more);
         nodes.are_enough = !before.empty();
         for (std::size_t i = 0; i < before.size(); ++i)

@@ -11,7 +11,7 @@ namespace irido {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames{"studio", "sky", "white"};
+constexpr std::array<std::string_view, 4> kNames{"studio", "sky", "white", "none"};
 
 /// 0 below `from`, 1 above `to`, smooth in between.
 double step(double from, double to, double x) {
@@ -101,6 +101,7 @@ Environment named_environment(std::string_view name) {
     if (name == "studio") return studio;
     if (name == "sky") return sky;
     if (name == "white") return [](const Vector3&) { return Triple{1, 1, 1}; };
+    if (name == "none") return [](const Vector3&) { return Triple{}; };
     throw DomainError(not_one_of(kNames, name));
 }
 

@@ -22,11 +22,11 @@ struct EnvironmentImage {
     std::vector<float> rgb;  ///< [row][column][channel], finite, at least 0
 };
 
-/// Names of the environments that are formulas: studio, sky, white.
+/// Names of the environments that are formulas: studio, sky, white, none.
 std::span<const std::string_view> environment_names();
 
 /// One of them. studio: soft boxes in a grey room; sky: a clear sky with its sun over dry ground;
-/// white: radiance 1 everywhere. Throws DomainError that lists the names.
+/// white: radiance 1 everywhere; none: no light. Throws DomainError that lists the names.
 Environment named_environment(std::string_view name);
 
 /// An image, interpolated linearly between the centres of its pixels, across its left and right end

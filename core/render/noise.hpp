@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace irido {
 
@@ -15,6 +16,9 @@ public:
 
     /// Coordinates in [-1e12, 1e12].
     double operator()(double x, double y, double z) const;
+
+    /// Of 0 .. 255.
+    std::span<const std::uint8_t> permutation() const { return std::span(permutation_).first(256); }
 
 private:
     std::array<std::uint8_t, 512> permutation_;  ///< of 0 .. 255, twice

@@ -6,8 +6,6 @@
 
 #include "core/color/held_stack.hpp"
 #include "core/error.hpp"
-#include "core/spectrum/spectrum.hpp"
-#include "core/stack/reversed.hpp"
 
 namespace irido {
 
@@ -25,63 +23,15 @@ constexpr double kNodesTolerance = 0.03, kGrazingTolerance = 0.1;
 /// Tables that take more than this part of the places do not pay.
 constexpr std::size_t kTablePart = 8;
 
-/// From the other side; the place of the varied layer counts from there, in groups as well.
-SurfaceStack reversed_surface(const SurfaceStack& surface) {
-    SurfaceStack other{reversed(surface.stack), surface.varied};
-    const std::vector<Element>* elements = &surface.stack.elements;
-    for (std::size_t& index : other.varied) {
-        const Element& element = (*elements)[index];
-        index = elements->size() - 1 - index;
-        if (const auto* group = std::get_if<Group>(&element.value)) elements = &group->elements;
-    }
-    return other;
-}
-
 using Values = Eigen::Map<const Eigen::ArrayXf>;
 using Changed = Eigen::Map<Eigen::ArrayXf>;
-
-constexpr Needs kNeeds{.A = false};
 
 }  // namespace
 
 /// A stack at the wavelengths of a regime.
 struct PathColors::Face {
-    Face(const SurfaceStack& of, const std::vector<double>& wavelength_nm)
-        : stack(of), indices(of.stack, wavelength_nm) {}
-
-    const SurfaceStack& stack;
-    IndexTable indices;
+    StackSpectra spectra;
     std::optional<GridTable> table{};
-};
-
-/// A stack whose thickness changes from call to call, in memory that is used again.
-struct PathColors::Scratch::Kernel {
-    Kernel(const Face& face, SimdLevel simd)
-        : surface(face.stack),
-          power(surface.stack),
-          kernel(power, face.indices.absorbs(), face.indices.amplifies(), kNeeds, simd) {}
-
-    /// [R, T][s, p][node]
-    void compute(const Face& face, const FilmPoint& at, std::span<float> powers) {
-        if (!surface.varied.empty()) {
-            surface.set(at.thickness_nm);
-            power.assign(surface.stack);
-            kernel.update();
-        }
-        const IncidentAngle angle(at.cosine);
-        kernel(face.indices, {&angle, 1}, spectra, memory);
-        auto to = powers.begin();
-        for (const auto* values : {&spectra.s.R, &spectra.p.R, &spectra.s.T, &spectra.p.T})
-            to = std::ranges::transform(*values, to, [](double value) {
-                     return static_cast<float>(value);
-                 }).out;
-    }
-
-    SurfaceStack surface;
-    StackPower power;
-    SpectrumKernel kernel;
-    Spectra spectra;
-    SpectrumMemory memory;
 };
 
 struct PathColors::Regime {
@@ -109,16 +59,17 @@ struct PathColors::Regime {
     }
 
     /// Colours of single and of repeated reflection and transmission where fringes are finest.
-    std::vector<Triple> trials(const ShownRange& range, SimdLevel simd) const {
+    std::vector<Triple> trials(const ShownRange& range) const {
         const std::size_t half = width() / 2;
         std::vector<float> powers(width()), product(half);
         std::vector<Triple> colors;
-        Scratch::Kernel kernel(faces.front(), simd);
+        const StackSpectra& spectra = faces.front().spectra;
+        StackSpectra::Memory memory;
         for (const double nm : {range.largest_nm, range.least_nm})
             for (const double cosine :
                  {range.largest_cosine, std::lerp(range.least_cosine, range.largest_cosine, 0.2),
                   range.least_cosine}) {
-                kernel.compute(faces.front(), {cosine, nm}, powers);
+                spectra({cosine, nm}, powers, memory);
                 const auto R = std::span(powers).first(half), T = std::span(powers).last(half);
                 colors.push_back(integral(R));
                 for (std::size_t k = 0; k < half; ++k) product[k] = T[k] * T[k];
@@ -134,8 +85,6 @@ struct PathColors::Regime {
     std::vector<Face> faces;                    ///< from outside, from inside
 };
 
-PathColors::Scratch::Scratch() = default;
-PathColors::Scratch::~Scratch() = default;
 PathColors::~PathColors() = default;
 
 PathColors::PathColors(const ColorTables& tables, const RgbTransform& to_srgb,
@@ -178,13 +127,13 @@ std::unique_ptr<PathColors::Regime> PathColors::regime(const Sensitivity& sensit
         }
         made->faces.clear();
         for (const SurfaceStack& stack : stacks_)
-            made->faces.emplace_back(stack, made->nodes.wavelength_nm);
+            made->faces.push_back({{stack, made->nodes.wavelength_nm, simd_}});
     };
     use(enough_nodes(
         sensitivity, to_srgb,
         [&](const ColorNodes& nodes) {
             use(nodes);
-            return made->trials(range, simd_);
+            return made->trials(range);
         },
         tolerance));
     return made;
@@ -207,10 +156,10 @@ void PathColors::make_tables(const ColorPlan& plan) {
                             .most_samples = plan.points / kTablePart,
                             .threads = plan.threads},
             [&](double nm, std::span<const double> cosines, std::span<float> values) {
-                Scratch::Kernel kernel(face, simd_);
+                StackSpectra::Memory memory;
                 for (std::size_t i = 0; i < cosines.size(); ++i)
-                    kernel.compute(face, {cosines[i], nm},
-                                   values.subspan(i * regime.width(), regime.width()));
+                    face.spectra({cosines[i], nm},
+                                 values.subspan(i * regime.width(), regime.width()), memory);
             },
             [&](std::span<const float> a, std::span<const float> b) {
                 return regime.distance(a, b);
@@ -249,9 +198,8 @@ Triple PathColors::operator()(std::span<const PathStep> path, Scratch& scratch) 
         if (face.table) {
             face.table->lookup(now.at.cosine, now.at.thickness_nm, scratch.powers_);
         } else {
-            auto& kernel = scratch.kernels_[2 * (is_grazing ? 1 : 0) + side];
-            if (!kernel) kernel = std::make_unique<Scratch::Kernel>(face, simd_);
-            kernel->compute(face, now.at, scratch.powers_);
+            face.spectra(now.at, scratch.powers_,
+                         scratch.memories_[2 * (is_grazing ? 1 : 0) + side]);
         }
         Changed& goes_on = now.leaves && !now.inside ? transmitted : reflected;
         if (!now.leaves) {

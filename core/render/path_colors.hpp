@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/render/color_nodes.hpp"
-#include "core/render/reflected_colors.hpp"
+#include "core/render/stack_spectra.hpp"
 
 namespace irido {
 
@@ -38,14 +38,8 @@ public:
 
     /// Memory of calls on one thread.
     class Scratch {
-    public:
-        Scratch();
-        ~Scratch();
-
-    private:
         friend class PathColors;
-        struct Kernel;
-        std::array<std::unique_ptr<Kernel>, 4> kernels_;
+        std::array<StackSpectra::Memory, 4> memories_;
         std::vector<float> powers_, through_;
     };
 

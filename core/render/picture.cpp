@@ -20,21 +20,6 @@ constexpr std::size_t kDepth = 6, kGemDepth = 12;  ///< steps of a path
 constexpr double kNearlySmooth = 0.03;  ///< alpha below which facets alone find all lights
 constexpr double kMostPixels = 8192;    ///< of a side
 
-std::unique_ptr<const Shape> shape_of(const PictureScene& scene) {
-    switch (scene.shape) {
-        case ShapeKind::plane:
-            return plane_shape(scene.tilt_deg);
-        case ShapeKind::ring:
-            return ring_shape();
-        case ShapeKind::gem:
-            return gem_shape();
-        case ShapeKind::sphere:
-        case ShapeKind::bubble:
-            break;
-    }
-    return sphere_shape();
-}
-
 std::uint32_t reversed_bits(std::uint32_t bits) {
     bits = ((bits >> 1U) & 0x55555555U) | ((bits & 0x55555555U) << 1U);
     bits = ((bits >> 2U) & 0x33333333U) | ((bits & 0x33333333U) << 2U);
@@ -72,7 +57,8 @@ std::uint32_t scrambled(std::uint32_t bits, std::uint32_t seed) {
 class PixelSamples {
 public:
     PixelSamples(std::uint64_t seed, std::size_t pixel, std::size_t pair) {
-        Random random(Random(seed).bits() ^ (0x9e3779b97f4a7c15U * (2 * pixel + pair + 1)));
+        Random random(Random(seed).bits() ^ (0x9e3779b97f4a7c15U * (2 * pixel + pair % 2 + 1)) ^
+                      (0xd1b54a32d192ed03U * (pair / 2)));
         const std::uint64_t bits = random.bits();
         first_ = static_cast<std::uint32_t>(bits);
         second_ = static_cast<std::uint32_t>(bits >> 32U);
@@ -106,15 +92,9 @@ struct RowSums {
 
 }  // namespace
 
-bool is_simple(ShapeKind shape) {
-    return shape == ShapeKind::sphere || shape == ShapeKind::plane;
-}
-
-bool is_opaque(ShapeKind shape) {
-    return shape != ShapeKind::bubble && shape != ShapeKind::gem;
-}
-
-Painter::Painter(PictureScene scene) : scene_(std::move(scene)), shape_(shape_of(scene_)) {
+Painter::Painter(PictureScene scene)
+    : scene_(std::move(scene)),
+      shape_(make_shape(scene_.shape, scene_.tilt_deg, scene_.camera.elevation_deg)) {
     require_in_range("width", static_cast<double>(scene_.camera.width), 1, kMostPixels);
     require_in_range("height", static_cast<double>(scene_.camera.height), 1, kMostPixels);
     require_in_range("samples", static_cast<double>(scene_.samples), 0,
@@ -321,6 +301,35 @@ Picture Painter::paint(const PathColors& colors, unsigned threads,
             add(sums.color[x], colors(path, scratch));
             ++sums.hits[x];
         });
+    });
+}
+
+Picture Painter::paint(const PathTracer& tracer, unsigned threads,
+                       const std::function<void(double)>& progress) const {
+    const std::size_t samples = std::max<std::size_t>(1, scene_.samples);
+    return paint_rows(threads, progress, [&](std::size_t y, RowSums& sums) {
+        PathTracer::Scratch scratch;
+        std::vector<PixelSamples> pairs;
+        std::size_t i = 0;
+        const PathTracer::Numbers numbers = [&](std::size_t pair) { return pairs[pair](i); };
+        for (std::size_t x = 0; x < scene_.camera.width; ++x) {
+            const std::size_t pixel = y * scene_.camera.width + x;
+            pairs.clear();
+            for (std::size_t pair = 0; pair <= PathTracer::kPairs; ++pair)
+                pairs.emplace_back(scene_.seed, pixel, pair);
+            for (i = 0; i < samples; ++i) {
+                const auto [dx, dy] = scene_.samples == 0 ? std::array{0.5, 0.5} : pairs[0](i);
+                const Ray ray =
+                    scene_.camera.ray(static_cast<double>(x) + dx, static_cast<double>(y) + dy);
+                const std::optional<Triple> found = tracer(ray, numbers, scratch);
+                if (!found) {
+                    add(sums.behind[x], behind(ray));
+                    continue;
+                }
+                add(sums.color[x], *found);
+                ++sums.hits[x];
+            }
+        }
     });
 }
 

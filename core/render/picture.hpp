@@ -2,46 +2,20 @@
 
 #include <functional>
 #include <optional>
-#include <variant>
 #include <vector>
 
-#include "core/render/camera.hpp"
-#include "core/render/environment.hpp"
 #include "core/render/environment_sampler.hpp"
-#include "core/render/noise.hpp"
 #include "core/render/path_colors.hpp"
-#include "core/render/shape.hpp"
+#include "core/render/path_tracer.hpp"
+#include "core/render/picture_scene.hpp"
 
 namespace irido {
-
-/// All that a picture of a stack shows.
-struct PictureScene {
-    Camera camera;
-    ShapeKind shape = ShapeKind::sphere;
-    double tilt_deg = 0;     ///< of a plane
-    double inner_index = 1;  ///< of a gem, over that of the medium around it
-    Environment environment;
-    std::optional<double> alpha;          ///< roughness of a simple shape; else it is smooth
-    std::optional<ThicknessNoise> noise;  ///< else the thickness is `thickness_nm` everywhere
-    double thickness_nm = 0;
-    std::size_t samples = 0;  ///< per pixel; 0: its centre, for smooth shapes
-    std::uint64_t seed = 1;
-    /// Behind the shape: nothing, the environment or one colour.
-    std::variant<std::monostate, Environment, Triple> background;
-};
 
 /// Linear sRGB, multiplied by alpha; rows from the top.
 struct Picture {
     std::size_t width = 0, height = 0;
     std::vector<float> rgba;
 };
-
-/// Whether light meets the stack once per path: then colours are ReflectedColors, and the surface
-/// may be rough.
-bool is_simple(ShapeKind shape);
-
-/// Whether nothing is seen through a shape.
-bool is_opaque(ShapeKind shape);
 
 inline constexpr std::size_t kMostPictureSamples = 65536;
 
@@ -62,6 +36,9 @@ public:
     Picture paint(const ReflectedColors& colors, unsigned threads,
                   const std::function<void(double)>& progress) const;
     Picture paint(const PathColors& colors, unsigned threads,
+                  const std::function<void(double)>& progress) const;
+    /// Of the same scene.
+    Picture paint(const PathTracer& tracer, unsigned threads,
                   const std::function<void(double)>& progress) const;
 
 private:

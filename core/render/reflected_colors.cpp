@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/math/angle_of_cosine.hpp"
 #include "core/render/color_nodes.hpp"
+#include "core/stack/reversed.hpp"
 
 namespace irido {
 
@@ -53,6 +54,17 @@ Stack SurfaceStack::at(double thickness_nm) const {
     SurfaceStack other = *this;
     other.set(thickness_nm);
     return std::move(other.stack);
+}
+
+SurfaceStack reversed_surface(const SurfaceStack& surface) {
+    SurfaceStack other{reversed(surface.stack), surface.varied};
+    const std::vector<Element>* elements = &surface.stack.elements;
+    for (std::size_t& index : other.varied) {
+        const Element& element = (*elements)[index];
+        index = elements->size() - 1 - index;
+        if (const auto* group = std::get_if<Group>(&element.value)) elements = &group->elements;
+    }
+    return other;
 }
 
 LayerPlace layer_number(const Stack& stack, std::size_t number) {

@@ -22,6 +22,9 @@ struct SurfaceStack {
     void set(double thickness_nm);
 };
 
+/// From the other side; the place of the varied layer counts from there, in groups as well.
+SurfaceStack reversed_surface(const SurfaceStack& surface);
+
 /// Place of the layer with this number, from 1 on, as light meets them; those of a group count
 /// once. Throws DomainError if there is none.
 LayerPlace layer_number(const Stack& stack, std::size_t number);

@@ -27,6 +27,7 @@ public:
         const Vector3 point = ray.origin + distance * ray.direction;
         return Hit{distance, point, normalized(point)};
     }
+    double lowest() const override { return -1; }
 };
 
 class Plane : public Shape {
@@ -41,6 +42,7 @@ public:
         if (!(distance > ray.from)) return std::nullopt;
         return Hit{distance, ray.origin + distance * ray.direction, normal_};
     }
+    double lowest() const override { return 0; }
 
 private:
     Vector3 normal_;
@@ -64,6 +66,12 @@ private:
 
 class Ring : public Shape {
 public:
+    explicit Ring(double turn_deg) : turn_(turn_deg) {}
+
+    double lowest() const override {
+        return -kMinor - kMajor * std::abs(turn_.to_world({0, 0, 1}).y);
+    }
+
     std::optional<Hit> first_hit(const Ray& ray) const override {
         constexpr double kNear = 1e-11;
         constexpr int kMostSteps = 2000;
@@ -94,16 +102,16 @@ public:
 
 private:
     static constexpr double kMajor = 0.7, kMinor = 0.28;
-    Turn turn_{52};
+    Turn turn_;
 };
 
 class Gem : public Shape {
 public:
-    Gem() {
+    explicit Gem(double turn_deg) : turn_(turn_deg) {
         constexpr double kGirdle = 0.03;  // half of its height
-        const auto add = [this](double slope_deg, double turn_deg, double radius, double height) {
+        const auto add = [this](double slope_deg, double phi_deg, double radius, double height) {
             const double s = std::sin(slope_deg * kRadian), c = std::cos(slope_deg * kRadian);
-            const double phi = turn_deg * kRadian;
+            const double phi = phi_deg * kRadian;
             const Vector3 normal{s * std::cos(phi), c, s * std::sin(phi)};
             faces_.push_back({turn_.to_world(normal), kSize * (s * radius + c * height)});
         };
@@ -150,13 +158,37 @@ public:
         return Hit{distance, ray.origin + distance * ray.direction, face->normal};
     }
 
+    /// The lowest corner: where three faces meet and no other cuts it off.
+    double lowest() const override {
+        double lowest = 0;
+        const auto cross = [](const Vector3& a, const Vector3& b) {
+            return Vector3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+        };
+        for (std::size_t i = 0; i < faces_.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                for (std::size_t k = 0; k < j; ++k) {
+                    const Face &a = faces_[i], &b = faces_[j], &c = faces_[k];
+                    const Vector3 bc = cross(b.normal, c.normal);
+                    const double volume = dot(a.normal, bc);
+                    if (std::abs(volume) < 1e-9) continue;
+                    const Vector3 corner = 1 / volume *
+                                           (a.offset * bc + b.offset * cross(c.normal, a.normal) +
+                                            c.offset * cross(a.normal, b.normal));
+                    if (corner.y < lowest && std::ranges::all_of(faces_, [&](const Face& face) {
+                            return dot(face.normal, corner) <= face.offset + 1e-9;
+                        }))
+                        lowest = corner.y;
+                }
+        return lowest;
+    }
+
 private:
     static constexpr double kSize = 0.97;
     struct Face {
         Vector3 normal;
         double offset;
     };
-    Turn turn_{38};
+    Turn turn_;
     std::vector<Face> faces_;
 };
 
@@ -172,12 +204,41 @@ std::unique_ptr<const Shape> plane_shape(double tilt_deg) {
     return std::make_unique<Plane>(tilt_deg);
 }
 
-std::unique_ptr<const Shape> ring_shape() {
-    return std::make_unique<Ring>();
+std::unique_ptr<const Shape> ring_shape(double turn_deg) {
+    return std::make_unique<Ring>(turn_deg);
 }
 
-std::unique_ptr<const Shape> gem_shape() {
-    return std::make_unique<Gem>();
+std::unique_ptr<const Shape> gem_shape(double turn_deg) {
+    return std::make_unique<Gem>(turn_deg);
+}
+
+double usual_elevation_deg(ShapeKind shape) {
+    constexpr double kRing_deg = 52, kGem_deg = 38, kOthers_deg = 25;
+    return shape == ShapeKind::ring ? kRing_deg : shape == ShapeKind::gem ? kGem_deg : kOthers_deg;
+}
+
+std::unique_ptr<const Shape> make_shape(ShapeKind shape, double tilt_deg, double elevation_deg) {
+    const double turn_deg = usual_elevation_deg(shape) - elevation_deg;
+    switch (shape) {
+        case ShapeKind::plane:
+            return plane_shape(tilt_deg);
+        case ShapeKind::ring:
+            return ring_shape(turn_deg);
+        case ShapeKind::gem:
+            return gem_shape(turn_deg);
+        case ShapeKind::sphere:
+        case ShapeKind::bubble:
+            break;
+    }
+    return sphere_shape();
+}
+
+bool is_simple(ShapeKind shape) {
+    return shape == ShapeKind::sphere || shape == ShapeKind::plane;
+}
+
+bool is_opaque(ShapeKind shape) {
+    return shape != ShapeKind::bubble && shape != ShapeKind::gem;
 }
 
 std::span<const std::string_view> shape_names() {

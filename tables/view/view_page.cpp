@@ -7,6 +7,7 @@
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
 #include "core/render/color_nodes.hpp"
+#include "core/render/noise.hpp"
 
 namespace irido::tables {
 
@@ -163,6 +164,7 @@ std::string view_page(const ColorTables& tables, const RgbTransform& to_srgb,
                       {"incident", stack.incident},
                       {"substrate", stack.substrate},
                       {"elements", elements}}},
+                    {"permutation", PerlinNoise().permutation()},
                     {"document", *request.source}};
     std::string page = kPage;
     const std::string mark = "IRIDO_DATA";

@@ -102,6 +102,53 @@ describe('the page of a film', () => {
         assert.equal(now.hex, color.hex);
     });
 
+    /** Types a value into the number of the view slider whose label begins so, and leaves it. */
+    async function setView(label, value) {
+        const place = `[...document.querySelectorAll('#view-sliders .slider')].find((row) => row.textContent.startsWith('${label}'))`;
+        await page.evaluate(`${place}.querySelector('input[type=number]').id = 'typed-now'`);
+        await page.click('#typed-now');
+        await page.evaluate(`document.getElementById('typed-now').select()`);
+        await page.type(String(value));
+        await page.evaluate(`document.getElementById('typed-now').blur(); document.getElementById('typed-now').id = ''`);
+        await settled(page);
+    }
+
+    it('lets the layer vary, with the thickness and the colour at the pointer', async () => {
+        await page.click('#reset');
+        await page.evaluate('document.getElementById("environment").value = "2"; draw()');
+        await setView('layer 1 of sphere', 60);
+        await setView('scale', 2);
+        const box = await page.show('#picture'), seen = [];
+        for (let i = 0; i < 30; ++i) {
+            const r = 0.8 * Math.sqrt((i + 0.5) / 30), turn = 2.4 * i;
+            const x = Math.round(box.left + box.width / 2 * (1 + 0.9 * r * Math.cos(turn)));
+            const y = Math.round(box.top + box.height / 2 * (1 + 0.9 * r * Math.sin(turn)));
+            await page.move(x, y);
+            seen.push({ x, y, ...await shown(page), nm: await page.evaluate('parseFloat(document.getElementById("thickness-shown").textContent)') });
+        }
+        assert.ok(new Set(seen.map(({ nm }) => nm)).size > 20);
+        const image = decode(await page.screenshot()), stack = JSON.parse(irido('convert', 'air | 1.33@400 | 1.9+1.5i', '-o', '-'));
+        for (const { x, y, nm, angle, hex } of seen) {
+            assert.ok(nm >= 340 && nm <= 460);
+            stack.layers[0].thickness_nm = nm;
+            const [color] = colorsOf(stack, [angle]), at = (y * image.width + x) * image.channels;
+            bytesOf(hex).forEach((byte, c) => assert.ok(Math.abs(byte - bytesOf(color.hex)[c]) <= 2, `${hex} for ${color.hex}`));
+            bytesOf(color.hex).forEach((byte, c) => assert.ok(Math.abs(image.data[at + c] - byte) <= 6,
+                `${[...image.data.slice(at, at + 3)]} for ${color.hex} at ${angle}, ${nm} nm`));
+        }
+        await setView('layer 1 of sphere', 0);
+    });
+
+    it('is rough by its slider: in white surroundings the albedo of irido brdf', async () => {
+        await setView('roughness', 0.2);
+        const box = await page.show('#picture'), image = decode(await page.screenshot());
+        const [color] = csv(irido('brdf', 'air | 1.33@400 | 1.9+1.5i', '--alpha', '0.2', '--quantity', 'albedo', '--color', '--light-theta', '0'));
+        const at = (Math.round(box.top + box.height / 2) * image.width + Math.round(box.left + box.width / 2)) * image.channels;
+        bytesOf(color.hex).forEach((byte, c) => assert.ok(Math.abs(image.data[at + c] - byte) <= 4,
+            `${[...image.data.slice(at, at + 3)]} for ${color.hex}`));
+        await setView('roughness', 0);
+    });
+
     it('turns its surroundings by dragging and by keys', async () => {
         await page.evaluate('document.getElementById("environment").value = "0"; draw()');
         const box = await page.show('#picture'), middle = [box.left + box.width / 2, box.top + box.height / 2];

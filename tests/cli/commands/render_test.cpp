@@ -136,8 +136,8 @@ TEST_CASE("a contact sheet has a labelled picture for every value", "[cli][rende
                   "--vary: a contact sheet must be .png");
     check_refused(render({"--vary", "alpha=0.05,2", "-o", folder / "x.png"}),
                   "--vary alpha: must be in [0.0001, 1] (got 2)");
-    check_refused(render({"--vary", "alpha=0.05,0.1", "--shape", "ring", "-o", folder / "x.png"}),
-                  "--vary alpha: only spheres and planes can be rough");
+    check_refused(render({"--vary", "alpha=0.05,0.1", "--shape", "bubble", "-o", folder / "x.png"}),
+                  "--vary alpha: only spheres, planes and rings can be rough");
     check_refused(render({"--vary", "angle_deg=0,10", "-o", folder / "x.png"}),
                   "angle_deg is not a value of the stack");
     CHECK(render({"--vary", "alpha=0.05,0.1", "--samples", "4", "--size", "16", "-o",
@@ -176,7 +176,22 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--thickness-noise", "1:2", "--noise-layer", "2"}, "the stack has no layer 2");
     refused({"--samples", "0"}, "--samples: must be in [1, 65536]");
     refused({"--alpha", "0"}, "--alpha: must be in [1e-04, 1] (got 0)");
-    refused({"--alpha", "0.1", "--shape", "ring"}, "--alpha: a rough ring cannot be drawn yet");
+    refused({"--alpha", "0.1", "--shape", "gem"}, "--alpha: a rough gem cannot be drawn");
+    refused({"--environment", "none"}, "--environment none: requires a --light");
+    refused({"--floor", "2"}, "--floor: must be in [0, 1] (got 2)");
+    refused({"--floor", "#12"}, "--floor: must be an albedo or #rrggbb");
+    refused({"--floor", "1", "--shape", "plane"}, "--floor: a plane fills the picture");
+    refused({"--floor", "1", "--exact"}, "--exact: light that is scattered, lamps and floors");
+    refused({"--paths", "simulation"}, "--paths: must be single or all (got simulation)");
+    refused({"--light", "{"}, "light: 1:2");
+    refused({"--light", "{}"}, "center");
+    refused({"--light", folder / "none.json"}, "none.json");
+    refused({"--light", R"({"direction": [0, 0, 0]})"}, "direction must not be zero");
+    refused({"--light", R"({"direction": [0, 0, 1], "radiance": 1})"}, "/radiance");
+    refused({"--light", R"({"center": [0, 0, 3], "radius": -1})"}, "/radius: must be in");
+    refused({"--light", R"({"vertices": [[0, 0, 1], [1, 0, 1], [2, 0, 1]]})"}, "one line");
+    refused({"--light", R"({"direction": [0, 0, 1], "illuminant": "D66"})"}, "D66");
+    refused({"--show", "beetle"}, "--show: takes a scene");
     refused({"--exposure", "nan"}, "--exposure");
     refused({"--tolerance", "0"}, "--tolerance: must be in [0.001, 10]");
     refused({"--bits", "12"}, "--bits: must be 8 or 16");
@@ -186,9 +201,25 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
         refused({}, error, folder / "document.json");
     };
     document(R"({"inside": 1.35, "layers": [{"stack": "1 | 2@3 | 1", "alpha": 0.1}]})",
-             "is a surface document, which cannot be drawn yet");
-    document(R"({"scratches": []})", "is a surface document");
-    document(R"({"materials": {"a": {"stack": "s.json"}}})", "is a scene document");
+             "/layers/0/stack");
+    document(
+        R"({"scratches": [{"width_um": 1, "depth_um": 0.1, "angle_deg": 0, "point_um": [0, 0]}]})",
+        "scratches are drawn as fields");
+    document(R"({"materials": {"a": {"stack": "s.json"}}})",
+             "/materials: must be an array of 1 to 10000 materials");
+    document(R"({"materials": []})", "/materials: must be an array of 1 to 10000 materials");
+    const std::string coated =
+        R"({"inside": 1.35, "layers": [{"stack": "1.35 | 1.5@300 | 1.35", "alpha": 0.1}],
+            "base": {"albedo": 0.5}})";
+    write_text(folder / "coated.json", coated);
+    refused({"--shape", "gem"}, "drawn on a sphere, a plane or a ring", folder / "coated.json");
+    refused({"--alpha", "0.2"}, "a surface document has its own roughness", folder / "coated.json");
+    refused({"--paths", "all"}, "--paths all can be drawn for one layer without a coating",
+            folder / "coated.json");
+    refused({"--thickness-noise", "1:2"}, "--thickness-noise: takes a stack",
+            folder / "coated.json");
+    refused({"--vary", "alpha=0.1,0.2"}, "--vary alpha: a surface document has its own",
+            folder / "coated.json");
     irido::Picture square{8, 8, std::vector<float>(256, 1.0F)};
     write_text(folder / "square.exr", irido::tables::exr_file(square, "{}"));
     refused({"--environment", folder / "square.exr"}, "twice as wide as high");
@@ -197,6 +228,74 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     write_text(folder / "bad.exr", irido::tables::exr_file(bad, "{}"));
     refused({"--environment", folder / "bad.exr"},
             "radiance must be finite and not below 0 (got nan in row 0, column 1)");
+}
+
+TEST_CASE("a surface in white surroundings has the albedo of irido brdf", "[cli][render]") {
+    TemporaryFolder folder;
+    const std::string file = folder / "surface.json";
+    const auto check = [&](const std::string& document, const std::vector<std::string>& more) {
+        write_text(file, document);
+        std::vector<std::string> words{"--shape",       "plane", "--tilt", "40",
+                                       "--environment", "white", "--size", "8",
+                                       "--samples",     "256",   "-o",     folder / "x.exr"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome drawn = render(words, file);
+        INFO(drawn.err);
+        REQUIRE(drawn.status == 0);
+        const auto image = exr(folder / "x.exr");
+        std::vector<std::string> asked{"brdf",          file, "--quantity", "albedo", "--color",
+                                       "--light-theta", "40"};
+        asked.insert(asked.end(), more.begin(), more.end());
+        const auto rows = parse_csv(run_irido(asked).out);
+        REQUIRE(rows.size() == 2);
+        for (std::size_t c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (std::size_t i = c; i < image.rgb.size(); i += 3)
+                sum += static_cast<double>(image.rgb[i]);
+            const double expected = std::stod(rows[1][4 + c]);
+            CHECK_THAT(sum / 128, WithinAbs(expected, 0.01 * std::max(0.2, expected)));
+        }
+    };
+    check(R"({"inside": 1.35, "layers": [{"stack": "1.35 | (1.35@250 | 1.5@250)^10 | 1.35",
+              "alpha": 0.1}], "base": {"albedo": 0.5}})",
+          {});
+    check(R"({"layers": [{"stack": "1 | (1@125 | 1.5@375)^5 | 1", "alpha": 0.2}],
+              "base": {"albedo": 0.8}})",
+          {"--paths", "all"});
+    check(R"({"layers": [{"stack": "1 | (1@125 | 1.5@375)^5 | 1.5", "alpha": 0.2}]})", {});
+}
+
+TEST_CASE("a scratched surface is drawn, and says what it left out", "[cli][render]") {
+    TemporaryFolder folder;
+    write_text(folder / "worn.json", R"({"base": "air | Ag",
+        "scratches": [{"width_um": 2, "depth_um": 0.14, "angle_deg": 30, "point_um": [0, 0]}],
+        "fields": [{"count_per_mm2": 40, "length_um": [200, 3000], "width_um": [1, 2],
+                    "depth_um": [0.1, 0.2], "angle_deg": [-180, 180]}]})");
+    const Outcome outcome =
+        render({"--size", "16", "--samples", "4", "--stats", "--light",
+                R"({"direction": [1, 2, 1], "irradiance": 3})", "-o", folder / "x.png"},
+               folder / "worn.json");
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK_THAT(outcome.err, Contains("skipped: 1 single scratch: fields are seen on average") &&
+                                Contains("balance heuristic"));
+}
+
+TEST_CASE("scenes make a sheet of their materials, or a picture of one", "[cli][render]") {
+    TemporaryFolder folder;
+    write_text(folder / "scene.json", R"({"materials": [
+        {"name": "one", "stack": "air | 1.33@300 | 1.5", "shading": "color"},
+        {"name": "two", "stack": "air | 1.33@500 | 1.5", "shading": "color"}]})");
+    const std::string scene = folder / "scene.json";
+    CHECK(render({"--size", "16", "-o", folder / "sheet.png"}, scene).status == 0);
+    REQUIRE(render({"--size", "32,16", "--show", "two", "-o", folder / "two.exr"}, scene).status ==
+            0);
+    REQUIRE(render({"--size", "32,16", "-o", folder / "same.exr"}, "air | 1.33@500 | 1.5").status ==
+            0);
+    CHECK(exr(folder / "two.exr").rgb == exr(folder / "same.exr").rgb);
+    check_refused(render({"--show", "three", "-o", folder / "x.png"}, scene),
+                  "--show: the scene has no material three, it has one, two");
+    check_refused(render({"-o", folder / "x.exr"}, scene), "makes a contact sheet, .png");
 }
 
 TEST_CASE("an interrupted picture leaves no file", "[cli][render]") {
