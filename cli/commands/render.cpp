@@ -293,7 +293,8 @@ std::vector<Shown> varied_pictures(const schemas::StackSource& source, const Swe
 // --- scenes -----------------------------------------------------------------------------------
 
 /// Each material of a scene, or the one that is asked for.
-std::vector<Shown> scene_pictures(const RenderCommand& command, const schemas::Scene& scene) {
+std::vector<Shown> scene_pictures(const RenderCommand& command, const schemas::Scene& scene,
+                                  const nlohmann::json& document) {
     std::vector<Shown> all;
     std::string names;
     for (const schemas::SceneMaterial& material : scene.materials) {
@@ -306,7 +307,14 @@ std::vector<Shown> scene_pictures(const RenderCommand& command, const schemas::S
         }
         std::optional<double> alpha;
         if (material.is_rough) alpha = (material.alpha.first + material.alpha.last) / 2;
-        all.push_back(shown_stack(material.document, alpha));
+        if (material.scratches)
+            all.push_back({schemas::SurfaceDocument{
+                               material.scratches->surface, scene.file, material.name, {}},
+                           {},
+                           "",
+                           document.at(nlohmann::json::json_pointer(material.pointer))});
+        else
+            all.push_back(shown_stack(material.document, alpha));
         all.back().label = material.name;
     }
     if (all.empty())
@@ -318,7 +326,7 @@ int render_scene(const RenderCommand& command, const schemas::StackSource& sourc
                  RenderFormat format) {
     const schemas::Scene scene = schemas::read_scene(source.document, source.file, source.folder);
     if (!command.vary.empty()) throw UsageError("--vary: takes a stack or a surface, not a scene");
-    const std::vector<Shown> all = scene_pictures(command, scene);
+    const std::vector<Shown> all = scene_pictures(command, scene, source.document);
     PictureQueryOptions typed = command.picture;
     if (typed.light.illuminant == ColorOptions{}.illuminant)
         typed.light.illuminant = scene.illuminant;
