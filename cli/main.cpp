@@ -1,8 +1,11 @@
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <new>
+#include <sstream>
 
 #include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
@@ -77,6 +80,14 @@ void add_commands(CLI::App& program, Run& run, std::span<char* const> words) {
     add_completion_command(program, run);
 }
 
+/// Descriptors 0 to 2 that the caller has closed stay unusable: else a file that is opened later
+/// would take their place, and messages would go into it.
+void occupy_standard_descriptors() {
+    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
+        if (fcntl(descriptor, F_GETFD) < 0)  // open() takes the lowest one that is free
+            (void)open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 int run_command_line(int argc, char** argv) {
     CLI::App program("Spectra, colours and look-up tables of thin-film stacks.", "irido");
     program.require_subcommand(1);
@@ -102,7 +113,10 @@ int run_command_line(int argc, char** argv) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& done) {  // --help, --version
-        return program.exit(done);
+        std::ostringstream text;
+        const int status = program.exit(done, text, text);
+        tables::write_stdout(text.view());
+        return status;
     } catch (const CLI::ParseError& error) {  // beside --help
         return fail(error.what());
     }
@@ -113,6 +127,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    occupy_standard_descriptors();
     handle_signals();
     keep_freed_memory();
     try {

@@ -132,6 +132,7 @@ double worst_of_bake(const schemas::Scene& scene, const std::string& folder,
     const tables::TableEntries entries = tables::baked_scene({folder}, scene).tables;
     double worst = 0;
     for (const tables::SceneTable& table : plan.tables) {
+        if (table.grid) continue;  // exact
         const tables::LutPlan function = table.kind->plan(table.request);
         if (!is_in_delta_e(function)) continue;
         const tables::Lut lut = lut_of(table, entries.at(table.id), folder);
@@ -160,6 +161,7 @@ SceneRow fixed(const std::string& name, const schemas::Scene& scene,
     const Execution execution = execution_of(options.threads);
     const tables::LutKind& kind = *tables::find_lut_kind("color");
     for (const schemas::SceneMaterial& material : scene.materials) {
+        if (material.document.stack.materials.empty()) continue;
         tables::LutRequest request = tables::color_request_of(scene, material, execution);
         const std::vector<double> used = request.list("cos");
         for (const Side side : {Side::reflected, Side::transmitted})

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -9,10 +10,15 @@
 #include "core/colorimetry/difference.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/colorimetry/observer.hpp"
+#include "core/colorimetry/sensitivity_transform.hpp"
 #include "core/math/constants.hpp"
+#include "core/math/degrees.hpp"
 #include "core/math/half.hpp"
 #include "core/math/random.hpp"
 #include "core/math/sine_integral.hpp"
+#include "core/scratch/footprint.hpp"
+#include "core/scratch/scratch_grid.hpp"
+#include "core/scratch/scratched_scattering.hpp"
 #include "core/scratch/slit_color.hpp"
 #include "tables/pictures/figure.hpp"
 
@@ -76,8 +82,10 @@ public:
             const double x = static_cast<double>(i) / kPlaces;
             u.push_back(kScale_um * x / (1 - x));
         }
-        for (std::size_t i = 0; i < kDepths; ++i)
-            depth.push_back(kDeepest * static_cast<double>(i) / (kDepths - 1));
+        for (std::size_t i = 0; i < kDepths; ++i) {
+            const double x = deep_place(kDeepest) * static_cast<double>(i) / (kDepths - 1);
+            depth.push_back(x / (1 - x));
+        }
         const SlitColors colors(sensitivity, u.back(), kDeepest);
         const auto q = is_slope ? colors.carried_slope(u, depth, kSlitCarriers_um)
                                 : colors.carried(u, depth, kSlitCarriers_um);
@@ -116,10 +124,11 @@ private:
     static constexpr double kScale_um = 2, kDeepest = 3.15;
 
     static double place(double u) { return u / (std::abs(u) + kScale_um); }
+    static double deep_place(double depth) { return depth / (depth + 1); }
 
     Triple at(double x, double depth) const {
         const double row = std::min(std::abs(x) * kPlaces, static_cast<double>(kPlaces - 1));
-        const double column = depth / kDeepest * (kDepths - 1);
+        const double column = deep_place(depth) / deep_place(kDeepest) * (kDepths - 1);
         const auto r = std::min(static_cast<std::size_t>(row), kPlaces - 2),
                    c = std::min(static_cast<std::size_t>(column), kDepths - 2);
         const double s = row - static_cast<double>(r), t = column - static_cast<double>(c);
@@ -149,18 +158,92 @@ struct ScratchBenchRow {
     double bytes = 0, ns = 0, p95 = 0, most = 0, negative = 0;
 };
 
-/// Methods against exact colours; white is the full lobe at mean depth.
+/// A point light on a scratch of a width and a depth, seen at xi_2 across it.
+struct PointCase {
+    double width_um, xi2, depth_um;
+};
+
+/// Where u = W xi_2 is above 0.3 um: below, tables of the transform cancel.
+std::vector<PointCase> random_points(std::uint64_t count, std::uint64_t seed) {
+    constexpr double kLeast_um = 0.3;
+    Random random(seed);
+    std::vector<PointCase> points;
+    while (points.size() < count) {
+        const PointCase one{random.uniform(0.8, 6), random.uniform(-1, 1), random.uniform(0.05, 3)};
+        if (std::abs(one.width_um * one.xi2) > kLeast_um) points.push_back(one);
+    }
+    return points;
+}
+
+/// Per W^2, of which the lobe's middle at mean depth is 4 nu^2.
+Triple point_by_nodes(const SpectralNodes& nodes, const PointCase& light) {
+    Triple sum{};
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double nu = nodes.nu_per_um[i], x = kPi * light.width_um * light.xi2 * nu,
+                     amplitude =
+                         nu * sinc_of(x, std::sin(x)) * std::sin(kTwoPi * light.depth_um * nu);
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] += 8 * nodes.weight[c][i] * amplitude * amplitude;
+    }
+    return sum;
+}
+
+/// Real parts of the transform as a texture of one row, read as a shader reads it.
+class TransformTexture {
+public:
+    explicit TransformTexture(const Sensitivity& sensitivity) : texels_(kCount) {
+        constexpr double kNmPerUm = 1000;
+        const SensitivityTransform transform(sensitivity, kLongest_um * kNmPerUm, 1e-12);
+        for (std::size_t i = 0; i < kCount; ++i) {
+            const ComplexTriple h = transform(kLongest_um * kNmPerUm * static_cast<double>(i) /
+                                              static_cast<double>(kCount - 1));
+            for (std::size_t c = 0; c < 3; ++c) texels_[i][c] = static_cast<float>(h[c].real());
+        }
+    }
+    double bytes() const { return kCount * 16.0; }
+
+    Triple operator()(const PointCase& light) const {
+        const double u = std::abs(light.width_um * light.xi2), v = 2 * light.depth_um;
+        const Triple zero = at(0), of_u = at(u), of_v = at(v), sum = at(u + v),
+                     difference = at(std::abs(u - v));
+        const double scale = 2 / (kPi * kPi * u * u);
+        Triple value{};
+        for (std::size_t c = 0; c < 3; ++c)
+            value[c] = scale * (zero[c] - of_u[c] - of_v[c] + (sum[c] + difference[c]) / 2);
+        return value;
+    }
+
+private:
+    static constexpr std::size_t kCount = 4096;
+    static constexpr double kLongest_um = 24;
+
+    Triple at(double path_um) const {
+        const double place = std::min(path_um / kLongest_um, 1.0) * static_cast<double>(kCount - 1);
+        const std::size_t i = std::min(static_cast<std::size_t>(place), kCount - 2);
+        const double t = place - static_cast<double>(i);
+        Triple value{};
+        for (std::size_t c = 0; c < 3; ++c)
+            value[c] = (1 - t) * texels_[i][c] + t * texels_[i + 1][c];
+        return value;
+    }
+
+    std::vector<std::array<float, 3>> texels_;
+};
+
+/// Methods against exact colours; white is the full lobe, or the middle of the lobe of a point
+/// light, at mean depth.
+template <class Case>
 class ScratchBench {
 public:
-    ScratchBench(const Sensitivity& sensitivity, std::string name, std::vector<SlitLight> lights,
-                 double seconds)
+    template <class Exact>
+    ScratchBench(const Sensitivity& sensitivity, std::string name, std::vector<Case> lights,
+                 double seconds, double white, const Exact& exact)
         : sensitivity_(sensitivity),
           name_(std::move(name)),
           lights_(std::move(lights)),
-          seconds_(seconds) {
-        const SpectralNodes nodes = spectral_nodes(sensitivity, 24);
-        for (const SlitLight& light : lights_)
-            exact_.push_back(color_by_nodes(nodes, light, exact_lobe));
+          seconds_(seconds),
+          white_(white) {
+        for (const Case& light : lights_) exact_.push_back(exact(light));
     }
 
     template <class Method>
@@ -185,16 +268,103 @@ public:
 
 private:
     Triple seen(Triple xyz) const {
-        for (double& value : xyz) value /= 2;
+        for (double& value : xyz) value /= white_;
         return lab(xyz, sensitivity_.white());
     }
 
     const Sensitivity& sensitivity_;
     std::string name_;
-    std::vector<SlitLight> lights_;
-    double seconds_;
+    std::vector<Case> lights_;
+    double seconds_, white_;
     std::vector<Triple> exact_;
 };
+
+void add_points(std::vector<ScratchBenchRow>& rows, const Sensitivity& sensitivity,
+                const std::vector<PointCase>& points, double seconds) {
+    const SpectralNodes exact = spectral_nodes(sensitivity, 24);
+    double white = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i)
+        white += 4 * exact.weight[1][i] * exact.nu_per_um[i] * exact.nu_per_um[i];
+    const ScratchBench<PointCase> bench(
+        sensitivity, "point", points, seconds, white,
+        [&](const PointCase& light) { return point_by_nodes(exact, light); });
+    const PointColors colors(sensitivity);
+    const auto by = [&](const auto& method) {
+        return [&](const PointCase& light) {
+            Triple xyz = method(PointLobe{light.width_um, light.xi2, 2 * light.depth_um});
+            for (double& value : xyz) value /= light.width_um * light.width_um;
+            return xyz;
+        };
+    };
+    bench.add(rows, "exact", 0, by([&](const PointLobe& lobe) { return colors(lobe); }));
+    bench.add(rows, "transform", 0,
+              by([&](const PointLobe& lobe) { return colors.by_transform(lobe); }));
+    const auto add_nodes = [&](const std::string& method, const SpectralNodes& nodes) {
+        bench.add(rows, method, 0,
+                  [&](const PointCase& light) { return point_by_nodes(nodes, light); });
+    };
+    add_nodes("three-wavelengths", three_wavelengths());
+    add_nodes("equal/32", equal_nodes(sensitivity, 32));
+    for (const std::size_t n : {33U, 49U})
+        add_nodes("nodes/" + std::to_string(n), one_panel_nodes(sensitivity, n));
+    const TransformTexture texture(sensitivity);
+    bench.add(rows, "table-f32", texture.bytes(), texture);
+}
+
+/// Nearly ten thousand scratches about a footprint, which a grid finds: time of each, as a colour
+/// by the formulas of infinite ones, and exactly, ends and all, as a value at a wavelength.
+void add_fields(std::vector<ScratchBenchRow>& rows, const Sensitivity& sensitivity,
+                double seconds) {
+    constexpr double kReach_um = 510, kCell_um = 60, kStep_nm = 6, kLongest_um = 0.83;
+    constexpr double kDark = 6.5;  // y from which on exp(-y^2) is below 1e-18
+    constexpr int kFootprintPoints = 16;
+    ScratchedSurface surface;
+    surface.fields = {{4000, {200, 3000}, {0.8, 6}, {0.05, 0.6}, {-180, 180}}};
+    const Footprint footprint{Footprint::Kind::ellipse, {500, 500}, 150, 80, 20};
+    const SkyPair pair{direction_of(19.7, 206.5), direction_of(20, 40)};
+    const std::vector<Scratch> scratches = scratches_near(surface, {500, 500}, 1000);
+    const ScratchGrid grid(scratches, {0, 0}, 1000, 1000, kCell_um, kReach_um);
+    const PointColors colors(sensitivity);
+    const double sigma = surface.optics.coherence_radius_um;
+    const double x = pair.light[0] + pair.view[0], y = pair.light[1] + pair.view[1];
+    const auto color_of = [&](std::span<const std::uint32_t> numbers) {
+        Triple sum{};
+        for (const std::uint32_t number : numbers) {
+            const Scratch& scratch = scratches[number];
+            const double tx = cos_deg(scratch.angle_deg), ty = sin_deg(scratch.angle_deg);
+            const double blur = sigma * std::abs(x * tx + y * ty);
+            if (kTwoPi * blur > kDark * kLongest_um) continue;
+            const FootprintFrame frame = frame_of(footprint, scratch);
+            const double weight = ellipse_mean_by_points(frame.offset_um / sigma,
+                                                         frame.across_um / sigma, kFootprintPoints);
+            const Triple xyz = colors({scratch.width_um, y * tx - x * ty,
+                                       scratch.depth_um * (pair.light[2] + pair.view[2]), blur});
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * xyz[c];
+        }
+        return sum;
+    };
+    std::vector<std::uint32_t> all(scratches.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const std::span<const std::uint32_t> near = grid.near(footprint.center);
+    Triple by_grid = color_of(near), by_all = color_of(all);
+    const double spent = best_seconds(seconds, [&] { by_grid = color_of(near); });
+    ScratchBenchRow row{"field", "grid", 0, spent / static_cast<double>(near.size()) * 1e9};
+    row.bytes = static_cast<double>(4 * (grid.offsets().size() + grid.entries().size()) +
+                                    32 * scratches.size());
+    const double bright = 2 * by_all[1];
+    for (std::size_t c = 0; c < 3; ++c) by_grid[c] /= bright, by_all[c] /= bright;
+    row.most = row.p95 =
+        ciede2000(lab(by_grid, sensitivity.white()), lab(by_all, sensitivity.white()));
+    rows.push_back(row);
+    std::vector<double> wavelength_nm;
+    for (double at = 380; at <= 780; at += kStep_nm) wavelength_nm.push_back(at);
+    const ScratchedScattering scattering(surface, footprint, {}, Execution(1));
+    const double spectrum =
+        best_seconds(seconds, [&] { scattering.brdf(std::array{pair}, wavelength_nm); });
+    rows.push_back({"field", "exact-spectrum", 0,
+                    spectrum * 1e9 / static_cast<double>(scattering.scratches()) /
+                        static_cast<double>(wavelength_nm.size())});
+}
 
 std::vector<ScratchBenchRow> measured(const ScratchBenchOptions& options) {
     const std::uint64_t count =
@@ -207,8 +377,9 @@ std::vector<ScratchBenchRow> measured(const ScratchBenchOptions& options) {
     std::vector<ScratchBenchRow> rows;
     for (const auto& [name, least, most] :
          {std::tuple("wide", 0.2, 0.8), std::tuple("narrow", 0.003, 0.05)}) {
-        const ScratchBench bench(sensitivity, name, random_lights(least, most, count, seed),
-                                 seconds);
+        const ScratchBench<SlitLight> bench(
+            sensitivity, name, random_lights(least, most, count, seed), seconds, 2,
+            [&](const SlitLight& light) { return color_by_nodes(exact, light, exact_lobe); });
         const auto add_nodes = [&](const std::string& method, const SpectralNodes& nodes) {
             bench.add(rows, method, 0, [&](const SlitLight& light) {
                 return color_by_nodes(nodes, light, exact_lobe);
@@ -226,13 +397,15 @@ std::vector<ScratchBenchRow> measured(const ScratchBenchOptions& options) {
         bench.add(rows, "table-carrier-f32", static_cast<double>(wide.bytes()), wide);
         bench.add(rows, "table-slope-f16", static_cast<double>(narrow.bytes()), narrow);
     }
+    add_points(rows, sensitivity, random_points(count, seed), seconds);
+    add_fields(rows, sensitivity, seconds);
     return rows;
 }
 
 tables::Figure scratch_picture(const std::vector<ScratchBenchRow>& rows) {
     constexpr double kLeast = 1e-6;
     tables::Figure figure{.title = "Colours of scratches: run time against error"};
-    for (const std::string light : {"wide", "narrow"}) {
+    for (const std::string light : {"wide", "narrow", "point"}) {
         tables::Panel panel{.title = light + " lights"};
         std::size_t style = 0;
         for (const ScratchBenchRow& row : rows)
@@ -251,7 +424,7 @@ tables::Figure scratch_picture(const std::vector<ScratchBenchRow>& rows) {
             .quantity = "largest CIEDE2000", .logarithmic = true, .first = kLeast, .last = 100};
         figure.panels.push_back(std::move(panel));
     }
-    figure.columns = 2;
+    figure.columns = 3;
     figure.shared_x = figure.shared_y = true;
     return figure;
 }
@@ -286,7 +459,7 @@ int run_scratch_bench(const ScratchBenchOptions& options) {
 
 void add_bench_scratch(CLI::App& bench, Run& run) {
     CLI::App* command = bench.add_subcommand(
-        "scratch", "Run time against error of ways to colour scratches under area lights.");
+        "scratch", "Run time against error of ways to colour scratches under lights.");
     const auto options = std::make_shared<ScratchBenchOptions>();
     command->add_option("-n,--count", options->count, "random scratches and lights, [2, 1e5] [400]")
         ->type_name("N");
@@ -307,7 +480,11 @@ void add_bench_scratch(CLI::App& bench, Run& run) {
                  "exact: closed form in q, exact spectrum; published-fit: the same with VWH18's\n"
                  "eq. 29; three-wavelengths: 650, 510, 475 nm; equal/N: equally spaced from 380\n"
                  "to 780 nm; nodes/N: lut scratch-nodes; table-carrier-f32, table-slope-f16:\n"
-                 "lut scratch --carrier, and with --per-place, 256 x 64, bilinear.\n"
+                 "lut scratch --carrier, and with --per-place, 256 x 64, bilinear. Point lights\n"
+                 "have u = W xi_2 above 0.3 um: transform: five values of H_j; table-f32: those\n"
+                 "of a texture of 4096 texels. field: ten thousand scratches about a footprint,\n"
+                 "per scratch: grid finds them and takes them as infinite ones, of which it skips\n"
+                 "those in the dark; exact-spectrum is per wavelength, of 67, ends and all.\n"
                  "negative: share of colours with a luminance below 0.");
     command->callback([options, &run] { run = [options] { return run_scratch_bench(*options); }; });
 }

@@ -36,7 +36,7 @@ int run_brdf(const BrdfCommand& command) {
     constexpr double kManySamples = 1e8;
     if (!query.samples.empty() && command.output.file.empty() &&
         parse_one_number("--samples", query.samples, 2, 1e12) > kManySamples)
-        throw UsageError("--samples: more than 1e8 require --output, where the rows are kept");
+        throw UsageError("--samples: more than 1e8 require --output FILE");
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
     check_writable(command.output);
     SurfaceRows rows =
@@ -103,6 +103,16 @@ void add_brdf_command(CLI::App& program, Run& run) {
         ->type_name("CHOICE");
     offer(*command, "facets", "sampled filter");
     command
+        ->add_option("--shard", options->query.shard,
+                     "of a simulation: part K of N of the samples only; adds the columns\n"
+                     "first_sample and samples, for --merge")
+        ->type_name("K/N");
+    command
+        ->add_option("--merge", options->query.merge,
+                     "join the CSV files of all shards of the same command, in any order,\n"
+                     "instead of simulating")
+        ->type_name("FILE");
+    command
         ->add_option("--transmission", options->query.transmission,
                      "single: straight light meets one facet of a layer; multiple: as many as\n"
                      "Smith's model has on its way, which loses less at grazing [single]")
@@ -111,6 +121,19 @@ void add_brdf_command(CLI::App& program, Run& run) {
     command->add_flag("--color", options->query.wants_color,
                       "instead of wavelengths columns X,Y,Z,r,g,b,hex: colour of pi times the\n"
                       "BRDF, a white diffuser being 1, or of the albedo");
+    command
+        ->add_option(
+            "--side", options->query.color.sides,
+            "R: reflected light; T: light that one rough layer refracts into its\n"
+            "substrate, --view-theta counting from the normal there and azimuth 180 being\n"
+            "straight on: column btdf_per_sr [R]")
+        ->type_name("SIDE");
+    offer(*command, "side", "R T");
+    command
+        ->add_option("--method", options->query.color.method,
+                     "colours of one rough layer's facets by a method of irido color, such as\n"
+                     "gaussian, fourier or landmarks/3 [auto]")
+        ->type_name("METHOD");
     add_scratch_options(*command, options->query.scratch);
     command->add_flag("--scatterogram", options->query.scatterogram,
                       "two discs of directions seen from above: in a white environment, and pi\n"
@@ -123,8 +146,9 @@ void add_brdf_command(CLI::App& program, Run& run) {
                      "facets would give, [" +
                          to_text(kSmallestTolerance) + ", 1] [" + to_text(kDefaultTolerance) +
                          "]; of --paths all\n"
-                         "where there is no closed form, relative [0.001]; exit status 1 if a\n"
-                         "tolerance that is given cannot be met")
+                         "where there is no closed form, relative [0.001]; of simulations the\n"
+                         "largest standard error, relative (of colours as above), instead of\n"
+                         "--samples; exit status 1 if a tolerance that is given cannot be met")
         ->type_name("T");
     add_output_options(*command, options->output,
                        record_formats_text(RecordTarget::stream_or_picture));

@@ -223,7 +223,7 @@ int run_compare(const CompareCommand& command) {
     if (!command.lut.empty()) {
         if (!command.films.empty() || !command.gltf.empty() || command.fit ||
             !command.vary.empty() || !command.typed.angles.empty())
-            throw UsageError("--lut: takes a STACK, --random, --seed and --rows only");
+            throw UsageError("--lut: can be combined with STACK, --random, --seed and --rows only");
         return compare_table(command);
     }
     if (!command.gltf.empty()) {

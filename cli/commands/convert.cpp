@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "cli/options/command.hpp"
 #include "core/error.hpp"
@@ -44,8 +45,8 @@ Target resolved_target(const OutputOptions& output) {
             return {false, format};
         throw UsageError(
             "--output: the extension must be json, txt for an expression, dat (Zemax), ofp "
-            "(OpenFilters) or csv (a list of layers) (got " +
-            name + ")");
+            "(OpenFilters) or csv (a list of layers) (got '" +
+            name + "')");
     }
     std::vector<std::string_view> names{"json", "expression"};
     for (const schemas::StackFormat& format : schemas::stack_formats()) {
@@ -113,11 +114,13 @@ schemas::StackSource load(const ConvertCommand& command) {
     return source;
 }
 
-/// Throws UsageError if a file beside the output is there with something else in it.
-void require_free(const std::string& path, const std::string& text) {
+/// Whether a file beside the output is there. Throws UsageError if it has something else in it.
+bool is_there(const std::string& path, const std::string& text) {
     std::error_code ignored;
-    if (std::filesystem::exists(path, ignored) && schemas::read_own_file(path) != text)
+    if (!std::filesystem::exists(path, ignored)) return false;
+    if (schemas::read_own_file(path) != text)
         throw UsageError(path + ": exists and differs; choose another folder");
+    return true;
 }
 
 int write_other(const ConvertCommand& command, const schemas::StackFormat& format,
@@ -126,22 +129,23 @@ int write_other(const ConvertCommand& command, const schemas::StackFormat& forma
     if (!command.range.empty()) {
         const std::size_t colon = command.range.find(':');
         if (colon == std::string::npos)
-            throw UsageError("--range: must be FIRST:LAST in nm (got " + command.range + ")");
+            throw UsageError("--range: must be FIRST:LAST in nm (got '" + command.range + "')");
         options.range = {parse_one_number("--range", command.range.substr(0, colon), 1, 1e7),
                          parse_one_number("--range", command.range.substr(colon + 1), 1, 1e7)};
     }
     const schemas::WrittenStack written = format.write(document.stack, options);
     const bool is_file = !command.output.file.empty();
     const std::filesystem::path folder = std::filesystem::path(command.output.file).parent_path();
+    std::set<std::string> kept;
     for (const auto& [name, text] : written.beside)
-        if (is_file) require_free(folder / name, text);
+        if (is_file && is_there(folder / name, text)) kept.insert(name);
     for (const std::string& loss : written.losses)
         note(std::string(format.program) + " cannot hold: " + loss, command.quiet);
     for (const auto& [name, text] : written.beside) {
         if (is_file) {
-            tables::write_file(folder / name, text);
+            if (!kept.contains(name)) tables::write_file(folder / name, text);
         } else {
-            note(name + " is not written: it needs --output FILE", command.quiet);
+            note(name + " is not written: it requires --output FILE", command.quiet);
         }
     }
     write_bytes(written.text, command.output, false);

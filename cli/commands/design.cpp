@@ -144,28 +144,31 @@ void check_outputs(const DesignCommand& command) {
     for (const std::string& file : {command.output.file, command.report, command.plot.value_or("")})
         if (!file.empty()) files.push_back(file);
     tables::check_outputs(files);
-    if (!command.report.empty()) resolved_record_format({command.report, ""});
+    check_report(command.report);
 }
 
 /// The best of the results of shards, with the runs of all.
 int merge_designs(const DesignCommand& command) {
     if (!command.task.task.empty() || !command.task.refine.empty() || !command.shard.empty())
-        throw UsageError("--merge: takes no task");
+        throw UsageError("--merge: cannot be combined with TASK, --refine and --shard");
     json best;
     std::vector<double> runs;
     double evaluations = 0, run_count = 0;
     std::string folder;
     for (const std::string& file : command.merge) {
         json one = schemas::parse_json(schemas::read_text(file), schemas::shown_path(file));
-        const json design = one.is_object() ? one.value("design", json::object()) : json::object();
-        if (!design.contains("merit") || !design.contains("best_of_runs"))
+        try {
+            const json& design = one.at("design");
+            for (const json& run : design.at("best_of_runs"))
+                runs.push_back(run.is_number() ? run.get<double>() : run.value("merit", 0.0));
+            evaluations += design.value("evaluations", 0.0);
+            run_count += design.value("runs", 0.0);
+            const double merit = design.at("merit").get<double>();
+            if (!best.is_null() && merit >= best["design"]["merit"]) continue;
+        } catch (const json::exception&) {  // keys that are missing or of another type
             throw schemas::InputError(schemas::shown_path(file), "/design",
                                       "must be the result of a search by irido design");
-        for (const json& run : design["best_of_runs"])
-            runs.push_back(run.is_number() ? run.get<double>() : run.value("merit", 0.0));
-        evaluations += design.value("evaluations", 0.0);
-        run_count += design.value("runs", 0.0);
-        if (!best.is_null() && design["merit"] >= best["design"]["merit"]) continue;
+        }
         best = std::move(one);
         folder = std::filesystem::path(file).parent_path().string();
     }
@@ -235,9 +238,11 @@ void add_design_command(CLI::App& program, Run& run) {
     add_task_options(*command, options->task);
     add_needle_options(*command, options->task);
     command
-        ->add_option("-o,--output", options->output.file,
-                     "write the stack there (.json) instead of to standard output; after\n"
-                     "Ctrl-C the best so far")
+        ->add_option_function<std::string>(
+            "-o,--output",
+            [options](const std::string& file) { options->output.file = file == "-" ? "" : file; },
+            "write the stack there (.json), - being standard output; after Ctrl-C the\n"
+            "best so far [-]")
         ->type_name("FILE");
     command
         ->add_option("--report", options->report,

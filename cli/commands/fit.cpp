@@ -24,6 +24,7 @@ struct FitCommand {
     TaskOptions task;
     OutputOptions stack;  ///< where it goes, if anywhere
     OutputOptions table;  ///< of the parameters
+    bool prints_stack = false;
     std::string report;
     std::optional<std::string> plot;
     bool correlation = false;
@@ -75,7 +76,8 @@ void note_fit(const schemas::DesignTask& task, const FitResult& result, bool qui
     for (std::size_t i = 0; i < size; ++i) {
         if (free[i].is_integer) continue;
         if (!std::isfinite(result.standard_error[i]))
-            note("the data do not tell " + free[i].name + ": its stderr is infinite, and left out",
+            note("the data do not determine " + free[i].name +
+                     ": its stderr is infinite and left empty",
                  quiet);
         if (free[i].low < free[i].high &&
             (result.x[i] == free[i].low || result.x[i] == free[i].high))
@@ -128,7 +130,7 @@ int run_fit(const FitCommand& command) {
     for (const std::string& file : {command.stack.file, command.report, command.plot.value_or("")})
         if (!file.empty()) files.push_back(file);
     tables::check_outputs(files);
-    if (!command.report.empty()) resolved_record_format({command.report, ""});
+    check_report(command.report);
     const SearchEnd end(task.time_s);
     const FitResult result = fitted(task, end, command);
     if (end.signal() != 0 && command.stack.file.empty()) return 128 + end.signal();
@@ -146,7 +148,7 @@ int run_fit(const FitCommand& command) {
         if (std::isfinite(result.standard_error[i]))
             design["stderr"][task.problem.free[i].name] = result.standard_error[i];
     const std::string text =
-        command.stack.file.empty()
+        command.stack.file.empty() && !command.prints_stack
             ? ""
             : designed_text(task, result.x, std::move(design), command.stack.file);
     std::string picture;
@@ -157,6 +159,7 @@ int run_fit(const FitCommand& command) {
     if (!command.report.empty()) write_records(report, {command.report, ""});
     if (command.plot) tables::write_file(*command.plot, picture);
     if (end.signal() != 0) return 128 + end.signal();
+    if (command.prints_stack) return 0;
     write_records(parameter_table(task, result, command.correlation), command.table);
     return 0;
 }
@@ -169,8 +172,14 @@ void add_fit_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<FitCommand>();
     add_task_options(*command, options->task);
     command
-        ->add_option("-o,--output", options->stack.file,
-                     "also write the fitted stack there (.json)")
+        ->add_option_function<std::string>(
+            "-o,--output",
+            [options](const std::string& file) {
+                options->prints_stack = file == "-";
+                options->stack.file = file == "-" ? "" : file;
+            },
+            "also write the fitted stack there (.json); - prints it instead of the\n"
+            "table")
         ->type_name("FILE");
     add_format_option(*command, options->table.format, record_formats_text());
     command->add_flag("--correlation", options->correlation,

@@ -31,21 +31,21 @@ struct LutBrdfCommand {
 
 /// "binary" or "bsdf".
 std::string measured_format(const OutputOptions& output) {
+    if (output.file.empty() && output.format.empty())
+        throw UsageError("--output: is required: FILE.binary (MERL) or FILE.bsdf");
     const std::string typed = resolved_format(output), name = typed == "merl" ? "binary" : typed;
     constexpr std::array<std::string_view, 3> names{"binary", "merl", "bsdf"};
     if (name != "binary" && name != "bsdf")
         throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                          not_one_of(names, typed));
-    if (output.file.empty())
-        throw UsageError("--output: is required: FILE.binary (MERL) or FILE.bsdf");
     return name;
 }
 
 const LayeredSurface& layered(const schemas::SurfaceDocument& document) {
     if (const auto* surface = std::get_if<LayeredSurface>(&document.surface)) return *surface;
-    throw schemas::InputError(document.file, "",
-                              "tables of BRDFs are of layered surfaces, which look the same "
-                              "everywhere and from every azimuth");
+    throw schemas::InputError(
+        document.file, "",
+        "must be a layered surface: the BRDF of a scratched one depends on place and azimuth");
 }
 
 std::string merl_bytes(const LayeredScattering& scattering, const ColorColumns& colors,
@@ -111,8 +111,8 @@ int run_lut_brdf(const LutBrdfCommand& command) {
                                            query.execution);
         if (query.paths == "all" && !scattering.is_closed())
             throw UsageError(
-                "--paths all: tables take it where it has a closed form, of one layer without a "
-                "coating, or of a base alone");
+                "--paths all: requires a closed form: one layer without a coating, or a base "
+                "alone");
         write_bytes(format == "binary" ? merl_bytes(scattering, colors, query)
                                        : bsdf_bytes(scattering, document, command, query),
                     command.output, true);

@@ -134,7 +134,7 @@ int run_lut_layered(const LutLayeredCommand& command) {
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
     check_writable(command.output);
     const auto* read = std::get_if<LayeredSurface>(&document.surface);
-    if (!read) throw schemas::InputError(document.file, "", "lut layered takes layered surfaces");
+    if (!read) throw schemas::InputError(document.file, "", "must be a layered surface");
     const Sensitivity& sensitivity = colors.illumination().tables.sensitivity();
     LayeredSurface surface = *read;
     report_held_layers(surface, document, sensitivity, query);
@@ -145,8 +145,8 @@ int run_lut_layered(const LutLayeredCommand& command) {
         const LayeredScattering scattering(surface, crossings, query.execution);
         if (query.paths == "all" && !scattering.is_closed())
             throw UsageError(
-                "--paths all: tables take it where it has a closed form, of one layer without a "
-                "coating, or of a base alone");
+                "--paths all: requires a closed form: one layer without a coating, or a base "
+                "alone");
         const SampleRule rule = equal_rule(sensitivity, kBandWavelengths);
         const auto bands_of = [&](std::size_t count) {
             return layered_bands(scattering, sensitivity, rule, paths, crossings, count, angles,

@@ -40,7 +40,7 @@ enum class RenderFormat { png, exr };
 
 RenderFormat render_format(const RenderCommand& command) {
     if (command.output.file.empty() && command.output.format.empty())
-        throw UsageError("--output: must name a picture, .png or .exr");
+        throw UsageError("--output: must name a picture, .png or .exr, or be given with --format");
     const std::string name = resolved_format(command.output);
     if (name != "png" && name != "exr")
         throw UsageError(

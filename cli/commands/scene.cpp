@@ -16,6 +16,7 @@
 #include "tables/files/atomic_file.hpp"
 #include "tables/shaders/scene/bake.hpp"
 #include "tables/shaders/scene/scene_error.hpp"
+#include "tables/shaders/scene/scratched_material.hpp"
 
 namespace irido::cli {
 
@@ -58,6 +59,7 @@ std::size_t samples_of_entry(const json& entry) {
 /// Bytes of a table's numbers, without headers and metadata.
 std::size_t bytes_of_entry(const json& entry, const std::string& format) {
     if (entry.contains("values")) return 0;
+    if (entry["kind"] == tables::kGridKind) return entry["bytes"].get<std::size_t>();
     std::size_t channels = entry["channels"].size();
     if (format == "ktx2" && channels % 3 == 0) channels = channels / 3 * 4;
     const std::string type = entry["dtype"].get<std::string>();
@@ -98,6 +100,10 @@ std::optional<double> delta_e_of(const schemas::Scene& scene, const tables::Scen
     if (loss.delta_e) return loss.delta_e;
     if (loss.what == "dispersion")
         return tables::dispersion_difference(scene, scene.materials[m], execution);
+    if (loss.what == tables::kProductOfColors)
+        return tables::product_difference(
+            scene, *scene.materials[m].scratches,
+            tables::color_request_of(scene, scene.materials[m], execution));
     if (plan.materials[m].shading != schemas::Shading::fourier ||
         loss.what != tables::kPastCriticalAngle)
         return std::nullopt;
@@ -213,7 +219,11 @@ std::string text_of(const PlannedScene& scene) {
     }
     cells.push_back({"total", "", "", "", to_text(bytes), to_text(samples), "", ""});
     std::string out = aligned(cells);
-    std::vector<std::vector<std::string>> losses, skipped;
+    std::vector<std::vector<std::string>> losses, skipped, forms;
+    for (const tables::MaterialPlan& material : scene.plan.materials)
+        for (const tables::MaterialPlan::Use& use : material.tables)
+            if (!use.why.empty() && !scene.faults.contains(material.name))
+                forms.push_back({"  " + material.name, use.role, use.why});
     for (const tables::Omission& omission : all_omissions(scene)) {
         const std::string material = "  " + omission.material;
         if (omission.kind == tables::Omission::Kind::loss)
@@ -221,6 +231,7 @@ std::string text_of(const PlannedScene& scene) {
         if (omission.kind == tables::Omission::Kind::skipped)
             skipped.push_back({material, omission.what, omission.reason});
     }
+    if (!forms.empty()) out += "chosen:\n" + aligned(forms);
     if (!losses.empty()) out += "losses:\n" + aligned(losses);
     if (!skipped.empty()) out += "skipped:\n" + aligned(skipped);
     if (!scene.stale.empty()) out += "stale, removed by bake --prune:\n";
@@ -229,7 +240,13 @@ std::string text_of(const PlannedScene& scene) {
 }
 
 json json_of(const PlannedScene& scene) {
-    json tables = json::array(), skipped = json::array(), losses = json::array();
+    json tables = json::array(), skipped = json::array(), losses = json::array(),
+         chosen = json::array();
+    for (const tables::MaterialPlan& material : scene.plan.materials)
+        for (const tables::MaterialPlan::Use& use : material.tables)
+            if (!use.why.empty() && !scene.faults.contains(material.name))
+                chosen.push_back(
+                    {{"material", material.name}, {"role", use.role}, {"reason", use.why}});
     for (const PlanRow& row : scene.rows)
         tables.push_back({{"materials", row.materials},
                           {"role", row.role},
@@ -250,11 +267,8 @@ json json_of(const PlannedScene& scene) {
     for (const auto& [name, all] : scene.faults)
         for (const schemas::SceneFault& fault : all)
             faults[name].push_back({{"pointer", fault.pointer}, {"reason", fault.reason}});
-    return {{"tables", tables},
-            {"losses", losses},
-            {"skipped", skipped},
-            {"stale", scene.stale},
-            {"faults", faults}};
+    return {{"tables", tables},   {"chosen", chosen},     {"losses", losses},
+            {"skipped", skipped}, {"stale", scene.stale}, {"faults", faults}};
 }
 
 std::string axis_text(const json& axis) {
@@ -280,15 +294,22 @@ std::string explained(const schemas::Scene& scene, const PlannedScene& planned,
     std::string out = name + ": shading " + std::string(name_of(plan.shading)) + ", angles " +
                       to_text(material->angles_deg.first) + " to " +
                       to_text(material->angles_deg.last) + " degrees\n";
-    out += "  stack " + schemas::canonical_stack(material->document.stack).dump() + "\n";
+    if (!material->document.stack.materials.empty())
+        out += std::string(material->scratches ? "  base " : "  stack ") +
+               schemas::canonical_stack(material->document.stack).dump() + "\n";
     for (const schemas::VariedRange& vary : material->vary)
         out += "  varies " + vary.path + " from " + to_text(vary.range.first) + " to " +
                to_text(vary.range.last) + "\n";
     for (const tables::MaterialPlan::Use& use : plan.tables) {
         const tables::SceneTable& table = planned.plan.tables[use.table];
         const auto entry = planned.entries.find(table.id);
-        out += "  table " + use.role + ": " + table.file + ", interpolation error at most " +
-               to_text(*table.making.sizing.tolerance) + "\n";
+        out += "  table " + use.role + ": " + table.file +
+               (table.grid
+                    ? ", of " + to_text(static_cast<double>(table.grid->scratches.size())) +
+                          " scratches"
+                    : ", interpolation error at most " + to_text(*table.making.sizing.tolerance)) +
+               "\n";
+        if (!use.why.empty()) out += "    " + use.why + "\n";
         if (entry == planned.entries.end()) continue;
         for (const json& axis : entry->second["axes"]) out += axis_text(axis);
         const json& error = entry->second["error"];
@@ -356,7 +377,7 @@ void note_long_bake(const schemas::Scene& scene, const tables::ScenePlan& plan,
     const double share = 1 / static_cast<double>(std::max<std::size_t>(1, plan.tables.size()));
     double seconds = 0;
     for (const tables::SceneTable& table : plan.tables) {
-        if (!command.force && before.tables.contains(table.id)) continue;
+        if (table.grid || (!command.force && before.tables.contains(table.id))) continue;
         if (is_slow(*table.kind, table.request)) return say(kSlowNote);
         try {
             tables::LutMaking making = table.making;

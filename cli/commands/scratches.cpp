@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 
 #include "cli/exit_status.hpp"
 #include "cli/options/command.hpp"
 #include "cli/options/surface_options.hpp"
-#include "core/scratch/field.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
@@ -32,23 +30,6 @@ std::array<double, 2> parse_two(const char* option, const std::string& text, dou
         throw UsageError(std::string(option) + ": must be two numbers in um (got '" + text + "')");
     return {parse_one_number(option, std::string(parts[0]), lowest, kLargestExtent_um),
             parse_one_number(option, std::string(parts[1]), lowest, kLargestExtent_um)};
-}
-
-/// Distance of an axis from a rectangle's centre, minus half its diagonal, is below the reach.
-std::vector<Scratch> scratches_of(const ScratchedSurface& surface,
-                                  const tables::GridExtent& extent) {
-    const SurfacePoint center{extent.origin.x_um + extent.width_um / 2,
-                              extent.origin.y_um + extent.height_um / 2};
-    const double radius = std::hypot(extent.width_um, extent.height_um) / 2 + extent.reach_um;
-    std::vector<Scratch> found;
-    for (const Scratch& scratch : surface.scratches)
-        if (distance_um(scratch, center) <= radius) found.push_back(scratch);
-    for (std::size_t i = 0; i < surface.fields.size(); ++i) {
-        const auto drawn = scratches_near(surface.fields[i], surface.seed,
-                                          static_cast<std::uint32_t>(i), center, radius);
-        found.insert(found.end(), drawn.begin(), drawn.end());
-    }
-    return found;
 }
 
 tables::Records records_of(const std::vector<Scratch>& scratches) {
@@ -87,13 +68,14 @@ int run_scratches(const ScratchesCommand& command) {
     extent.cell_um = parse_one_number("--cell", command.cell, 1e-3, kLargestExtent_um);
     check_writable(command.output);
     try {
-        const std::vector<Scratch> scratches = scratches_of(*surface, extent);
+        const std::vector<Scratch> scratches = tables::scratches_within(*surface, extent);
         if (command.grid.empty()) {
             write_records(records_of(scratches), command.output);
             return 0;
         }
         if (!command.output.file.empty())
             throw UsageError("--grid: cannot be combined with --output");
+        if (command.grid == "-") throw UsageError("--grid: must name a file");
         tables::check_outputs({command.grid + ".json", command.grid});
         const tables::GridFile file = tables::grid_file(scratches, extent);
         tables::write_file(command.grid + ".json", file.header.dump(2) + "\n");

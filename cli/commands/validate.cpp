@@ -17,6 +17,7 @@
 #include "tables/lut/lut_metadata.hpp"
 #include "tables/shaders/scene/bake.hpp"
 #include "tables/shaders/scene/manifest.hpp"
+#include "tables/shaders/scene/scene_problems.hpp"
 
 namespace irido::cli {
 

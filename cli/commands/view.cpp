@@ -22,13 +22,12 @@ struct ViewCommand {
 
 int run_view(const ViewCommand& command) {
     if (command.output.file.empty() && command.output.format.empty())
-        throw UsageError("--output: must name a page, .html");
+        throw UsageError("--output: must name a page, .html, or be given with --format");
     if (const std::string format = resolved_format(command.output); format != "html")
         throw UsageError(
             (command.output.format.empty() ? "--output: the extension " : "--format: ") +
-            std::string("must be html (got ") + format + ")");
-    if (command.stack.reverse)
-        throw UsageError("--reverse: a page shows the stack as it is written");
+            std::string("must be html (got '") + format + "')");
+    if (command.stack.reverse) throw UsageError("--reverse: not supported by pages");
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     const schemas::StackSource source = schemas::load_stack(command.stack);
     refuse_other_documents(source, "shown on a page");

@@ -176,8 +176,8 @@ std::vector<double> parse_weights(const std::string& text, std::size_t angles) {
     if (text.empty()) return std::vector<double>(angles, 1);
     const std::vector<double> weights = parse_list("--weights", text, 0, 1e9);
     if (weights.size() != angles)
-        throw UsageError("--weights: must be as many as there are angles, " +
-                         std::to_string(angles) + " (got " + std::to_string(weights.size()) + ")");
+        throw UsageError("--weights: must have one value per angle, " + std::to_string(angles) +
+                         " (got " + std::to_string(weights.size()) + ")");
     if (std::ranges::max(weights) == 0) throw UsageError("--weights: must not all be 0");
     return weights;
 }
@@ -235,8 +235,8 @@ void check_material_format(const std::string& format, const std::string& engine)
     const auto of = std::ranges::find(material_formats(), format, &MaterialFormat::name);
     if (std::ranges::find(of->engines, engine) == of->engines.end())
         throw UsageError("--format: " + format + " requires --engine " +
-                         joined({of->engines.begin(), of->engines.end()}, " or ") + " (got " +
-                         engine + ")");
+                         joined({of->engines.begin(), of->engines.end()}, " or ") + " (got '" +
+                         engine + "')");
 }
 
 std::string material_text(const std::string& format, const NamedFit& fit, const std::string& name) {

@@ -17,6 +17,7 @@
 #include "core/math/random.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/text_file.hpp"
 #include "tables/lut/lut_file.hpp"
 
 namespace irido::cli {
@@ -94,6 +95,7 @@ private:
 
 tables::Lut read_color_table(const std::string& file) {
     tables::Lut lut = tables::read_lut(file);
+    for (const char* const suffix : {"", ".json"}) schemas::mark_as_input(file + suffix);
     if (lut.kind != "color")
         throw UsageError("--lut: " + file + ": must be a table of kind color (got " + lut.kind +
                          ")");

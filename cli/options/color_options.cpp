@@ -103,7 +103,7 @@ ColorMethod parse_method(const std::string& text) {
     }
     if (slash == std::string::npos) return {method->kind, method->by_itself};
     if (method->most == 0)
-        throw UsageError("--method: " + name + " takes no number (got " + text + ")");
+        throw UsageError("--method: " + name + " takes no number (got '" + text + "')");
     return {method->kind,
             method->more + static_cast<std::size_t>(parse_whole_number(
                                "--method: the number of " + name, text.substr(slash + 1),
@@ -116,11 +116,11 @@ ColorMethod parse_method(const ColorOptions& options) {
     const auto number = [&](const std::string& flag, const std::string& typed,
                             ColorMethod::Kind kind, double fewest, double most) {
         if (method.kind != kind)
-            throw UsageError(flag + ": requires --method " + name_of(ColorMethod{kind}) + " (got " +
-                             options.method + ")");
+            throw UsageError(flag + ": requires --method " + name_of(ColorMethod{kind}) +
+                             " (got '" + options.method + "')");
         if (has_number)
-            throw UsageError(flag + ": conflicts with the number in --method (got " +
-                             options.method + ")");
+            throw UsageError(flag + ": conflicts with the number in --method (got '" +
+                             options.method + "')");
         return static_cast<std::size_t>(parse_whole_number(flag, typed, fewest, most));
     };
     if (!options.subdivide.empty())
@@ -133,12 +133,12 @@ ColorMethod parse_method(const ColorOptions& options) {
 std::optional<Triple> parse_base_color(const ColorOptions& options) {
     if (options.base_color.empty()) return {};
     if (parse_method(options.method).kind != gltf)
-        throw UsageError("--base-color: requires --method gltf (got " + options.method + ")");
+        throw UsageError("--base-color: requires --method gltf (got '" + options.method + "')");
     const std::vector<double> typed = parse_list("--base-color", options.base_color, 0, 1);
     Triple rgb{};
     if (typed.size() != rgb.size() || options.base_color.find(':') != std::string::npos)
-        throw UsageError("--base-color: must be three numbers R,G,B (got " + options.base_color +
-                         ")");
+        throw UsageError("--base-color: must be three numbers R,G,B (got '" + options.base_color +
+                         "')");
     std::ranges::copy(typed, rgb.begin());
     return rgb;
 }

@@ -122,7 +122,9 @@ private:
 
     void value_of(const CLI::Option& option) {
         if (has_value()) {
-            if (std::string_view(words_[at_++]).empty()) empty(option);
+            const std::string_view value = words_[at_++];
+            const bool is_stream = value == "-" && option.get_type_name() == "DIR";
+            if (value.empty() || is_stream) empty(option);
         } else if (option.get_items_expected_min() > 0) {
             fail(name_of(option) + ": requires a value, " + option.get_type_name());
         }

@@ -28,6 +28,8 @@ ConeSize parse_cone(const ConeOptions& options, std::span<const double> angles_d
         throw UsageError("--cone and --f-number are mutually exclusive");
     if (!options.half_angle.empty())
         size.half_angle_deg = parse_one_number("--cone", options.half_angle, 0, kLargestAngle_deg);
+    constexpr double kNarrowest_deg = 1e-12;  // roundings of the axis: a ray
+    if (size.half_angle_deg < kNarrowest_deg) size.half_angle_deg = 0;
     constexpr double kLeast = 1e-3, kMost = 1e6;
     if (!options.f_number.empty()) {
         size.f_number = parse_one_number("--f-number", options.f_number, 0, kMost);

@@ -57,7 +57,7 @@ json value_of_target(const std::string& text, const std::string& quantity, std::
 
 json typed_or_file(const TaskOptions& options) {
     if (!options.refine.empty() && !options.task.empty())
-        throw UsageError("--refine STACK takes the place of TASK");
+        throw UsageError("--refine STACK replaces TASK: give one of them");
     const std::string& path = options.refine.empty() ? options.task : options.refine;
     if (path.empty()) throw UsageError("TASK is required, or --refine STACK (see --help)");
     if (path.find('|') != std::string::npos) return json{{"stack", path}};
@@ -206,11 +206,21 @@ schemas::DesignTask read_task(const TaskOptions& options) {
     if (!options.min_thickness.empty())
         document["min_thickness_nm"] =
             parse_one_number("--min-thickness", options.min_thickness, 0, 1e4);
-    if (!document.contains("free")) throw UsageError("nothing is free: --free is required");
-    if (!document.contains("targets")) throw UsageError("there is no target: --target is required");
+    const std::string file = is_expression ? "\"" + path + "\"" : schemas::shown_path(path);
+    if (!document.contains("free"))
+        throw schemas::InputError(file, "", "must have the key \"free\", or come with --free");
+    if (!document.contains("targets"))
+        throw schemas::InputError(file, "", "must have the key \"targets\", or come with --target");
     return schemas::read_design(
-        document, is_expression ? "\"" + path + "\"" : schemas::shown_path(path),
-        is_expression ? "" : std::filesystem::path(path).parent_path().string());
+        document, file, is_expression ? "" : std::filesystem::path(path).parent_path().string());
+}
+
+void check_report(const std::string& file) {
+    if (file.empty()) return;
+    if (std::filesystem::path(file).extension().empty())
+        throw UsageError("--report: must have an extension that names the format (got " +
+                         schemas::in_quotes(file) + ")");
+    resolved_record_format({file, ""});
 }
 
 void note_task(const schemas::DesignTask& task, bool quiet) {

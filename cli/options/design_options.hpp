@@ -34,6 +34,9 @@ nlohmann::json parse_target(const std::string& text);
 /// Reads the task. Throws UsageError or InputError.
 schemas::DesignTask read_task(const TaskOptions& options);
 
+/// Checks the name of the file for a report, if there is one. Throws UsageError.
+void check_report(const std::string& file);
+
 /// Notes of the task, and materials that colours hold beyond their range.
 void note_task(const schemas::DesignTask& task, bool quiet);
 

@@ -173,7 +173,9 @@ std::vector<Directions> parse_directions(const DirectionOptions& options) {
 
 std::vector<double> parse_light_thetas(const DirectionOptions& options) {
     if (!options.file.empty())
-        throw UsageError("--directions: takes --quantity brdf; others have --light-theta alone");
+        throw UsageError(
+            "--directions: requires --quantity brdf; other quantities depend on --light-theta "
+            "alone");
     return parse_list("--light-theta", options.light_theta, 0, kGrazing_deg);
 }
 

@@ -87,7 +87,7 @@ ColorTarget::ColorTarget(const std::string& text, const RgbSpace& space)
     constexpr double kMostLightness = 1000, kMostChroma = 1000;
     const std::vector<std::string_view> parts = comma_separated(text);
     if (parts.size() != 3)
-        throw UsageError("--target: must be #rrggbb or L,a,b (got " + text + ")");
+        throw UsageError("--target: must be #rrggbb or L,a,b (got '" + text + "')");
     for (std::size_t i = 0; i < 3; ++i)
         value_[i] = i == 0 ? parse_one_number("--target: L", parts[0], 0, kMostLightness)
                            : parse_one_number(i == 1 ? "--target: a" : "--target: b", parts[i],

@@ -3,12 +3,15 @@
 #include <cstdio>
 #include <string_view>
 
+#include "cli/queries/layered_simulation.hpp"
 #include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
+#include "core/color/held_stack.hpp"
 #include "core/error.hpp"
+#include "core/math/constants.hpp"
 #include "core/rough/layered/adding.hpp"
 #include "core/rough/layered/layered_color.hpp"
-#include "core/rough/walk/simulation.hpp"
+#include "core/rough/layered/refracted_light.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido::cli {
@@ -51,40 +54,6 @@ std::string two_digits(double value) {
     return text.data();
 }
 
-bool is_simulated(const SurfaceQuery& query) {
-    return query.paths.starts_with("simulation");
-}
-
-SimulationRequest parse_simulation(const SurfaceQuery& query, Crossings crossings) {
-    constexpr double kMostSamples = 1e12, kMostSeed = 9007199254740992;
-    constexpr std::array<std::string_view, 2> choices{"sampled", "filter"};
-    SimulationRequest request;
-    request.paths = parse_paths(query.paths);
-    request.crossings = crossings;
-    if (!query.samples.empty())
-        request.samples = parse_whole_number("--samples", query.samples, 2, kMostSamples);
-    if (!query.seed.empty()) request.seed = parse_whole_number("--seed", query.seed, 0, kMostSeed);
-    if (query.facets == choices[1])
-        request.facets = FacetChoice::filter;
-    else if (!query.facets.empty() && query.facets != choices[0])
-        throw UsageError("--facets: " + not_one_of(choices, query.facets));
-    if (crossings == Crossings::multiple && request.facets == FacetChoice::sampled)
-        throw UsageError("--transmission multiple: a simulation takes it with --facets filter");
-    if (!query.color.tolerance.empty())
-        throw UsageError("--tolerance: a simulation takes --samples instead");
-    return request;
-}
-
-/// Throws UsageError if options of simulations were typed for none.
-void require_no_simulation(const SurfaceQuery& query) {
-    for (const auto& [name, typed] : {std::pair("--samples", &query.samples),
-                                      {"--seed", &query.seed},
-                                      {"--facets", &query.facets}})
-        if (!typed->empty())
-            throw UsageError(std::string(name) +
-                             ": requires --paths simulation or simulation-single");
-}
-
 using Numbers = tables::Column::Numbers;
 
 std::vector<ScatterPair> pairs_of(const std::vector<Directions>& directions) {
@@ -117,37 +86,168 @@ void check_tolerance(const schemas::SurfaceDocument& document, const SurfaceQuer
                 to_text(color.error));
 }
 
+bool wants_transmission(const SurfaceQuery& query) {
+    if (query.color.sides == "R") return false;
+    if (query.color.sides == "T") return true;
+    throw UsageError("--side: must be R or T (got '" + query.color.sides + "')");
+}
+
+/// The only layer of a surface whose light is refracted into its substrate. Throws UsageError.
+const RoughLayer& refracting_layer(const LayeredSurface& surface, const SurfaceQuery& query) {
+    if (query.quantity != "brdf")
+        throw UsageError("--side T: takes --quantity brdf (got " + query.quantity + ")");
+    if (query.paths != "single")
+        throw UsageError("--side T: takes --paths single (got " + query.paths + ")");
+    if (surface.is_coated() || surface.layers.size() != 1)
+        throw UsageError("--side T: takes one rough layer without a coating");
+    if (surface.layers.front().is_passable)
+        throw UsageError(
+            "--side T: light goes straight on through this layer (see --quantity transmissivity)");
+    return surface.layers.front();
+}
+
+/// Makes the errors of colours by a method that has none their distances from exact ones.
+void measure(std::vector<SurfaceColor>& colors, const std::vector<SurfaceColor>& exact) {
+    for (std::size_t k = 0; k < colors.size(); ++k) {
+        colors[k].error = exact[k].error;
+        for (std::size_t c = 0; c < 3; ++c)
+            colors[k].error = std::max(
+                colors[k].error, exact[k].error + std::abs(colors[k].xyz[c] - exact[k].xyz[c]));
+    }
+}
+
+/// Colours of light that is refracted into the substrate.
+SurfaceRows refracted_colors(const LayeredSurface& surface,
+                             const schemas::SurfaceDocument& document, const SurfaceQuery& query) {
+    const RoughLayer& layer = refracting_layer(surface, query);
+    const ColorColumns columns(query.color);
+    const ColorTables& tables = columns.illumination().tables;
+    const double tolerance = parse_tolerance(query.color.tolerance);
+    report_held_layers(surface, document, tables.sensitivity(), query);
+    const std::vector<Directions> directions = parse_directions(query.directions);
+    const std::vector<ScatterPair> pairs = pairs_of(directions);
+    const RefractedLight light(held_stack(layer.stack, tables.sensitivity()), layer.alpha,
+                               query.execution);
+    const ColorMethod method = parse_method(query.color);
+    std::vector<SurfaceColor> colors = light.color(tables, pairs, method, tolerance);
+    if (!query.color.tolerance.empty() || method.kind == ColorMethod::Kind::automatic) {
+        if (method.kind != ColorMethod::Kind::automatic)
+            measure(colors, light.color(tables, pairs, {}, tolerance));
+        check_tolerance(document, query, false, colors);
+    }
+    std::vector<Triple> xyz;
+    for (const SurfaceColor& one : colors) xyz.push_back(one.xyz);
+    return columns.rows(direction_columns(directions, 1), xyz);
+}
+
+/// Colours by simulation, at wavelengths 4 nm apart.
+SurfaceRows simulated_colors(const LayeredSurface& surface,
+                             const schemas::SurfaceDocument& document, const SurfaceQuery& query) {
+    constexpr std::size_t kWavelengths = 119;
+    const Crossings crossings = parse_crossings(query.transmission);
+    const SimulationPlan plan = parse_simulation(query, crossings);
+    if (query.color.method != "auto")
+        throw UsageError("--method: takes --paths single or all (got " + query.paths + ")");
+    const ColorColumns columns(query.color);
+    const Sensitivity& sensitivity = columns.illumination().tables.sensitivity();
+    report_held_layers(surface, document, sensitivity, query);
+    LayeredSurface held = surface;
+    for (RoughLayer& layer : held.layers) layer.stack = held_stack(layer.stack, sensitivity);
+    const LayeredScattering scattering(std::move(held), crossings, query.execution);
+    const SampleRule rule = equal_rule(sensitivity, kWavelengths);
+    LayeredSimulation simulation(scattering, plan.request, rule.wavelength_nm, query.execution);
+    const bool is_brdf = query.quantity == "brdf";
+    if (!is_brdf && query.quantity != "albedo")
+        throw UsageError("--color: takes --quantity brdf or albedo (got " + query.quantity + ")");
+    LayeredSimulation::ColorWeights weights = rule.weight;
+    for (std::size_t c = 0; c < 3; ++c) {
+        double light = 0;
+        for (const double weight : weights[c]) light += weight;
+        for (double& weight : weights[c])
+            weight *= (is_brdf ? kPi : 1) * sensitivity.white()[c] / light;
+    }
+    simulation.set_colors(std::move(weights));
+    NumberColumns keys;
+    std::function<LayeredSimulation::Values()> once;
+    if (is_brdf) {
+        const std::vector<Directions> directions = parse_directions(query.directions);
+        keys = direction_columns(directions, 1);
+        once = [&simulation, pairs = pairs_of(directions)] { return simulation.brdf(pairs); };
+    } else {
+        const std::vector<double> thetas = parse_light_thetas(query.directions);
+        keys.emplace_back("light_theta_deg", thetas);
+        once = [&simulation, thetas] { return simulation.albedo(thetas); };
+    }
+    const SimulatedValues simulated =
+        simulate(document, plan, simulation, once, keys, {"X", "Y", "Z"}, 1);
+    std::vector<Triple> xyz;
+    for (std::size_t k = 0; k < simulated.values.mean.size(); k += 3)
+        xyz.push_back(
+            {simulated.values.mean[k], simulated.values.mean[k + 1], simulated.values.mean[k + 2]});
+    SurfaceRows rows = columns.rows(std::move(keys), xyz);
+    add_simulated_columns(simulated, 3, rows);
+    return rows;
+}
+
 /// Colours of a layered surface.
 SurfaceRows layered_colors(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                            const SurfaceQuery& query) {
-    if (is_simulated(query))
-        throw UsageError("--color: takes --paths single or all (got " + query.paths + ")");
+    if (is_simulated(query)) return simulated_colors(surface, document, query);
     require_no_simulation(query);
     const ColorColumns columns(query.color);
     const double tolerance = parse_tolerance(query.color.tolerance);
     const Illumination& illumination = columns.illumination();
     report_held_layers(surface, document, illumination.tables.sensitivity(), query);
-    const LayeredColor color(illumination.tables, surface, parse_crossings(query.transmission),
-                             tolerance, query.execution);
+    const ColorMethod method = parse_method(query.color);
+    const bool is_approximate = method.kind != ColorMethod::Kind::automatic;
+    const Crossings crossings = parse_crossings(query.transmission);
+    const LayeredColor color(illumination.tables, surface, crossings, tolerance, query.execution,
+                             method);
+    if (is_approximate && (query.quantity != "brdf" || color.scattering().layers() != 1 ||
+                           color.scattering().has_base()))
+        throw UsageError("--method: takes the BRDF of one rough layer over a black base");
     const Paths paths = parse_paths(query.paths);
     NumberColumns keys;
     std::vector<SurfaceColor> colors;
     if (query.quantity == "brdf") {
         const std::vector<Directions> directions = parse_directions(query.directions);
         colors = color.brdf(pairs_of(directions), paths);
+        if (is_approximate && !query.color.tolerance.empty())
+            measure(colors, LayeredColor(illumination.tables, surface, crossings, tolerance,
+                                         query.execution)
+                                .brdf(pairs_of(directions), paths));
         keys = direction_columns(directions, 1);
     } else if (query.quantity == "albedo") {
         const std::vector<double> thetas = parse_light_thetas(query.directions);
         colors = color.albedo(thetas, paths);
         keys.emplace_back("light_theta_deg", thetas);
     } else {
-        throw UsageError("--color: takes --quantity brdf or albedo (got " + query.quantity + ")");
+        throw UsageError("--color: requires --quantity brdf or albedo (got '" + query.quantity +
+                         "')");
     }
     const bool is_added = paths == Paths::all && !color.scattering().is_closed();
-    check_tolerance(document, query, is_added, colors);
+    if (!is_approximate || !query.color.tolerance.empty())
+        check_tolerance(document, query, is_added, colors);
     std::vector<Triple> xyz;
     for (const SurfaceColor& one : colors) xyz.push_back(one.xyz);
     return columns.rows(std::move(keys), xyz);
+}
+
+/// Light that is refracted into the substrate, at wavelengths.
+SurfaceRows refracted_rows(const LayeredSurface& surface, const SurfaceQuery& query) {
+    const RoughLayer& layer = refracting_layer(surface, query);
+    const std::vector<Directions> directions = parse_directions(query.directions);
+    const std::size_t W = query.wavelengths_nm.size();
+    require_few_rows(static_cast<double>(directions.size()) * static_cast<double>(W));
+    auto columns = direction_columns(directions, W);
+    Numbers wavelength;
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        wavelength.insert(wavelength.end(), query.wavelengths_nm.begin(),
+                          query.wavelengths_nm.end());
+    columns.emplace_back("wavelength_nm", std::move(wavelength));
+    columns.emplace_back("btdf_per_sr", RefractedLight(layer.stack, layer.alpha, query.execution)
+                                            .btdf(pairs_of(directions), query.wavelengths_nm));
+    return rows_of(std::move(columns), 5);
 }
 
 /// Numbers of a layered surface at wavelengths.
@@ -169,8 +269,9 @@ public:
         if (query_.quantity == "brdf") return brdf();
         if (query_.quantity == "albedo") return albedo();
         if (is_simulated(query_))
-            throw UsageError("--paths " + query_.paths + ": takes --quantity brdf or albedo (got " +
-                             query_.quantity + ")");
+            throw UsageError("--paths " + query_.paths +
+                             ": requires --quantity brdf or albedo (got '" + query_.quantity +
+                             "')");
         if (query_.quantity == "transmissivity") return transmissivity();
         if (query_.quantity == "sampling") return sampling();
         constexpr std::array<std::string_view, 4> names{"brdf", "albedo", "transmissivity",
@@ -215,12 +316,10 @@ private:
             wavelength.insert(wavelength.end(), wavelengths().begin(), wavelengths().end());
         columns.emplace_back("wavelength_nm", std::move(wavelength));
         const std::vector<ScatterPair> pairs = pairs_of(directions);
-        if (is_simulated(query_)) {
-            LayeredSimulation::Values values = simulation().brdf(pairs);
-            columns.emplace_back("brdf_per_sr", std::move(values.mean));
-            columns.emplace_back("stderr", std::move(values.error));
-            return rows_of(std::move(columns), 5);
-        }
+        if (is_simulated(query_))
+            return simulated(
+                std::move(columns), "brdf_per_sr",
+                [&](const LayeredSimulation& simulation) { return simulation.brdf(pairs); });
         Numbers f = scattering_.brdf(pairs, wavelengths(), closed_paths());
         if (is_added())
             add(f, [&](const Adding& adding) { return adding.brdf_rest(pairs, wavelengths()); });
@@ -230,33 +329,37 @@ private:
 
     SurfaceRows albedo() const {
         const std::vector<double> thetas = parse_light_thetas(query_.directions);
-        if (is_simulated(query_)) {
-            LayeredSimulation::Values values = simulation().albedo(thetas);
-            return albedo_rows(thetas, std::move(values.mean), std::move(values.error));
-        }
-        Numbers a = scattering_.albedo(thetas, wavelengths(), closed_paths());
-        if (is_added())
-            add(a, [&](const Adding& adding) { return adding.albedo_rest(thetas, wavelengths()); });
-        return albedo_rows(thetas, std::move(a), {});
-    }
-
-    SurfaceRows albedo_rows(const std::vector<double>& thetas, Numbers a, Numbers error) const {
         Numbers theta, wavelength;
         for (const double angle : thetas)
             for (const double nm : wavelengths()) {
                 theta.push_back(angle);
                 wavelength.push_back(nm);
             }
-        std::vector<std::pair<std::string, Numbers>> columns{
-            {"light_theta_deg", std::move(theta)},
-            {"wavelength_nm", std::move(wavelength)},
-            {"albedo", std::move(a)}};
-        if (!error.empty()) columns.emplace_back("stderr", std::move(error));
+        NumberColumns columns{{"light_theta_deg", std::move(theta)},
+                              {"wavelength_nm", std::move(wavelength)}};
+        if (is_simulated(query_))
+            return simulated(
+                std::move(columns), "albedo",
+                [&](const LayeredSimulation& simulation) { return simulation.albedo(thetas); });
+        Numbers a = scattering_.albedo(thetas, wavelengths(), closed_paths());
+        if (is_added())
+            add(a, [&](const Adding& adding) { return adding.albedo_rest(thetas, wavelengths()); });
+        columns.emplace_back("albedo", std::move(a));
         return rows_of(std::move(columns), 2);
     }
 
-    LayeredSimulation simulation() const {
-        return {scattering_, simulation_, wavelengths(), query_.execution};
+    /// Rows of means and standard errors. by(simulation)  its values
+    template <class By>
+    SurfaceRows simulated(NumberColumns keys, const char* name, const By& by) const {
+        LayeredSimulation simulation(scattering_, simulation_.request, wavelengths(),
+                                     query_.execution);
+        SimulatedValues found = simulate(
+            document_, simulation_, simulation, [&] { return by(simulation); }, keys, {name}, 0);
+        const std::size_t key_count = keys.size();
+        keys.emplace_back(name, found.values.mean);
+        SurfaceRows rows = rows_of(std::move(keys), key_count);
+        add_simulated_columns(found, 1, rows);
+        return rows;
     }
 
     SurfaceRows transmissivity() const {
@@ -303,7 +406,7 @@ private:
     const SurfaceQuery& query_;
     Paths paths_;
     LayeredScattering scattering_;
-    SimulationRequest simulation_;
+    SimulationPlan simulation_;
 };
 
 }  // namespace
@@ -311,9 +414,17 @@ private:
 SurfaceRows rows_of_surface(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
                             const SurfaceQuery& query) {
     if (const std::string typed = query.scratch.typed(); !typed.empty())
-        throw UsageError(typed + ": takes surfaces with scratches");
+        throw UsageError(typed + " applies to surfaces with scratches only");
     try {
+        const bool is_transmitted = wants_transmission(query);
+        if (query.scatterogram && is_transmitted)
+            throw UsageError("--scatterogram requires reflected light (got --side T)");
+        if (!query.wants_color && query.color.method != "auto")
+            throw UsageError("--method: requires --color");
         if (query.scatterogram) return layered_scatterogram(surface, document, query);
+        if (is_transmitted)
+            return query.wants_color ? refracted_colors(surface, document, query)
+                                     : refracted_rows(surface, query);
         return query.wants_color ? layered_colors(surface, document, query)
                                  : LayeredAnswers(surface, document, query).rows();
     } catch (const DomainError& error) {

@@ -71,12 +71,13 @@ SurfaceRows layered_scatterogram(const LayeredSurface& surface,
                                  const schemas::SurfaceDocument& document,
                                  const SurfaceQuery& query) {
     if (query.paths != "single" && query.paths != "all")
-        throw UsageError("--scatterogram: takes --paths single or all (got " + query.paths + ")");
+        throw UsageError("--scatterogram: requires --paths single or all (got '" + query.paths +
+                         "')");
     if (query.quantity != "brdf")
-        throw UsageError("--scatterogram: shows albedo and BRDF at once, without --quantity");
+        throw UsageError("--scatterogram: shows albedo and BRDF together; leave out --quantity");
     const std::vector<double> lights = parse_light_thetas(query.directions);
     if (lights.size() != 1)
-        throw UsageError("--scatterogram: takes one --light-theta, that of the beam");
+        throw UsageError("--scatterogram: requires a single --light-theta, that of the beam");
     const ColorColumns columns(query.color);
     const Sensitivity& sensitivity = columns.illumination().tables.sensitivity();
     report_held_layers(surface, document, sensitivity, query);

@@ -138,7 +138,7 @@ ProfileQuery::ProfileQuery(const ProfileOptions& typed, const QueryRun& run)
     if (!typed.points.empty() && !typed.z.empty())
         throw UsageError("--points and --z are mutually exclusive");
     if (summary_ && !(typed.points.empty() && typed.z.empty()))
-        throw UsageError("--summary: takes neither --points nor --z");
+        throw UsageError("--summary: cannot be combined with --points and --z");
     if (!typed.z.empty()) z_nm_ = parse_list("--z", typed.z, -kFarthest_nm, kFarthest_nm);
     const std::string points = typed.points.empty() ? "200" : typed.points;
     points_ = static_cast<std::size_t>(parse_whole_number("--points", points, 2, kMostPoints));

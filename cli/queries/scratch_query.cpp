@@ -46,9 +46,14 @@ public:
             throw UsageError("--quantity: " + not_one_of(quantities, query.quantity) +
                              " for a scratched surface");
         if (query.paths != "single" || query.transmission != "single")
-            throw UsageError("--paths and --transmission: take layered surfaces");
+            throw UsageError("--paths and --transmission apply to layered surfaces only");
         if (!query.samples.empty() || !query.facets.empty() || query.scatterogram)
-            throw UsageError("--samples, --facets and --scatterogram: take layered surfaces");
+            throw UsageError(
+                "--samples, --facets and --scatterogram apply to layered surfaces only");
+        if (!query.shard.empty() || !query.merge.empty())
+            throw UsageError("--shard and --merge apply to simulations of layered surfaces only");
+        if (query.color.sides != "R" || query.color.method != "auto")
+            throw UsageError("--side and --method apply to layered surfaces only");
         if (!query.seed.empty())
             throw UsageError("--seed: is of simulations; --set seed=N is of fields of scratches");
         if (sum_.kind == ScratchSum::Kind::ensemble && surface.fields.empty())
@@ -56,8 +61,8 @@ public:
         if (!query.scratch.area_light.empty() && method_.kind != LightIntegral::Kind::exact &&
             scattering_.ends_nearby())
             query.note(
-                "ends of scratches lie within 3 coherence radii: --light-integral exact "
-                "alone knows them");
+                "ends of scratches lie within 3 coherence radii: only --light-integral exact "
+                "accounts for them");
     }
 
     SurfaceRows rows() const {
@@ -70,7 +75,7 @@ public:
 private:
     SurfaceRows density() const {
         if (query_.wants_color || !query_.scratch.area_light.empty())
-            throw UsageError("--quantity: density has neither colours nor lights");
+            throw UsageError("--quantity density: cannot be combined with --color and lights");
         const SurfacePoint at = parse_at(query_.scratch);
         return rows_of({{"x_um", ScratchNumbers{at.x_um}},
                         {"y_um", ScratchNumbers{at.y_um}},
@@ -106,8 +111,7 @@ private:
         if (typed.light_theta != untyped.light_theta || typed.light_phi != untyped.light_phi ||
             !typed.file.empty())
             throw UsageError(
-                "--area-light: takes the place of --light-theta, --light-phi and "
-                "--directions");
+                "--area-light cannot be combined with --light-theta, --light-phi and --directions");
         std::vector<LightCone> cones;
         for (const AreaLight& light : schemas::read_lights(query_.scratch.area_light))
             cones.emplace_back(light);

@@ -296,8 +296,8 @@ void require_power_columns(const std::string& option, const std::vector<Spectrum
                            bool takes_layers) {
     for (const SpectrumColumn column : columns)
         if (!takes_layers || column != SpectrumColumn::A_layers)
-            throw UsageError(option + ": takes no --columns" +
-                             (takes_layers ? " but A_layers" : ""));
+            throw UsageError(option + ": cannot be combined with --columns" +
+                             (takes_layers ? " other than A_layers" : ""));
 }
 
 std::vector<double> both_ends(const std::vector<double>& wavelengths_nm) {

@@ -24,7 +24,8 @@ struct SurfaceQuery {
     std::string paths = "single";         ///< single, all, simulation, simulation-single
     std::string transmission = "single";  ///< single, multiple
     ScratchOptions scratch;
-    std::string samples, seed, facets;  ///< of simulations; "" if not typed
+    std::string samples, seed, facets, shard;  ///< of simulations; "" if not typed
+    std::vector<std::string> merge;            ///< files of shards
     bool wants_color = false;
     bool scatterogram = false;
     ColorOptions color;  ///< illuminant, observer, space, adaptation and tolerance

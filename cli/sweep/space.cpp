@@ -10,6 +10,7 @@
 #include "core/math/philox.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/column_text.hpp"
 #include "schemas/readers/number.hpp"
 #include "schemas/readers/points_csv.hpp"
 #include "schemas/readers/text_file.hpp"
@@ -36,6 +37,22 @@ bool is_numeric(std::string_view item) {
 std::vector<double> numbers_of(const std::string& path, std::string_view list) {
     const auto [lowest, highest] = range_of(path);
     return parse_list("--vary " + path, list, lowest, highest);
+}
+
+/// A column of wavelengths in another unit, which its name says, becomes one in nm.
+void take_unit(SweptColumn& column, const std::string& file) {
+    if (column.path.find(';') != std::string::npos)
+        throw schemas::InputError(
+            file, "",
+            "columns must be separated by commas (got " + schemas::in_quotes(column.path) + ")");
+    const auto spectral = schemas::spectral_column(column.path);
+    if (!spectral || column.path == kSweptWavelength) return;
+    if (!spectral->unit)
+        throw schemas::InputError(file, "",
+                                  "the column " + schemas::in_quotes(column.path) +
+                                      " must name its unit, as wavelength_nm does");
+    for (double& value : column.numbers) value = schemas::to_nm(value, *spectral->unit);
+    column.path = kSweptWavelength;
 }
 
 }  // namespace
@@ -127,6 +144,7 @@ void SweepSpace::add_points(const std::string& file) {
          schemas::read_points_csv(schemas::read_text(file), points_file_)) {
         SweptColumn column{std::move(read.path), std::move(read.numbers), std::move(read.texts),
                            std::move(read.codes)};
+        take_unit(column, points_file_);
         column.of_points = true;
         points_ = column.is_text() ? column.codes.size() : column.numbers.size();
         columns_.push_back(std::move(column));

@@ -51,7 +51,8 @@ Sensitivity::Sensitivity(const Observer& observer, const Table& illuminant)
     std::ranges::sort(rows_);
     rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
     const double luminance = integral(support_)[1];
-    if (!(luminance > 0)) throw DomainError("the illuminant must give the observer some light");
+    if (!(luminance > 0))
+        throw DomainError("the illuminant must have power where the observer sees it");
     normalization_ = 1 / luminance;
     white_ = integral(support_);
     white_[1] = 1;
@@ -198,7 +199,7 @@ SampleRule equal_rule(const Sensitivity& sensitivity, std::size_t count) {
     }
     for (const std::vector<double>& weight : rule.weight)
         if (!(*std::ranges::max_element(weight) > 0))
-            throw DomainError("equal wavelengths must be more for this light (got " +
+            throw DomainError("equal/N: N must be larger for this illuminant (got " +
                               std::to_string(count) + ")");
     return rule;
 }

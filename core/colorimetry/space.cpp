@@ -180,7 +180,7 @@ Triple rgb_of_hex(const RgbSpace& space, std::string_view text) {
     const bool is_hex =
         text.size() == 7 && text[0] == '#' &&
         std::ranges::all_of(text.substr(1), [](char c) { return hex_digit(c) < 16; });
-    if (!is_hex) throw DomainError("must be #rrggbb (got " + std::string(text) + ")");
+    if (!is_hex) throw DomainError("must be #rrggbb (got '" + std::string(text) + "')");
     Triple rgb;
     for (std::size_t i = 0; i < 3; ++i)
         rgb[i] =

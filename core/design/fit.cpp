@@ -110,7 +110,7 @@ FitResult fit(const DesignProblem& problem, const SearchSettings& settings, std:
     std::ranges::stable_sort(minima, {}, &Minimum::chi2);
     const Minimum& best = minima.front();
     if (!std::isfinite(best.chi2))
-        throw DomainError("the stack cannot be computed anywhere inside the bounds that was tried");
+        throw DomainError("the stack could not be computed at any point tried within the bounds");
     result.x = best.x;
     result.chi2 = best.chi2;
     result.end = best.end;

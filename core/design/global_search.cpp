@@ -175,7 +175,7 @@ private:
 void require_bounds(const DesignProblem& problem) {
     for (const FreeValue& value : problem.free)
         if (!std::isfinite(value.low) || !std::isfinite(value.high))
-            throw DomainError(value.name + " must have bounds for a global search");
+            throw DomainError(value.name + ": method global requires bounds");
 }
 
 /// Sorts runs, best first, and fills in what follows from them.
@@ -241,7 +241,8 @@ SearchResult hop_search(const DesignProblem& problem, const SearchSettings& sett
             result.runs.push_back(
                 {hopper->best(), hopper->model().merit(hopper->best_objective())});
     }
-    if (result.runs.empty()) throw DomainError("no start inside the bounds can be computed");
+    if (result.runs.empty())
+        throw DomainError("the stack could not be computed at any start within the bounds");
     polish(problem, settings, result);
     return result;
 }

@@ -24,14 +24,14 @@ Layers layers_of(const DesignProblem& problem) {
     for (std::size_t i = 0; i < problem.stack.elements.size(); ++i) {
         const Layer* const layer = std::get_if<Layer>(&problem.stack.elements[i].value);
         if (!layer || !layer->coherent || layer->thickness_sigma_nm > 0)
-            throw DomainError("needles need coherent layers without groups");
+            throw DomainError("method needle requires coherent layers without groups");
         layers.push_back({layer->material, layer->thickness_nm, i, true});
     }
     for (const FreeValue& value : problem.free) {
         const ThicknessOf* const place =
             value.places.size() == 1 ? std::get_if<ThicknessOf>(&value.places[0]) : nullptr;
         if (!place || place->layer.size() != 1)
-            throw DomainError("with needles only thicknesses of single layers may be free (got " +
+            throw DomainError("method needle: only thicknesses of single layers can be free (got " +
                               value.name + ")");
         layers[place->layer[0]].is_fixed = false;
     }
@@ -336,7 +336,7 @@ std::vector<NeedleSlope> needle_slopes(const DesignProblem& problem,
 NeedleResult needle_search(const DesignProblem& problem, const NeedleSettings& settings) {
     const Layers given = layers_of(problem);
     if (settings.materials.empty())
-        throw DomainError("needles need at least one material to choose from");
+        throw DomainError("method needle requires at least one material to choose from");
     std::mutex lock;
     double best = kInfinity;
     std::size_t finished = 0;
@@ -368,7 +368,7 @@ NeedleResult needle_search(const DesignProblem& problem, const NeedleSettings& s
         result.layers = run->best;
     }
     if (!std::isfinite(result.merit))
-        throw DomainError("the stack cannot be computed with any layers that were tried");
+        throw DomainError("the stack could not be computed with any of the layers tried");
     std::ranges::sort(result.runs);
     for (const double merit : result.runs)
         if (merit <= 1.01 * result.merit + 1e-12) ++result.runs_within;

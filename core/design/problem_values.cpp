@@ -274,7 +274,7 @@ void compute_values(const DesignProblem& problem, const Stack& stack, double tol
     }
     for (const double residual : rows.residual)
         if (!std::isfinite(residual))
-            throw DomainError("a target has no value: nothing is reflected or transmitted there");
+            throw DomainError("a target is undefined where nothing is reflected or transmitted");
 }
 
 double objective_of(const DesignProblem& problem, const DesignRows& rows) {

@@ -35,9 +35,7 @@ public:
 private:
     static void require(std::uint64_t repeat, std::size_t layers) {
         if (layers > 0 && repeat > WrittenOut::kMostLayers / layers)
-            throw DomainError(
-                "a stack that is designed may have at most 1e5 layers, with its "
-                "groups written out");
+            throw DomainError("must have at most 1e5 layers to be designed, repetitions included");
     }
 
     WrittenOut& out_;

@@ -63,10 +63,20 @@ double AngleSeries::Panel::end_deg() const {
 AngleSeries::AngleSeries(
     std::size_t functions, double tolerance,
     const std::function<std::vector<double>(std::span<const double>)>& evaluate)
+    : AngleSeries(functions, tolerance, kFirstLevel, kLastLevel, evaluate) {}
+
+AngleSeries::AngleSeries(
+    std::size_t functions, unsigned level,
+    const std::function<std::vector<double>(std::span<const double>)>& evaluate)
+    : AngleSeries(functions, 0, level, level, evaluate) {}
+
+AngleSeries::AngleSeries(
+    std::size_t functions, double tolerance, unsigned first, unsigned last,
+    const std::function<std::vector<double>(std::span<const double>)>& evaluate)
     : functions_(functions) {
     std::vector<std::pair<Panel, std::vector<Coefficients>>> done;
     std::vector<Panel> open;
-    for (std::uint64_t i = 0; i < 1U << kFirstLevel; ++i) open.push_back({kFirstLevel, i});
+    for (std::uint64_t i = 0; i < 1U << first; ++i) open.push_back({first, i});
     std::array<double, AngleSeries::kPanelDegree + 1> samples;
     while (!open.empty()) {
         std::vector<double> angles;
@@ -75,7 +85,7 @@ AngleSeries::AngleSeries(
         const std::vector<double> values = evaluate(angles);
         std::vector<Panel> halves;
         const bool is_last =
-            open.front().level == kLastLevel || done.size() + 2 * open.size() > kMostPanels;
+            open.front().level == last || done.size() + 2 * open.size() > kMostPanels;
         for (std::size_t i = 0; i < open.size(); ++i) {
             std::vector<Coefficients> series(functions);
             bool is_good = true;
@@ -144,6 +154,15 @@ AngleMoments::Integral AngleMoments::operator()(const AngleSeries& series, std::
         integral.weight += moments[0];
     }
     return integral;
+}
+
+void AngleMoments::values(const AngleSeries& series, std::size_t first, std::span<double> out) {
+    std::ranges::fill(out, 0);
+    for (std::size_t i = 0; i < series.panels().size(); ++i) {
+        const AngleSeries::Coefficients& moments = of(series.panels()[i]);
+        for (std::size_t f = 0; f < out.size(); ++f)
+            out[f] += sum_of_products(series.coefficients(i, first + f), moments);
+    }
 }
 
 const AngleSeries::Coefficients& AngleMoments::of(const AngleSeries::Panel& panel) {

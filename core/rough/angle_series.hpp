@@ -39,6 +39,9 @@ public:
     ///   evaluate(theta_deg)  values [angle][function] in any order of angles
     AngleSeries(std::size_t functions, double tolerance,
                 const std::function<std::vector<double>(std::span<const double>)>& evaluate);
+    /// The same on 2^level panels of one width.
+    AngleSeries(std::size_t functions, unsigned level,
+                const std::function<std::vector<double>(std::span<const double>)>& evaluate);
 
     static constexpr std::size_t kMostPanels = 1U << 13;
 
@@ -56,6 +59,8 @@ public:
     double error_at(double theta_deg) const;
 
 private:
+    AngleSeries(std::size_t functions, double tolerance, unsigned first, unsigned last,
+                const std::function<std::vector<double>(std::span<const double>)>& evaluate);
     std::size_t panel_of(double theta_deg) const;
 
     std::size_t functions_;
@@ -78,6 +83,8 @@ public:
     };
     /// Integral of weight times function.
     Integral operator()(const AngleSeries& series, std::size_t function);
+    /// The values of functions, as many as there is room for, from `first` on.
+    void values(const AngleSeries& series, std::size_t first, std::span<double> out);
 
 private:
     const AngleSeries::Coefficients& of(const AngleSeries::Panel& panel);
@@ -95,14 +102,14 @@ struct Feature {
 /// rule of 16 nodes converges beyond rounding on each.
 std::vector<double> graded_panels(double begin, double end, std::span<const Feature> features);
 
-/// Calls add(x, weight) at the Gauss nodes of all panels inside [begin, end], of a 16-point rule
+/// Calls add(x, weight) at the Gauss nodes of all panels inside [begin, end], of a rule of `points`
 /// each.
-template <class Add>
+template <int points = 16, class Add>
 void for_each_node(std::span<const double> ends, double begin, double end, const Add& add) {
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         const double from = std::max(begin, ends[i]), to = std::min(end, ends[i + 1]);
         if (!(from < to)) continue;
-        for (const GaussNode& node : gauss_legendre<16>())
+        for (const GaussNode& node : gauss_legendre<points>())
             add(0.5 * (from + to) + 0.5 * (to - from) * node.x, 0.5 * (to - from) * node.weight);
     }
 }

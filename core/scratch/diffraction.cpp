@@ -14,7 +14,7 @@ namespace irido {
 namespace {
 
 double slit_sinc(double x) {
-    return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x;
+    return sinc_of(x, std::sin(x));
 }
 
 double wavenumber_of(double wavelength_um) {
@@ -31,6 +31,10 @@ ScratchPair pair_of(const VisibleScratch& scratch, DepthPhase phase, const UnitV
     const double x = light[0] + view[0], y = light[1] + view[1];
     const double rise = phase == DepthPhase::vertical ? 2 : light[2] + view[2];
     return {x * tx + y * ty, y * tx - x * ty, scratch.scratch().depth_um * rise};
+}
+
+double sinc_of(double x, double sine) {
+    return std::abs(x) < 1e-4 ? 1 - x * x / 6 : sine / x;
 }
 
 double groove_power(double path_um, double wavenumber_per_um) {

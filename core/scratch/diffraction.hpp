@@ -20,7 +20,10 @@ ScratchPair pair_of(const VisibleScratch& scratch, DepthPhase phase, const UnitV
 /// |d|^2 = |1 - exp(2 pi i v nu)|^2 = 4 sin^2(pi v nu)
 double groove_power(double path_um, double wavenumber_per_um);
 
-/// sinc^2(pi W xi_2 nu), sinc(x) = sin(x)/x
+/// sinc(x) = sin(x)/x, the sine being known.
+double sinc_of(double x, double sine);
+
+/// sinc^2(pi W xi_2 nu)
 double slit_power(double width_um, double xi2, double wavenumber_per_um);
 
 /// BRDF of one scratch in a perfect mirror, 1/sr:

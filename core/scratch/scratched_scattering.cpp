@@ -9,7 +9,8 @@
 #include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/parallel.hpp"
-#include "core/rough/ggx.hpp"
+#include "core/math/vector_math.hpp"
+#include "core/scratch/rough_base.hpp"
 #include "core/scratch/slit_color.hpp"
 #include "core/spectrum/spectrum.hpp"
 
@@ -18,6 +19,7 @@ namespace irido {
 namespace {
 
 constexpr double kNanometres = 1000;  // in a micrometre
+constexpr double kShortest_nm = 1, kLongest_nm = 1e7;
 
 double dot_of(const UnitVector& a, const UnitVector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -36,72 +38,6 @@ std::vector<double> base_reflectance(const Stack& stack, const std::vector<doubl
     Spectra both = spectra(power, table, cosines, needs, execution);
     for (std::size_t i = 0; i < both.s.R.size(); ++i) both.s.R[i] = (both.s.R[i] + both.p.R[i]) / 2;
     return std::move(both.s.R);
-}
-
-/// D G1 G1/(4 cos theta_i cos theta_o)
-double rough_factor(double alpha, const SkyPair& pair) {
-    const double i = pair.light[2], o = pair.view[2];
-    if (!(i > 0) || !(o > 0)) return 0;
-    const double half = half_cosine(pair);
-    if (!(half > 0)) return 0;
-    return ggx_distribution(alpha, std::min(1.0, (i + o) / (2 * half))) * smith_masking(alpha, i) *
-           smith_masking(alpha, o) / (4 * i * o);
-}
-
-/// A function of a cosine by its Chebyshev coefficients between two ends.
-class CosineSeries {
-public:
-    static constexpr std::size_t kCount = 33;
-
-    CosineSeries(double low, double high, std::span<const double> values)
-        : middle_((low + high) / 2), half_((high - low) / 2) {
-        for (std::size_t k = 0; k < kCount; ++k) {
-            double sum = 0;
-            for (std::size_t j = 0; j < kCount; ++j)
-                sum += values[j] * std::cos(angle(j) * static_cast<double>(k));
-            coefficients_[k] = (k == 0 ? 1 : 2) * sum / kCount;
-        }
-        constexpr double kLeast = 1e-13;
-        while (used_ > 1 && std::abs(coefficients_[used_ - 1]) < kLeast) --used_;
-    }
-    static std::vector<double> nodes(double low, double high) {
-        std::vector<double> cosines;
-        for (std::size_t j = 0; j < kCount; ++j)
-            cosines.push_back(
-                std::clamp((low + high) / 2 + (high - low) / 2 * std::cos(angle(j)), 0.0, 1.0));
-        return cosines;
-    }
-    double operator()(double cosine) const {
-        const double x = std::clamp((cosine - middle_) / half_, -1.0, 1.0);
-        double first = 0, second = 0;
-        for (std::size_t k = used_; k-- > 1;) {
-            const double next = 2 * x * first - second + coefficients_[k];
-            second = first;
-            first = next;
-        }
-        return x * first - second + coefficients_[0];
-    }
-
-private:
-    static double angle(std::size_t j) {
-        return kPi * (static_cast<double>(j) + 0.5) / static_cast<double>(kCount);
-    }
-    double middle_, half_;
-    std::array<double, kCount> coefficients_{};
-    std::size_t used_ = kCount;
-};
-
-/// Cosines of theta_d that a view and the directions of a light have.
-struct CosineRange {
-    double low, high;
-};
-CosineRange half_cosines(const LightCone& light, const UnitVector& view) {
-    constexpr double kLeast = 1e-6;
-    const double between = std::acos(std::clamp(dot_of(light.bound().normal, view), -1.0, 1.0)),
-                 reach = std::acos(std::clamp(light.bound().least, -1.0, 1.0));
-    const double low = std::cos(std::min(kPi, between + reach) / 2),
-                 high = std::cos(std::max(0.0, between - reach) / 2);
-    return {std::max(0.0, low - kLeast), std::min(1.0, high + kLeast)};
 }
 
 Triple weighted(const std::array<std::vector<double>, 3>& weight, std::span<const double> values) {
@@ -203,38 +139,54 @@ bool ScratchedScattering::ends_nearby() const {
     return std::ranges::any_of(visible_, &VisibleScratch::ends_nearby);
 }
 
-ScratchBalance ScratchedScattering::balance(double view_rise, double wavenumber_per_um) const {
-    if (!surface_.base) return {0, 1};
+std::vector<ScratchBalance> ScratchedScattering::balances(
+    double view_rise, const std::vector<double>& wavelength_nm) const {
+    if (!surface_.base) return std::vector(wavelength_nm.size(), ScratchBalance{0, 1});
     const double rise = surface_.optics.depth_phase == DepthPhase::vertical ? 2 : 2 * view_rise;
     std::vector<GrooveShare> grooves;
     for (const VisibleScratch& scratch : visible_)
         grooves.push_back({scratch.share(), rise * scratch.scratch().depth_um});
     for (const ScratchEnsemble& part : ensembles_)
         grooves.push_back({part.share, rise * part.depth_um});
-    return scratch_balance(grooves, wavenumber_per_um, !surface_.fields.empty(), sum_.energy);
+    std::vector<ScratchBalance> all;
+    for (const double wavelength : wavelength_nm)
+        all.push_back(scratch_balance(grooves, kNanometres / wavelength, !surface_.fields.empty(),
+                                      sum_.energy));
+    return all;
 }
 
 std::vector<double> ScratchedScattering::separate(const SkyPair& pair,
                                                   const std::vector<double>& wavelength_nm) const {
-    constexpr std::size_t kMany = 256;  // that are worth a table of the lobe
-    const bool is_tabled = wavelength_nm.size() >= kMany;
+    constexpr double kDark = 27;     // y from which on exp(-y^2) is 0
+    constexpr double kSlack = 1e-3;  // of y, for a single wavelength
+    constexpr std::size_t kWorthATable = 32;
+    const std::size_t count = wavelength_nm.size();
+    std::vector<double> sums(count, 0.0), nu(count), angle(count), slit(count), sine(count),
+        cosine(count);
     const auto [shortest, longest] = std::ranges::minmax(wavelength_nm);
-    std::vector<double> sums(wavelength_nm.size(), 0.0);
+    for (const double end : {shortest, longest})
+        require_in_range("wavelength_nm", end, kShortest_nm, kLongest_nm);
+    for (std::size_t i = 0; i < count; ++i) nu[i] = kNanometres / wavelength_nm[i];
     for (const VisibleScratch& scratch : visible_) {
         const ScratchPair seen =
             pair_of(scratch, surface_.optics.depth_phase, pair.light, pair.view);
-        const double per_wavelength = kTwoPi * scratch.coherence_radius_um() * kNanometres *
-                                      std::abs(seen.xi1);  // y times the wavelength
-        if (!is_tabled || !scratch.has_ends()) {
-            for (std::size_t i = 0; i < sums.size(); ++i)
-                sums[i] += scratch_brdf(scratch, seen, wavelength_nm[i] / kNanometres);
-            continue;
-        }
-        const LobeTable lobe(scratch, per_wavelength / longest, per_wavelength / shortest,
+        const double per_nu = kTwoPi * scratch.coherence_radius_um() * std::abs(seen.xi1);
+        const double first = per_nu * kNanometres / longest, last = per_nu * kNanometres / shortest;
+        if (!scratch.has_ends() && first > kDark) continue;
+        const bool is_tabled = count * scratch.places().size() > kWorthATable;
+        const LobeTable lobe(scratch, is_tabled ? first : 0, is_tabled ? last + kSlack : 0,
                              kInfinity);
-        for (std::size_t i = 0; i < sums.size(); ++i)
-            sums[i] += scratch_brdf_of_lobe(scratch, seen, wavelength_nm[i] / kNanometres,
-                                            lobe(per_wavelength / wavelength_nm[i]));
+        const double width = scratch.scratch().width_um;
+        for (std::size_t i = 0; i < count; ++i) angle[i] = kPi * width * seen.xi2 * nu[i];
+        sin_cos(angle, sine, cosine, execution_.simd);
+        for (std::size_t i = 0; i < count; ++i)
+            slit[i] = width * nu[i] * sinc_of(angle[i], sine[i]);
+        for (std::size_t i = 0; i < count; ++i) angle[i] = kPi * seen.path_um * nu[i];
+        sin_cos(angle, sine, cosine, execution_.simd);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double amplitude = slit[i] * sine[i];
+            sums[i] += 8 * amplitude * amplitude * lobe(per_nu * nu[i]);
+        }
     }
     return sums;
 }
@@ -262,17 +214,17 @@ std::vector<double> ScratchedScattering::pair_brdf(const SkyPair& pair,
         reflectance =
             base_reflectance(*surface_.base, wavelength_nm, std::span(&cosine, 1), execution_);
     }
-    const double rough = surface_.alpha ? rough_factor(*surface_.alpha, pair) : 0;
+    const double rough = surface_.alpha ? facet_brdf(*surface_.alpha, pair.light, pair.view) : 0;
     std::vector<double> values = sum_.kind == ScratchSum::Kind::separate
                                      ? separate(pair, wavelength_nm)
                                      : std::vector<double>(wavelength_nm.size(), 0.0);
+    const std::vector<ScratchBalance> shares = balances(pair.view[2], wavelength_nm);
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double wavelength_um = wavelength_nm[i] / kNanometres;
         if (sum_.kind == ScratchSum::Kind::coherent) values[i] = coherent(pair, wavelength_um);
         if (sum_.kind == ScratchSum::Kind::ensemble) values[i] = ensemble(pair, wavelength_um);
         if (!surface_.base) continue;
-        const auto [base, scratches] = balance(pair.view[2], 1 / wavelength_um);
-        values[i] = reflectance[i] * (scratches * values[i] + base * rough);
+        values[i] = reflectance[i] * (shares[i].scratches * values[i] + shares[i].base * rough);
     }
     return values;
 }
@@ -331,51 +283,70 @@ std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone>
                                                       const std::vector<double>& wavelength_nm,
                                                       const LightIntegral& method) const {
     if (sum_.kind != ScratchSum::Kind::separate)
-        throw DomainError("area lights take the separate sum of scratches only");
-    if (surface_.alpha) throw DomainError("area lights take smooth bases only (got an alpha)");
+        throw DomainError("area lights require the incoherent sum of scratches");
     const std::size_t count = wavelength_nm.size();
     std::vector<std::vector<LightSlices>> slices(lights.size());  // [light][scratch]
     for (std::size_t l = 0; l < lights.size(); ++l)
         for (const VisibleScratch& scratch : visible_)
             slices[l].emplace_back(lights[l], scratch.tangent());
-    std::vector<double> values(views.size() * count);
-    for (std::size_t v = 0; v < views.size(); ++v) {
-        std::vector<CosineRange> ranges;
-        std::vector<std::vector<double>> reflectance;  // [light][angle][wavelength]
-        for (std::size_t l = 0; l < lights.size() && surface_.base; ++l) {
-            ranges.push_back(half_cosines(lights[l], views[v]));
-            reflectance.push_back(
-                base_reflectance(*surface_.base, wavelength_nm,
-                                 CosineSeries::nodes(ranges[l].low, ranges[l].high), execution_));
-        }
-        std::vector<std::vector<LobeTable>> lobes(lights.size());  // [light][scratch]
-        if (method.kind == LightIntegral::Kind::exact && count > 0) {
-            const double shortest_um = std::ranges::min(wavelength_nm) / kNanometres;
-            for (std::size_t l = 0; l < lights.size(); ++l)
-                for (std::size_t s = 0; s < visible_.size(); ++s)
-                    lobes[l].push_back(
-                        lobe_under(visible_[s], slices[l][s], views[v], shortest_um));
-        }
-        parallel_for(count, execution_.threads, [&](std::size_t i) {
-            const double wavelength_um = wavelength_nm[i] / kNanometres;
-            double sum = 0;
-            for (std::size_t l = 0; l < lights.size(); ++l) {
-                AngularReflectance of_angle;
-                if (surface_.base) {
-                    std::array<double, CosineSeries::kCount> at{};
-                    for (std::size_t k = 0; k < at.size(); ++k)
-                        at[k] = reflectance[l][k * count + i];
-                    of_angle = CosineSeries(ranges[l].low, ranges[l].high, at);
+    std::vector<double> nu;
+    for (const double wavelength : wavelength_nm) nu.push_back(kNanometres / wavelength);
+    std::vector<double> values;
+    for (const UnitVector& view : views) {
+        std::vector<double> scratches(count, 0.0), facets(count, 0.0);
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            CosineSeries reflectance;
+            if (surface_.base) {
+                const CosineRange range = half_cosines(lights[l], view);
+                const std::vector<double> at_nodes = base_reflectance(
+                    *surface_.base, wavelength_nm, CosineSeries::nodes(range), execution_);
+                reflectance = {range, at_nodes};
+                if (surface_.alpha) {
+                    const FacetWeights weights =
+                        facet_weights(*surface_.alpha, lights[l], view, range);
+                    for (std::size_t k = 0; k < weights.size(); ++k)
+                        for (std::size_t i = 0; i < count; ++i)
+                            facets[i] += weights[k] * at_nodes[k * count + i];
                 }
-                for (std::size_t s = 0; s < visible_.size(); ++s)
-                    sum += light_ratio(visible_[s], slices[l][s], surface_.optics.depth_phase,
-                                       views[v], wavelength_um, method, of_angle,
-                                       lobes[l].empty() ? nullptr : &lobes[l][s]);
             }
-            values[v * count + i] = sum * balance(views[v][2], 1 / wavelength_um).scratches;
-        });
+            add_light(slices[l], view, nu, method, reflectance, scratches);
+        }
+        const std::vector<ScratchBalance> shares = balances(view[2], wavelength_nm);
+        for (std::size_t i = 0; i < count; ++i)
+            values.push_back(shares[i].scratches * scratches[i] + shares[i].base * facets[i]);
     }
     return values;
+}
+
+void ScratchedScattering::add_light(const std::vector<LightSlices>& slices, const UnitVector& view,
+                                    const std::vector<double>& nu, const LightIntegral& method,
+                                    const CosineSeries& reflectance,
+                                    std::vector<double>& sums) const {
+    if (nu.empty()) return;
+    const double shortest_um = 1 / std::ranges::max(nu);
+    const std::size_t size = nu.size();
+    const auto each = [&](const LightIntegral& how, std::span<const double> whole) {
+        std::vector<double> parts(visible_.size() * size);
+        parallel_for(visible_.size(), execution_.threads, [&](std::size_t s) {
+            const LitView lit{slices[s], surface_.optics.depth_phase, view};
+            const LobeTable lobe = how.kind == LightIntegral::Kind::exact
+                                       ? lobe_under(visible_[s], slices[s], view, shortest_um)
+                                       : LobeTable(visible_[s], 0, 0);
+            std::ranges::copy(
+                irido::light_ratios(visible_[s], lit, nu, how, reflectance, lobe, whole),
+                parts.begin() + static_cast<std::ptrdiff_t>(s * size));
+        });
+        std::vector<double> all(size, 0.0);
+        for (std::size_t i = 0; i < parts.size(); ++i) all[i % size] += parts[i];
+        return all;
+    };
+    std::vector<double> whole;
+    if (method.kind == LightIntegral::Kind::exact && visible_.size() > 1) {
+        whole = each({LightIntegral::Kind::points, 2}, {});
+        if (std::ranges::any_of(whole, [](double one) { return !(one > 0); })) whole.clear();
+    }
+    const std::vector<double> all = each(method, whole);
+    for (std::size_t i = 0; i < size; ++i) sums[i] += all[i];
 }
 
 std::vector<Triple> ScratchedScattering::light_colors(std::span<const LightCone> lights,

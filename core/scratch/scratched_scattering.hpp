@@ -62,8 +62,7 @@ public:
                                const Sensitivity& sensitivity) const;
 
     /// Outgoing radiance over that of the lights, which must not overlap, [view][wavelength].
-    /// Throws DomainError for waves, ensembles and a rough base, which lights are not integrated
-    /// over.
+    /// Throws DomainError for waves and ensembles, which lights are not integrated over.
     std::vector<double> light_ratios(std::span<const LightCone> lights,
                                      std::span<const UnitVector> views,
                                      const std::vector<double>& wavelength_nm,
@@ -77,7 +76,12 @@ public:
     static constexpr double kMostSeen = 2e7;
 
 private:
-    ScratchBalance balance(double view_rise, double wavenumber_per_um) const;
+    std::vector<ScratchBalance> balances(double view_rise,
+                                         const std::vector<double>& wavelength_nm) const;
+    /// Adds what all scratches reflect of a light, whose slices are across each of them.
+    void add_light(const std::vector<LightSlices>& slices, const UnitVector& view,
+                   const std::vector<double>& nu, const LightIntegral& method,
+                   const CosineSeries& reflectance, std::vector<double>& sums) const;
     std::vector<double> separate(const SkyPair& pair,
                                  const std::vector<double>& wavelength_nm) const;
     double coherent(const SkyPair& pair, double wavelength_um) const;

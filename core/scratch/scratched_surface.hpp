@@ -21,4 +21,12 @@ struct ScratchedSurface {
     std::vector<ScratchField> fields;
 };
 
+/// Its single scratches and those of its fields whose axis comes nearer than `radius_um` to a
+/// point; see scratches_near() of a field, whose ranges these are.
+std::vector<Scratch> scratches_near(const ScratchedSurface& surface, SurfacePoint at,
+                                    double radius_um);
+
+/// Share of the area that a field's scratches cover on average, each counted.
+double expected_density(const ScratchField& field);
+
 }  // namespace irido

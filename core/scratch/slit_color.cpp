@@ -7,7 +7,7 @@
 #include "core/math/constants.hpp"
 #include "core/math/sine_integral.hpp"
 #include "core/math/vector_math.hpp"
-#include "core/scratch/scratch.hpp"
+#include "core/scratch/diffraction.hpp"
 
 namespace irido {
 
@@ -20,10 +20,6 @@ void add_nodes(const PanelRule& rule, SpectralNodes& nodes) {
         nodes.nu_per_um.push_back(kNmPerUm / rule.wavelength_nm[i]);
         for (std::size_t c = 0; c < 3; ++c) nodes.weight[c].push_back(rule.weight[c][i]);
     }
-}
-
-double sinc_of(double x, double sine) {
-    return std::abs(x) < 1e-4 ? 1 - x * x / 6 : sine / x;
 }
 
 }  // namespace
@@ -118,31 +114,63 @@ const SlitColors::Level& SlitColors::level_of(double u_um) const {
     throw DomainError("u_um must be within the range prepared for (got " + to_text(u_um) + ")");
 }
 
-/// sum over nodes of of_slit(u, nu) times the waves of each depth, which a function makes for the
-/// nodes of a level: [depth][channel][node].
-template <class Value, class Waves>
-std::vector<Value> SlitColors::products(std::span<const double> u_um,
-                                        std::span<const double> depth_um, OfSlit of_slit,
-                                        const Waves& waves_of) const {
-    std::vector<decltype(waves_of(levels_.front().nodes, 0.0))> waves;
-    const Level* waves_level = nullptr;
-    std::vector<double> slit;
-    std::vector<Value> values;
-    for (const double u : u_um) {
-        const Level& level = level_of(u);
-        const std::size_t size = level.nodes.size();
-        if (&level != waves_level) {
-            waves.clear();
-            for (const double depth : depth_um) waves.push_back(waves_of(level.nodes, depth));
-            waves_level = &level;
+std::shared_ptr<const SlitColors::Waves> SlitColors::waves_of(const Level& level,
+                                                              std::span<const double> depth_um,
+                                                              const Triple* carrier_um) const {
+    std::unique_lock guard(lock_);
+    Waves wanted{&level, {depth_um.begin(), depth_um.end()}, {}, {}};
+    if (carrier_um) wanted.carrier_um = *carrier_um;
+    for (const auto& kept : kept_)
+        if (kept->level == wanted.level && kept->depth_um == wanted.depth_um &&
+            kept->carrier_um == wanted.carrier_um)
+            return kept;
+    const SpectralNodes& nodes = level.nodes;
+    const std::size_t size = nodes.size(), width = carrier_um ? 6 : 3,
+                      columns = width * depth_um.size();
+    const bool is_kept = size * columns <= kMostKeptValues;
+    if (!is_kept) guard.unlock();
+    wanted.values.resize(size * columns);
+    std::vector<double> angle(size), sine(size), cosine(size);
+    for (std::size_t d = 0; d < depth_um.size(); ++d) {
+        const double turn = (carrier_um ? 2 : 1) * kTwoPi * depth_um[d];
+        for (std::size_t i = 0; i < size; ++i) angle[i] = turn * nodes.nu_per_um[i];
+        sin_cos(angle, sine, cosine, best_simd_level());
+        std::array<Complex, 3> shift{};
+        for (std::size_t c = 0; c < 3 && carrier_um; ++c)
+            shift[c] = std::polar(1.0, -turn / (*carrier_um)[c]);
+        for (std::size_t i = 0; i < size; ++i) {
+            double* const row = wanted.values.data() + i * columns + d * width;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double weight = nodes.weight[c][i];
+                if (!carrier_um) {
+                    row[c] = weight * 4 * sine[i] * sine[i];
+                    continue;
+                }
+                row[c] = weight * (cosine[i] * shift[c].real() - sine[i] * shift[c].imag());
+                row[c + 3] = weight * (cosine[i] * shift[c].imag() + sine[i] * shift[c].real());
+            }
         }
-        slit.resize(size);
-        for (std::size_t i = 0; i < size; ++i) slit[i] = of_slit(u, level.nodes.nu_per_um[i]);
-        for (const auto& wave : waves) {
-            Value sum{};
-            for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t i = 0; i < size; ++i) sum[c] += slit[i] * wave[c][i];
-            values.push_back(sum);
+    }
+    if (!is_kept) return std::make_shared<const Waves>(std::move(wanted));
+    if (kept_.size() >= kMostKept) kept_.erase(kept_.begin());
+    return kept_.emplace_back(std::make_shared<const Waves>(std::move(wanted)));
+}
+
+/// sum over nodes of of_slit(u, nu) times the waves of each depth.
+std::vector<double> SlitColors::products(std::span<const double> u_um,
+                                         std::span<const double> depth_um, const Triple* carrier_um,
+                                         OfSlit of_slit) const {
+    const std::size_t columns = (carrier_um ? 6 : 3) * depth_um.size();
+    std::vector<double> values(u_um.size() * columns, 0.0);
+    std::shared_ptr<const Waves> waves;
+    for (std::size_t row = 0; row < u_um.size(); ++row) {
+        const Level& level = level_of(u_um[row]);
+        if (!waves || waves->level != &level) waves = waves_of(level, depth_um, carrier_um);
+        double* const sums = values.data() + row * columns;
+        for (std::size_t i = 0; i < level.nodes.size(); ++i) {
+            const double slit = of_slit(u_um[row], level.nodes.nu_per_um[i]);
+            const double* const wave = waves->values.data() + i * columns;
+            for (std::size_t k = 0; k < columns; ++k) sums[k] += slit * wave[k];
         }
     }
     return values;
@@ -150,32 +178,21 @@ std::vector<Value> SlitColors::products(std::span<const double> u_um,
 
 std::vector<Triple> SlitColors::grooves(std::span<const double> u_um,
                                         std::span<const double> depth_um, OfSlit of_slit) const {
-    return products<Triple>(u_um, depth_um, of_slit, [](const SpectralNodes& nodes, double depth) {
-        std::array<std::vector<double>, 3> wave = nodes.weight;
-        std::vector<double> angle(nodes.size()), sine(nodes.size()), cosine(nodes.size());
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-            angle[i] = kTwoPi * depth * nodes.nu_per_um[i];
-        sin_cos(angle, sine, cosine, best_simd_level());
-        for (std::vector<double>& channel : wave)
-            for (std::size_t i = 0; i < nodes.size(); ++i) channel[i] *= 4 * sine[i] * sine[i];
-        return wave;
-    });
+    const std::vector<double> values = products(u_um, depth_um, nullptr, of_slit);
+    std::vector<Triple> triples(values.size() / 3);
+    for (std::size_t i = 0; i < values.size(); ++i) triples[i / 3][i % 3] = values[i];
+    return triples;
 }
 
 std::vector<ComplexTriple> SlitColors::carriers(std::span<const double> u_um,
                                                 std::span<const double> depth_um,
                                                 const Triple& carrier_um, OfSlit of_slit) const {
-    return products<ComplexTriple>(
-        u_um, depth_um, of_slit, [&](const SpectralNodes& nodes, double depth) {
-            std::array<std::vector<Complex>, 3> wave;
-            for (std::size_t c = 0; c < 3; ++c)
-                for (std::size_t i = 0; i < nodes.size(); ++i)
-                    wave[c].push_back(
-                        nodes.weight[c][i] *
-                        std::polar(1.0,
-                                   2 * kTwoPi * depth * (nodes.nu_per_um[i] - 1 / carrier_um[c])));
-            return wave;
-        });
+    const std::vector<double> values = products(u_um, depth_um, &carrier_um, of_slit);
+    std::vector<ComplexTriple> triples(values.size() / 6);
+    for (std::size_t i = 0; i < triples.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            triples[i][c] = {values[6 * i + c], values[6 * i + 3 + c]};
+    return triples;
 }
 
 namespace {

@@ -44,7 +44,7 @@ double published_slit_integral(double x);
 ///     T_j = 2 Q_j(u, 0) - 2 Re[exp(4 pi i D/lambda_j) Q_j(u, D)],
 /// Q being smooth in D. An area light's colour is rho [T(W q1, D) - T(W q0, D)], many scratches'
 /// far field rho p(a) W T'(W |xi|, D)/|xi|. u in [-1e3, 1e3] um, D in [0, 1e2] um, else
-/// DomainError; errors below 1e-12.
+/// DomainError; errors below 1e-12. Safe from many threads.
 class SlitColors {
 public:
     SlitColors(const Sensitivity& sensitivity, double largest_u_um, double largest_depth_um);
@@ -71,10 +71,19 @@ private:
     };
     /// What varies with u, F/pi or its derivative, at a node.
     using OfSlit = double (*)(double u_um, double nu_per_um);
+    /// What varies with the depth, times the weights: [node][depth][X, Y, Z], or with a carrier
+    /// [node][depth][real X, Y, Z, imaginary X, Y, Z].
+    struct Waves {
+        const Level* level;
+        std::vector<double> depth_um;
+        Triple carrier_um;  ///< 0 without one
+        std::vector<double> values;
+    };
     const Level& level_of(double u_um) const;
-    template <class Value, class Waves>
-    std::vector<Value> products(std::span<const double> u_um, std::span<const double> depth_um,
-                                OfSlit of_slit, const Waves& waves_of) const;
+    std::shared_ptr<const Waves> waves_of(const Level& level, std::span<const double> depth_um,
+                                          const Triple* carrier_um) const;
+    std::vector<double> products(std::span<const double> u_um, std::span<const double> depth_um,
+                                 const Triple* carrier_um, OfSlit of_slit) const;
     std::vector<Triple> grooves(std::span<const double> u_um, std::span<const double> depth_um,
                                 OfSlit of_slit) const;
     std::vector<ComplexTriple> carriers(std::span<const double> u_um,
@@ -82,6 +91,10 @@ private:
                                         OfSlit of_slit) const;
 
     std::vector<Level> levels_;  ///< ascending
+    /// The last ones asked for: tables come in parts that share their depths.
+    static constexpr std::size_t kMostKept = 5, kMostKeptValues = 1U << 22;
+    mutable std::vector<std::shared_ptr<const Waves>> kept_;
+    mutable std::mutex lock_;
 };
 
 /// lambda_j of the carriers of Q, um: near the centroids of the largest lobes of X, Y, Z in

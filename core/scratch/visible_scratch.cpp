@@ -75,13 +75,16 @@ VisibleScratch::VisibleScratch(const Scratch& scratch, const ScratchOptics& opti
 }
 
 /// The mean over the footprint, first across the scratch, where it is closed, then along it: of an
-/// ellipse by Chebyshev's rule of the second kind, of a Gaussian by a trapezoidal rule.
+/// ellipse by Chebyshev's rule of the second kind, of a Gaussian by a trapezoidal rule. Both have
+/// as many points as leave 1e-13 of a mean over Gaussians exp(-v^2).
 void VisibleScratch::add_places(const FootprintFrame& frame, Footprint::Kind kind) {
-    constexpr double kLeast = 48, kPerSigma = 12, kMost = 4096;
+    constexpr double kLeast = 16, kPerSigma = 8, kLeastOfGaussian = 24, kOfGaussian = 32,
+                     kMost = 4096;
     const double extent = std::max(frame.along_um, frame.across_um) / sigma_;
     const bool is_gaussian = kind == Footprint::Kind::gaussian;
     const int count = static_cast<int>(
-        std::min(kMost, kLeast + kPerSigma * std::ceil(extent * (is_gaussian ? 8 : 1))));
+        std::min(kMost, is_gaussian ? std::max(kLeastOfGaussian, std::ceil(kOfGaussian * extent))
+                                    : kLeast + kPerSigma * std::ceil(extent)));
     double sum = 0;
     for (int i = 1; i <= count; ++i) {
         const double place = static_cast<double>(i) / (count + 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/complex.hpp"
@@ -24,6 +25,13 @@ public:
     double offset_um() const { return offset_; }  ///< s_b, of the footprint's centre
     bool has_ends() const { return !places_.empty(); }
 
+    /// The ends as seen from a place along the axis, in units of sigma; weights sum to weight().
+    struct Place {
+        double start, end, weight;
+    };
+    /// All places of a footprint, or the only one; none of a scratch without ends that count.
+    std::span<const Place> places() const { return places_; }
+
     /// Mean of |eta|^2/(2 pi sigma^2) at y = sigma k xi_1: exp(-s_b^2/sigma^2 - y^2) of an infinite
     /// scratch at a point, with (E(end) - E(start))^2/4 in the place of exp(-y^2) of a finite one.
     double power(double y) const;
@@ -41,10 +49,6 @@ public:
     bool ends_nearby() const { return ends_within(3); }
 
 private:
-    /// Ends as seen from a place along the axis, in units of sigma; weights sum to weight().
-    struct Place {
-        double start, end, weight;
-    };
     void add_places(const FootprintFrame& frame, Footprint::Kind kind);
     void set_share();
 
@@ -52,7 +56,7 @@ private:
     double sigma_;
     std::array<double, 2> tangent_;
     double offset_ = 0, reach_ = 0, middle_ = 0, weight_ = 0, share_ = 0;
-    std::vector<Place> places_;  ///< none of a scratch without ends that count
+    std::vector<Place> places_;
 };
 
 /// E(end) - E(start) with

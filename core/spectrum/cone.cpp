@@ -30,20 +30,20 @@ ConeLight::ConeLight(const Cone& cone)
     if (!(last_deg <= kLargestAngle_deg))
         throw DomainError("a cone must end at 90 degrees or before (got " + to_text(cone.axis_deg) +
                           " + " + to_text(cone.half_angle_deg) + ")");
-    const double inner = std::abs(cone.axis_deg - cone.half_angle_deg) * kDegree;
-    if (axis_ < half_angle_) ends_.push_back(0);
-    if (inner > 0 || ends_.empty()) ends_.push_back(inner);
-    ends_.push_back(last_deg * kDegree);
-    if (axis_ == 0) ends_ = {0, half_angle_};
+    // the normal, and the ring of rays at the cone's edge around it
+    if (axis_ < half_angle_) ends_ = {-axis_, half_angle_ - 2 * axis_};
+    if (axis_ >= half_angle_) ends_ = {-half_angle_};
+    if (axis_ == 0) ends_ = {0};
+    ends_.push_back(half_angle_);
 }
 
-ConeShares ConeLight::shares(double theta) const {
-    const double a = half_angle_, b = axis_;
+ConeShares ConeLight::shares(double offset) const {
+    const double a = half_angle_, b = axis_, theta = axis_ + offset;
     const double weight = std::cos(theta) * std::sin(theta) / norm_;
     if (b == 0) return {kPi * weight, kPi * weight};
     // the spherical triangle of the axis, the normal and the ray at the cone's edge
-    const double outside = std::sin((a - b + theta) / 2) * std::sin((a + b - theta) / 2);
-    const double inside = std::sin((a + b + theta) / 2) * std::sin((b - a + theta) / 2);
+    const double outside = std::sin((a + offset) / 2) * std::sin((a - offset) / 2);
+    const double inside = std::sin((a + offset) / 2 + b) * std::sin((offset - a) / 2 + b);
     const double last =
         2 * std::atan2(std::sqrt(std::max(0.0, outside)), std::sqrt(std::max(0.0, inside)));
     constexpr int kAzimuths = 40;
@@ -63,7 +63,7 @@ std::vector<double> ConeLight::smooth_ends(std::span<const Complex> index, doubl
     std::vector<double> ends = ends_;
     for (const Complex& one : index) {
         if (one.imag() != 0 || !(one.real() < n0)) continue;
-        const double critical = std::asin(one.real() / n0);
+        const double critical = std::asin(one.real() / n0) - axis_;
         if (critical > ends_.front() && critical < ends_.back()) ends.push_back(critical);
     }
     std::ranges::sort(ends);
@@ -77,10 +77,10 @@ ConeNode ConeLight::node(double t, std::span<const double> ends) const {
     const double phase = kPi * (t - static_cast<double>(panel));
     const double length = ends[panel + 1] - ends[panel];
     const double up = square(std::sin(phase / 2)), down = square(std::cos(phase / 2));
-    const double theta = up < down ? ends[panel] + length * up : ends[panel + 1] - length * down;
+    const double offset = up < down ? ends[panel] + length * up : ends[panel + 1] - length * down;
     const double slope = length * kPi / 2 * std::sin(phase);
-    const ConeShares at = shares(theta);
-    return {theta, {at.s * slope, at.p * slope}};
+    const ConeShares at = shares(offset);
+    return {axis_ + offset, {at.s * slope, at.p * slope}};
 }
 
 IncidentAngle ConeNode::incidence() const {

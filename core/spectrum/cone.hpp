@@ -33,20 +33,22 @@ public:
     /// Throws DomainError if the cone passes 90 degrees.
     explicit ConeLight(const Cone& cone);
 
-    /// The ends of its polar angles, and where its shares have a kink: ascending.
+    /// The ends of its polar angles, and where its shares have a kink, in radians from the axis, so
+    /// that narrow cones keep their digits: ascending.
     const std::vector<double>& ends() const { return ends_; }
 
     /// Of light that is polarized along the surface before a lens whose axis is the cone's: behind
     /// it a ray v has e' = e - (e.v)(a + v)/(1 + a.v). Light polarized across has s and p
     /// exchanged, and unpolarized light the mean of both. On a normal axis each is half.
-    ConeShares shares(double theta) const;
+    ///   offset   polar angle from the axis, radians
+    ConeShares shares(double offset) const;
 
     /// The ends, and the critical angles of transparent media among them: ascending.
     ///   index   of media;   n0  of the incident one
     std::vector<double> smooth_ends(std::span<const Complex> index, double n0) const;
 
     /// The node at t in [i, i + 1] between the ends i and i + 1,
-    ///     theta = begin + (end - begin)(1 - cos(pi (t - i)))/2,
+    ///     offset = begin + (end - begin)(1 - cos(pi (t - i)))/2,
     /// so that square roots at either end are smooth in t.
     ConeNode node(double t, std::span<const double> ends) const;
 

@@ -66,7 +66,11 @@ DesignTask read_checked(const json& document, const std::string& file, const std
         task.problem.merit =
             std::ranges::find(kMerits, name, &decltype(kMerits)::value_type::first)->second;
     }
-    task.source = inner_stack(document["stack"], "/stack", folder);
+    try {
+        task.source = inner_stack(document["stack"], "/stack", folder);
+    } catch (const InputError& error) {
+        throw InputError(file, error.where, error.message);
+    }
     task.max_layers = static_cast<std::size_t>(document.value("max_layers", 20.0));
     task.min_thickness_nm = document.value("min_thickness_nm", task.min_thickness_nm);
     StackDocument stack = read_stack_of(document, file, task);

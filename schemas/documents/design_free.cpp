@@ -265,7 +265,7 @@ public:
             const std::string path = free_[i]["path"].get<std::string>();
             const std::vector<std::string> found = finder.find(path);
             if (found.empty())
-                fail(i, "/path", "fits no number in the stack (got \"" + path + "\")");
+                fail(i, "/path", "matches no number in the stack (got \"" + path + "\")");
             for (const std::string& one : found) add(i, one, found.size() > 1);
         }
         PlaceFinder places(task_);
@@ -281,7 +281,7 @@ private:
 
     void add(std::size_t i, const std::string& path, bool is_one_of_many) {
         const json& entry = free_[i];
-        if (!taken_.insert(path).second) fail(i, "/path", path + " is free twice");
+        if (!taken_.insert(path).second) fail(i, "/path", path + " is already free");
         FreeValue value;
         value.name = entry.value("name", path);
         if (is_one_of_many && entry.contains("name") && !entry.contains("link")) value.name = path;
@@ -301,10 +301,10 @@ private:
         FreeValue& first = task_.problem.free[known->second];
         first.low = std::max(first.low, value.low);
         first.high = std::min(first.high, value.high);
-        if (first.low > first.high)
-            fail(i, "/bounds", "have nothing in common with those of the same link");
+        if (first.low > first.high) fail(i, "/bounds", "do not overlap those of the same link");
         if (first.start != value.start)
-            task_.notes.push_back(path + " begins as " + task_.paths[known->second].front() +
+            task_.notes.push_back(path + " starts from the value of " +
+                                  task_.paths[known->second].front() +
                                   ", to which it is linked: " + to_text(first.start));
         task_.paths[known->second].push_back(path);
     }
@@ -334,7 +334,7 @@ private:
         value.low = low;
         value.high = high;
         if (value.start < low || value.start > high)
-            task_.notes.push_back(path + " begins at a bound: " + to_text(value.start) +
+            task_.notes.push_back(path + " starts at a bound: " + to_text(value.start) +
                                   " is outside of [" + to_text(low) + ", " + to_text(high) + "]");
     }
 

@@ -9,6 +9,7 @@
 #include "schemas/documents/inner_stack.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/schema_check.hpp"
+#include "schemas/documents/surface_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
 
@@ -18,12 +19,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::pair<Shading, std::string_view>, 5> kShadings{
+constexpr std::array<std::pair<Shading, std::string_view>, 6> kShadings{
     {{Shading::color, "color"},
      {Shading::fourier, "fourier"},
      {Shading::bragg, "bragg"},
      {Shading::rough_layers, "rough-layers"},
-     {Shading::albedo, "albedo"}}};
+     {Shading::albedo, "albedo"},
+     {Shading::scratches, "scratches"}}};
 
 Shading shading_of(std::string_view name) {
     return std::ranges::find(kShadings, name, &std::pair<Shading, std::string_view>::second)->first;
@@ -69,6 +71,10 @@ public:
             scene_.delta_e = tolerance->value("delta_e", scene_.delta_e);
             scene_.relative = tolerance->value("relative", scene_.relative);
         }
+        if (document_.contains("lights"))
+            for (std::size_t i = 0; i < document_["lights"].size(); ++i)
+                scene_.lights.push_back(
+                    light(document_["lights"][i], "/lights/" + std::to_string(i)));
         for (std::size_t i = 0; i < document_["materials"].size(); ++i)
             scene_.materials.push_back(
                 material(document_["materials"][i], "/materials/" + std::to_string(i)));
@@ -76,11 +82,23 @@ public:
     }
 
 private:
+    SceneLight light(const json& object, const std::string& pointer) const {
+        const ValueRange range = range_of(object["diameter_deg"]);
+        if (range.first > range.last)
+            throw InputError(
+                file_, pointer + "/diameter_deg",
+                "must ascend (got [" + to_text(range.first) + ", " + to_text(range.last) + "])");
+        return {object.value("name", ""), range};
+    }
+
     SceneMaterial material(const json& object, const std::string& pointer) {
         SceneMaterial result;
         result.name = object["name"].get<std::string>();
         result.pointer = pointer;
-        result.shading = shading_of(object["shading"].get<std::string>());
+        result.shading = object.contains("shading")
+                             ? shading_of(object["shading"].get<std::string>())
+                             : Shading::scratches;
+        refuse_foreign(result, object);
         result.has_angles = object.contains("angles_deg");
         if (result.has_angles) result.angles_deg = range(result, object, "angles_deg");
         result.is_rough = object.contains("roughness");
@@ -91,6 +109,10 @@ private:
             for (const auto& [path, value] : object["vary"].items())
                 result.vary.push_back({path, ascending(result, range_of(value),
                                                        pointer + "/vary" + pointer_step(path))});
+        if (object.contains("surface")) {
+            read_scratches(result, object);
+            return result;
+        }
         try {
             result.source = inner_stack(object["stack"], pointer + "/stack", folder_);
             // the stack at both ends of what varies
@@ -100,6 +122,59 @@ private:
         }
         for (const std::string& note : result.document.notes) scene_.notes.push_back(note);
         return result;
+    }
+
+    /// Keys of stacks that a surface has, and the other way round.
+    static void refuse_foreign(SceneMaterial& material, const json& object) {
+        const bool has_surface = object.contains("surface");
+        constexpr std::array kOfStacks{"stack", "vary", "roughness", "transmission",
+                                       "thickness_spread_nm"};
+        constexpr std::array kOfSurfaces{"extent_um", "footprint_um"};
+        const auto refuse = [&](const std::string& key, const std::string& reason) {
+            if (object.contains(key))
+                material.faults.push_back({material.pointer + "/" + key, reason});
+        };
+        if (has_surface)
+            for (const char* const key : kOfStacks)
+                refuse(key, "cannot be combined with \"surface\"");
+        else
+            for (const char* const key : kOfSurfaces)
+                refuse(key, "requires a \"surface\" with scratches");
+        if (has_surface != (material.shading == Shading::scratches))
+            refuse("shading", has_surface ? "must be scratches for a \"surface\""
+                                          : "scratches requires a \"surface\" with scratches");
+    }
+
+    void read_scratches(SceneMaterial& material, const json& object) {
+        const std::string pointer = material.pointer + "/surface";
+        SceneScratches scratches;
+        if (object.contains("extent_um"))
+            scratches.extent_um = object["extent_um"].get<std::array<double, 2>>();
+        scratches.footprint_um = object.value("footprint_um", scratches.footprint_um);
+        try {
+            const StackSource source = inner_stack(object["surface"], pointer, folder_);
+            if (!is_surface(source.document))
+                throw InputError("", pointer,
+                                 "must be a surface with scratches (a stack goes into \"stack\")");
+            for (const std::string& line :
+                 surface_problems(source.document, source.file, source.folder))
+                material.faults.push_back(fault_of_line(pointer, line));
+            if (!material.faults.empty()) return;
+            const SurfaceDocument read = read_surface(source.document, source.file, source.folder);
+            const auto* const scratched = std::get_if<ScratchedSurface>(&read.surface);
+            if (!scratched)
+                throw InputError("", pointer, "must be a surface with scratches (got layers)");
+            for (const std::string& note : read.notes)
+                scene_.notes.push_back(material.name + ": " + note);
+            scratches.surface = *scratched;
+            material.scratches = std::move(scratches);
+            if (!source.document.contains("base")) return;
+            material.source =
+                inner_stack(source.document["base"], pointer + "/base", source.folder);
+            material.document = read_source(material.source);
+        } catch (const std::exception& error) {
+            material.faults.push_back(fault_of(material, error));
+        }
     }
 
     /// Reads the stack with one end of what varies; false if it has faults there.
@@ -121,14 +196,14 @@ private:
         } catch (const InputError&) {
             for (const std::string& line :
                  stack_problems(source.document, source.file, source.folder))
-                material.faults.push_back(fault_of_line(material, line));
+                material.faults.push_back(fault_of_line(material.pointer + "/stack", line));
         }
         return material.faults.size() == faults;
     }
 
-    /// A line of stack_problems(), "FILE: POINTER: message".
-    static SceneFault fault_of_line(const SceneMaterial& material, const std::string& line) {
-        const std::string pointer = material.pointer + "/stack", prefix = pointer + ": ";
+    /// A line of stack_problems() or surface_problems(), "FILE: POINTER: message".
+    static SceneFault fault_of_line(const std::string& pointer, const std::string& line) {
+        const std::string prefix = pointer + ": ";
         if (!line.starts_with(prefix)) return {pointer, line};
         const std::string rest = line.substr(prefix.size());
         const std::size_t end = rest.starts_with('/') ? rest.find(": ") : std::string::npos;
@@ -187,7 +262,7 @@ SceneFault fault_of(const SceneMaterial& material, const std::exception& error) 
     if (!input) return {material.pointer, error.what()};
     if (input->file.empty() && input->where.starts_with(material.pointer))
         return {input->where, input->message};
-    const std::string stack = material.pointer + "/stack";
+    const std::string stack = material.pointer + (material.scratches ? "/surface/base" : "/stack");
     const bool is_pointer = input->where.empty() || input->where.starts_with('/');
     if (input->file == stack && is_pointer) return {stack + input->where, input->message};
     return {stack, input->what()};

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/scratch/scratched_surface.hpp"
 #include "schemas/documents/stack_document.hpp"
 
 namespace irido::schemas {
@@ -15,6 +18,7 @@ enum class Shading {
     bragg,         ///< Yeh's reflectance in the shader
     rough_layers,  ///< tables falpha and transmissivity
     albedo,        ///< table of the directional albedo
+    scratches,     ///< scratch by scratch in the shader, with tables of the kind scratch
 };
 
 std::string_view name_of(Shading shading);
@@ -37,11 +41,25 @@ struct SceneFault {
     bool operator==(const SceneFault&) const = default;
 };
 
+/// Lights of a scene that cover so many degrees; 0 is a point.
+struct SceneLight {
+    std::string name;
+    ValueRange diameter_deg;
+};
+
+/// A surface with scratches, and what an engine shows of it.
+struct SceneScratches {
+    ScratchedSurface surface;
+    std::array<double, 2> extent_um{4000, 4000};  ///< [1, 1e6] each
+    double footprint_um = 200;  ///< largest half extent of a footprint, [0, 1e4]; 0: points
+};
+
 /// A material of a scene. Angles in degrees, alpha in [1e-4, 1].
 struct SceneMaterial {
     std::string name;
     std::string pointer;             ///< in the scene: /materials/3
     std::vector<SceneFault> faults;  ///< why it cannot be made; then its stack may be missing
+    std::optional<SceneScratches> scratches;  ///< then the stack is that of their base, if any
     StackSource source;
     StackDocument document;
     std::vector<VariedRange> vary;  ///< at most two
@@ -63,6 +81,7 @@ struct Scene {
     int observer_deg = 2;
     double delta_e = 0.5, relative = 1e-3;  ///< tolerances of colours and of filters
     std::string format = "ktx2", type = "f16";
+    std::vector<SceneLight> lights;  ///< none: any may occur
     std::vector<SceneMaterial> materials;
     std::vector<std::string> notes;  ///< notes of the readers of stacks
 };

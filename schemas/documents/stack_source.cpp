@@ -45,7 +45,7 @@ json reference_of(const std::string& text) {
     const std::optional<double> nm = parse_number(text);
     if (!nm || !(*nm >= kAllWavelengths.first_nm && *nm <= kAllWavelengths.last_nm))
         throw InputError("--reference", "",
-                         "must be a wavelength in [1, 1e7] nm (got " + text + ")");
+                         "must be a wavelength in [1, 1e7] nm (got '" + text + "')");
     return *nm;
 }
 

@@ -207,8 +207,9 @@ SurfaceDocument read_surface(const SurfaceRequest& request) {
     const StackSource source = load_stack(request.source);
     if (!is_surface(source.document)) return rough_stack(source, request.alpha);
     if (request.alpha)
-        throw InputError(source.file, "", "--alpha is for stacks: a surface says its own");
-    if (source.reverse) throw InputError(source.file, "", "--reverse is for stacks");
+        throw InputError(source.file, "",
+                         "--alpha applies to stacks only: a surface document states its roughness");
+    if (source.reverse) throw InputError(source.file, "", "--reverse applies to stacks only");
     return read_surface(source.document, source.file, source.folder);
 }
 

@@ -377,7 +377,8 @@ double to_nm(double value, SpectralUnit unit) {
     return value;
 }
 
-void require_nm(const ColumnText& table, std::size_t column, const std::string& name) {
+void require_nm(const ColumnText& table, std::size_t column, const std::string& name,
+                std::string_view values) {
     constexpr double kShortest_nm = 50;
     double first = table.rows[0].values[column], last = first;
     for (const ColumnRow& row : table.rows) {
@@ -388,7 +389,8 @@ void require_nm(const ColumnText& table, std::size_t column, const std::string& 
     throw InputError(name, "",
                      "wavelengths must be in nm unless a header says otherwise; " + to_text(first) +
                          " to " + to_text(last) +
-                         " looks like um or eV (then add a header such as um,n,k or eV,n,k)");
+                         " looks like um or eV (then add a header such as um," +
+                         std::string(values) + ")");
 }
 
 }  // namespace irido::schemas

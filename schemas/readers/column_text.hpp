@@ -74,6 +74,8 @@ double shifted(double value, int power);
 double to_nm(double value, SpectralUnit unit);
 
 /// Throws InputError if wavelengths without a unit look like um: if all are below 50.
-void require_nm(const ColumnText& table, std::size_t column, const std::string& name);
+///   values   the other columns of a header that would say so: "n,k"
+void require_nm(const ColumnText& table, std::size_t column, const std::string& name,
+                std::string_view values);
 
 }  // namespace irido::schemas

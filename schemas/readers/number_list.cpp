@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/error.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/number.hpp"
 
@@ -33,9 +34,25 @@ public:
 private:
     [[noreturn]] static void fail(const std::string& text) { throw InputError("", "", text); }
 
+    /// How to write what was meant as a range, "380-780" or "380..780", or as several values.
+    static std::string range_hint(std::string_view text) {
+        for (const std::string_view between : {"..", "-", "to", " "}) {
+            const std::size_t at = text.find(between, 1);
+            if (at >= text.size()) continue;
+            const auto first = parse_number(trimmed(text.substr(0, at)));
+            const auto last = parse_number(trimmed(text.substr(at + between.size())));
+            if (!first || !last) continue;
+            const std::string start = to_text(*first), stop = to_text(*last);
+            if (between == " ") return "; several values are written " + start + "," + stop;
+            return "; a range is written " + start + ":" + stop + ":STEP or " + start + ":" + stop +
+                   "/COUNT";
+        }
+        return "";
+    }
+
     static double number(std::string_view text) {
         const auto value = parse_number(trimmed(text));
-        if (!value) fail("must be a number (got '" + std::string(text) + "')");
+        if (!value) fail("must be a number (got " + in_quotes(text) + ")" + range_hint(text));
         return *value;
     }
 

@@ -39,7 +39,7 @@ Table read_spectrum_csv(std::string_view text, const std::string& name) {
     const ColumnText table = read_columns(lines_of(text), name, names);
     const auto column_name =
         table.header.empty() ? SpectralColumn{} : spectral_column(table.header[0]).value();
-    if (!column_name.unit) require_nm(table, 0, name);
+    if (!column_name.unit) require_nm(table, 0, name, "power");
     if (table.rows.size() < 2) throw InputError(name, "", "must have at least 2 rows (got 1)");
     double largest = 0;
     std::vector<IndexRow> rows;

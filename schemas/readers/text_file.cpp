@@ -44,6 +44,12 @@ Inputs& inputs() {
     return all;
 }
 
+void add_input(const Identity& identity, const std::string& path) {
+    Inputs& all = inputs();
+    const std::scoped_lock guard(all.lock);
+    all.path_of[identity] = path;
+}
+
 class OpenFile {
 public:
     OpenFile(const std::string& path, TextSource source) : path_(path) {
@@ -99,17 +105,19 @@ std::string read_text(const std::string& path, TextSource source) {
     if (file.size() <= most) text = file.read_up_to(most);
     if (std::max(text.size(), file.size()) > most)
         fail(path, "must be at most " + std::to_string(most / kMebibyte) + " MiB");
-    if (file.is_regular()) {
-        Inputs& all = inputs();
-        const std::scoped_lock guard(all.lock);
-        all.path_of[file.identity()] = path == "-" ? "/dev/stdin" : path;
-    }
+    if (file.is_regular()) add_input(file.identity(), path == "-" ? "/dev/stdin" : path);
     return text;
 }
 
 std::string read_own_file(const std::string& path) {
     const OpenFile file(path, TextSource::regular_file);
     return file.read_up_to(std::string().max_size() - 1);
+}
+
+void mark_as_input(const std::string& path) {
+    struct stat status {};
+    if (stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
+        add_input({status.st_dev, status.st_ino}, path);
 }
 
 bool is_input(const std::string& path) {

@@ -19,7 +19,10 @@ std::string read_text(const std::string& path, TextSource source = TextSource::a
 /// it may be written again. Throws InputError.
 std::string read_own_file(const std::string& path);
 
-/// Whether the file at this path, by whatever name or link, is one that read_text() has read.
+/// Makes a file that read_own_file() reads one of the inputs, if it is there.
+void mark_as_input(const std::string& path);
+
+/// Whether the file at this path, by whatever name or link, is one of the inputs.
 bool is_input(const std::string& path);
 
 /// What messages call a path: itself, or "<stdin>" for "-".

@@ -50,6 +50,15 @@ std::size_t LutAxis::cell_of(double x) const {
     return i;
 }
 
+std::vector<double> LutAxis::spaced(std::size_t count) const {
+    std::vector<double> result =
+        equally_spaced(place_of(values.front()), place_of(values.back()), count);
+    for (double& x : result) x = at_place(x);
+    result.front() = values.front();
+    if (count > 1) result.back() = values.back();
+    return result;
+}
+
 std::vector<double> equally_spaced(double first, double last, std::size_t count) {
     std::vector<double> values(count, first);
     const auto intervals = static_cast<double>(count - 1);

@@ -32,6 +32,8 @@ struct LutAxis {
     /// there is none.
     std::size_t cell_of(double x) const;
     double place_of(double x) const { return half_at > 0 ? x / (x + half_at) : x; }
+    /// `count` values from one end to the other, equally spaced in place_of.
+    std::vector<double> spaced(std::size_t count) const;
     double at_place(double place) const {
         return half_at > 0 ? half_at * place / (1 - place) : place;
     }

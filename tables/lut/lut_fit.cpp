@@ -79,7 +79,7 @@ private:
 
     LutAxis range(std::size_t a, std::size_t count) const {
         LutAxis axis = plan_.axes[a].axis;
-        axis.values = equally_spaced(axis.values.front(), axis.values.back(), count);
+        axis.values = axis.spaced(count);
         return axis;
     }
 

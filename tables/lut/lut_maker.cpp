@@ -37,9 +37,8 @@ void set_counts(Lut& lut, const LutPlan& plan, const std::vector<std::size_t>& c
                            std::to_string(axis.count()) +
                            ", the number of values in its list (got " + std::to_string(counts[a]) +
                            ")");
-        axis.values = counts[a] == 1
-                          ? std::vector{0.5 * (axis.values.front() + axis.values.back())}
-                          : equally_spaced(axis.values.front(), axis.values.back(), counts[a]);
+        axis.values = counts[a] == 1 ? std::vector{0.5 * (axis.values.front() + axis.values.back())}
+                                     : axis.spaced(counts[a]);
     }
 }
 

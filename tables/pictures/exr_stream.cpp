@@ -220,7 +220,7 @@ void read_rows(const ExrFile& file, const ExrPixels& pixels, char* texels) {
                 reader.read(chunk, column * across, row * down);
             }
     } else {
-        throw PictureError("this OpenEXR file cannot be read: it is deep, not a picture");
+        throw PictureError("this OpenEXR file cannot be read: deep images are not supported");
     }
 }
 

@@ -77,7 +77,7 @@ double widest(const std::vector<Tick>& ticks) {
 
 void check(const Figure& figure) {
     const auto require = [](bool is_good) {
-        if (!is_good) throw PictureError("cannot draw what is no finite number");
+        if (!is_good) throw PictureError("cannot draw values that are not finite");
     };
     if (figure.panels.empty()) throw PictureError("there is nothing to draw");
     for (const Panel& panel : figure.panels) {

@@ -121,7 +121,7 @@ public:
         if (numbers_.empty()) {  // one place on the first axis that there is
             for (const VariedKey& key : keys_)
                 if (key.is_number && numbers_.empty()) numbers_.push_back(&key);
-            if (numbers_.empty()) throw PictureError("there is no number to draw along");
+            if (numbers_.empty()) throw PictureError("no column varies that could be an axis");
         }
         const bool has_colors = !plot_.inks.empty();
         const std::size_t most = has_colors ? 1 : kMostCurves;

@@ -79,6 +79,13 @@ bool is_listed(const OpenGrid& grid, std::uint32_t scratch, double cell_um) {
 
 }  // namespace
 
+std::vector<Scratch> scratches_within(const ScratchedSurface& surface, const GridExtent& extent) {
+    const SurfacePoint center{extent.origin.x_um + extent.width_um / 2,
+                              extent.origin.y_um + extent.height_um / 2};
+    return scratches_near(surface, center,
+                          std::hypot(extent.width_um, extent.height_um) / 2 + extent.reach_um);
+}
+
 GridFile grid_file(std::span<const Scratch> scratches, const GridExtent& extent) {
     const ScratchGrid grid(scratches, extent.origin, extent.width_um, extent.height_um,
                            extent.cell_um, extent.reach_um);
@@ -92,7 +99,7 @@ GridFile grid_file(std::span<const Scratch> scratches, const GridExtent& extent)
     for (const std::uint32_t entry : grid.entries()) append_word(file.bytes, entry);
     file.header = {
         {"irido", this_build().version},
-        {"kind", "scratch-grid"},
+        {"kind", kGridKind},
         {"origin_um", {extent.origin.x_um, extent.origin.y_um}},
         {"columns", grid.columns()},
         {"rows", grid.rows()},
@@ -122,7 +129,7 @@ std::vector<std::string> grid_problems(std::string_view bytes, const nlohmann::j
         offsets = header.at("offsets").at("count").get<std::size_t>();
         entries = header.at("entries").at("count").get<std::size_t>();
         cell_um = header.at("cell_um").get<double>();
-        if (header.at("kind") != "scratch-grid") return {"the header is not that of a grid"};
+        if (header.at("kind") != kGridKind) return {"the header is not that of a grid"};
     } catch (const nlohmann::json::exception&) {
         return {"the header lacks keys of a grid"};
     }

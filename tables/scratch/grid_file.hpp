@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scratch/scratch_grid.hpp"
+#include "core/scratch/scratched_surface.hpp"
 
 namespace irido::tables {
 
@@ -16,6 +17,10 @@ struct GridExtent {
     double width_um = 1000, height_um = 1000, cell_um = 100;
     double reach_um = 360;  ///< how far off a scratch counts
 };
+
+/// The scratches of a surface that come nearer to the rectangle than its reach, and some more
+/// around its corners.
+std::vector<Scratch> scratches_within(const ScratchedSurface& surface, const GridExtent& extent);
 
 /// Scratches and their grid as engines load them, little-endian, one buffer after the other:
 ///     records  float32 [scratches][8]: x, y (from the origin), tangent x, y, start, end, width,
@@ -27,6 +32,7 @@ struct GridFile {
     std::string bytes;
     nlohmann::json header;
 };
+inline constexpr const char* kGridKind = "scratch-grid";
 GridFile grid_file(std::span<const Scratch> scratches, const GridExtent& extent);
 
 /// What is wrong with the bytes of a grid file, one line each: a size, the checksum, an entry out

@@ -15,6 +15,14 @@
 // Past the film's critical angle there is no such series: the result there is the white, which is
 // wrong where light tunnels through a thin film. Take a table of colours for such stacks.
 
+// For artists: a film index for n2 above that goes to the incident medium's as the path 2 n2 d goes
+// to 0, so that the thinnest films vanish. Belcour and Barla take width_nm = 30; 0 changes nothing.
+float irido_remapped_index(float n1, float n2, float thickness_nm, float width_nm)
+{
+    float t = clamp(2.0 * n2 * thickness_nm / max(width_nm, 1e-6), 0.0, 1.0);
+    return lerp(n1, n2, width_nm > 0.0 ? t * t * (3.0 - 2.0 * t) : 1.0);
+}
+
 // How much is left of a fringe at 550 nm.
 float irido_fade(float sigma_nm)
 {

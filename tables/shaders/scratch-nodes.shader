@@ -51,3 +51,22 @@ float3 irido_scratch_nodes_slope(TEXTURE2D(nodes), float count, float u, float v
     }
     return sum;
 }
+
+// A point light's BRDF, 1/sr, over exp(-s_b^2/sigma^2) or the footprint's G: xi = light + view along the
+// scratch and across it, v as above, sigma the coherence radius.
+float3 irido_scratch_nodes_point(TEXTURE2D(nodes), float count, float width_um, float2 xi, float v,
+                                 float sigma_um)
+{
+    float3 sum = float3(0.0, 0.0, 0.0);
+    for (float i = 0.5; i < count; i += 1.0)
+    {
+        float4 node = SAMPLE2D(nodes, float2(i / count, 0.5), 0.0);
+        float groove = sin(3.14159265359 * fract(v * node.x));
+        float y = 6.28318530718 * sigma_um * xi.x * node.x;
+        // sin(x)/x, whose square has no sign to lose
+        float x = max(abs(3.14159265359 * width_um * xi.y * node.x), 1.0e-3);
+        float slit = width_um * node.x * sin(x) / x;
+        sum += node.yzw * (8.0 * groove * groove * slit * slit * exp(-y * y));
+    }
+    return sum;
+}

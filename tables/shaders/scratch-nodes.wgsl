@@ -44,3 +44,20 @@ fn irido_scratch_nodes_slope(nodes: texture_2d<f32>, count: i32, u: f32, v: f32)
     }
     return sum;
 }
+
+// A point light's BRDF, 1/sr, over exp(-s_b^2/sigma^2) or the footprint's G: xi = light + view along the
+// scratch and across it, v as above, sigma the coherence radius.
+fn irido_scratch_nodes_point(nodes: texture_2d<f32>, count: i32, width_um: f32, xi: vec2f, v: f32,
+                             sigma_um: f32) -> vec3f {
+    var sum = vec3f(0.0);
+    for (var i = 0; i < count; i++) {
+        let node = textureLoad(nodes, vec2i(i, 0), 0);
+        let groove = sin(3.14159265359 * fract(v * node.x));
+        let y = 6.28318530718 * sigma_um * xi.x * node.x;
+        // sin(x)/x, whose square has no sign to lose
+        let x = max(abs(3.14159265359 * width_um * xi.y * node.x), 1.0e-3);
+        let slit = width_um * node.x * sin(x) / x;
+        sum += node.yzw * (8.0 * groove * groove * slit * slit * exp(-y * y));
+    }
+    return sum;
+}

@@ -11,14 +11,23 @@ float irido_scratch_place(float u_um, float2 u_axis)
     return min(x + 0.5 / u_axis.y, 1.0 - 0.5 / u_axis.y);
 }
 
+// Texture coordinate of a depth along the second axis: depth_axis = (first, last, count, scale), scale
+// being the metadata's request.depth_scale_um, or 0 where it has none and depths are equally spaced.
+float irido_scratch_depth(float depth_um, float4 depth_axis)
+{
+    if (depth_axis.w <= 0.0) { return irido_texel(depth_um, depth_axis.xyz); }
+    float2 ends = depth_axis.xy / (depth_axis.xy + float2(depth_axis.w, depth_axis.w));
+    return irido_texel(depth_um / (depth_um + depth_axis.w), float3(ends, depth_axis.z));
+}
+
 // What |d|^2 = 2 - 2 cos makes of Q at depth 0 and at the depth itself: of a table made with
 // --carrier, whose halves are real and imaginary parts, T(|u|, D) or, with --per-place, dT/dx.
-float3 irido_scratch_of_table(TEXTURE2D(table), float2 u_axis, float3 depth_axis, float3 carrier_um,
+float3 irido_scratch_of_table(TEXTURE2D(table), float2 u_axis, float4 depth_axis, float3 carrier_um,
                               float u_um, float depth_um)
 {
     float y = irido_scratch_place(u_um, u_axis);
-    float d = 0.5 * irido_texel(depth_um, depth_axis);
-    float3 level = SAMPLE2D(table, float2(0.5 * irido_texel(0.0, depth_axis), y), 0.0).rgb;
+    float d = 0.5 * irido_scratch_depth(depth_um, depth_axis);
+    float3 level = SAMPLE2D(table, float2(0.5 * irido_scratch_depth(0.0, depth_axis), y), 0.0).rgb;
     float3 re = SAMPLE2D(table, float2(d, y), 0.0).rgb;
     float3 im = SAMPLE2D(table, float2(d + 0.5, y), 0.0).rgb;
     float3 turn = 6.28318530718 * fract(2.0 * depth_um / carrier_um);
@@ -27,7 +36,7 @@ float3 irido_scratch_of_table(TEXTURE2D(table), float2 u_axis, float3 depth_axis
 
 // Radiance over a light's that covers q0 to q1, times 1/rho: for lights from 0.05 in
 // |x1 - x0| up, x = u/(|u| + scale). The table is f32.
-float3 irido_scratch_wide(TEXTURE2D(table), float2 u_axis, float3 depth_axis, float3 carrier_um,
+float3 irido_scratch_wide(TEXTURE2D(table), float2 u_axis, float4 depth_axis, float3 carrier_um,
                           float width_um, float depth_um, float q0, float q1)
 {
     float3 high = irido_scratch_of_table(PASS2D(table), u_axis, depth_axis, carrier_um,
@@ -39,7 +48,7 @@ float3 irido_scratch_wide(TEXTURE2D(table), float2 u_axis, float3 depth_axis, fl
 
 // The same for narrower lights, by a table made with --per-place, which may be f16: two Gauss
 // points.
-float3 irido_scratch_narrow(TEXTURE2D(table), float2 u_axis, float3 depth_axis, float3 carrier_um,
+float3 irido_scratch_narrow(TEXTURE2D(table), float2 u_axis, float4 depth_axis, float3 carrier_um,
                             float width_um, float depth_um, float q0, float q1)
 {
     float u0 = width_um * q0, u1 = width_um * q1;

@@ -16,14 +16,24 @@ fn irido_scratch_place(u_um: f32, u_axis: vec2f) -> f32 {
     return min(x + 0.5 / u_axis.y, 1.0 - 0.5 / u_axis.y);
 }
 
+// Texture coordinate of a depth along the second axis: depth_axis = (first, last, count, scale), scale
+// being the metadata's request.depth_scale_um, or 0 where it has none and depths are equally spaced.
+fn irido_scratch_depth(depth_um: f32, depth_axis: vec4f) -> f32 {
+    if (depth_axis.w <= 0.0) {
+        return irido_texel(depth_um, depth_axis.xyz);
+    }
+    let ends = depth_axis.xy / (depth_axis.xy + vec2f(depth_axis.w, depth_axis.w));
+    return irido_texel(depth_um / (depth_um + depth_axis.w), vec3f(ends, depth_axis.z));
+}
+
 // Of a table made with --carrier, whose halves are real and imaginary parts: T(|u|, D) or, with
 // --per-place, dT/dx.
 fn irido_scratch_of_table(table: texture_2d<f32>, table_sampler: sampler, u_axis: vec2f,
-                          depth_axis: vec3f, carrier_um: vec3f, u_um: f32, depth_um: f32) -> vec3f {
+                          depth_axis: vec4f, carrier_um: vec3f, u_um: f32, depth_um: f32) -> vec3f {
     let y = irido_scratch_place(u_um, u_axis);
-    let d = 0.5 * irido_texel(depth_um, depth_axis);
+    let d = 0.5 * irido_scratch_depth(depth_um, depth_axis);
     let level = textureSampleLevel(table, table_sampler,
-                                   vec2f(0.5 * irido_texel(0.0, depth_axis), y), 0.0).rgb;
+                                   vec2f(0.5 * irido_scratch_depth(0.0, depth_axis), y), 0.0).rgb;
     let re = textureSampleLevel(table, table_sampler, vec2f(d, y), 0.0).rgb;
     let im = textureSampleLevel(table, table_sampler, vec2f(d + 0.5, y), 0.0).rgb;
     let turn = 6.28318530718 * fract(2.0 * depth_um / carrier_um);
@@ -33,7 +43,7 @@ fn irido_scratch_of_table(table: texture_2d<f32>, table_sampler: sampler, u_axis
 // Radiance over a light's that covers q0 to q1, times 1/rho: for lights from 0.05 in
 // |x1 - x0| up, x = u/(|u| + scale). The table is f32.
 fn irido_scratch_wide(table: texture_2d<f32>, table_sampler: sampler, u_axis: vec2f,
-                      depth_axis: vec3f, carrier_um: vec3f, width_um: f32, depth_um: f32, q0: f32,
+                      depth_axis: vec4f, carrier_um: vec3f, width_um: f32, depth_um: f32, q0: f32,
                       q1: f32) -> vec3f {
     let high = irido_scratch_of_table(table, table_sampler, u_axis, depth_axis, carrier_um,
                                       width_um * q1, depth_um);
@@ -45,7 +55,7 @@ fn irido_scratch_wide(table: texture_2d<f32>, table_sampler: sampler, u_axis: ve
 // The same for narrower lights, by a table made with --per-place, which may be f16: two Gauss
 // points.
 fn irido_scratch_narrow(table: texture_2d<f32>, table_sampler: sampler, u_axis: vec2f,
-                        depth_axis: vec3f, carrier_um: vec3f, width_um: f32, depth_um: f32,
+                        depth_axis: vec4f, carrier_um: vec3f, width_um: f32, depth_um: f32,
                         q0: f32, q1: f32) -> vec3f {
     let u0 = width_um * q0;
     let u1 = width_um * q1;

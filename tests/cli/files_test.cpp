@@ -72,6 +72,13 @@ TEST_CASE("an output that is one of the inputs is refused, whatever it is called
              "sweep s.json " + vary + "-o glass.csv",
              "sweep s.json " + vary + ">> s.json",
              "sweep s.json --points points.csv --compute spectrum -w 550 -o points.csv",
+             "view s.json -f html -o hard.csv",
+             "render s.json --size 8,8 -f png -o s.json",
+             "profile s.json -w 550 -o glass.csv",
+             "compare s.json --engine gltf --set layers.0.material=1.3 -o hard.csv",
+             "design s.json --free layers.0.thickness_nm=50:150 --target 'R 500 = 0' -o s.json",
+             "brdf s.json --alpha 0.1 -w 550 -o glass.csv",
+             "convert s.json -o hard.csv",
          }) {
         INFO(command);
         check_refused(folder.shell("\"$IRIDO\" " + command), "is one of the inputs");
@@ -95,6 +102,37 @@ TEST_CASE("files beside an output are not the inputs either", "[cli][files]") {
         CHECK(read_file(folder / name) == kStack);
         fs::remove(folder / name);
     }
+}
+
+TEST_CASE("a table that is compared is an input", "[cli][files]") {
+    const InputFolder folder;
+    const std::string stack = "'1 | 1.3@300 | 1.5'";
+    CHECK(folder
+              .shell("\"$IRIDO\" lut color " + stack +
+                     " --vary layers.0.thickness_nm=0:100/3 --cos 0:1/3 -o t.npy")
+              .status == 0);
+    const std::string table = read_file(folder / "t.npy");
+    for (const std::string& name : std::vector<std::string>{"t.npy", "t.npy.json"}) {
+        check_refused(folder.shell("\"$IRIDO\" compare " + stack +
+                                   " --lut t.npy --random 5 -f csv -o " + name),
+                      name + ": is one of the inputs");
+        CHECK(read_file(folder / "t.npy") == table);
+    }
+}
+
+TEST_CASE("messages never go into a file that is written", "[cli][files]") {
+    const InputFolder folder;
+    const std::string noted = "\"$IRIDO\" spectrum 'Si | air@100 | Si' -w 1090 -o x.csv ";
+    CHECK(folder.shell(noted).err.find("taken as transparent") != std::string::npos);
+    const std::string expected = read_file(folder / "x.csv");
+    for (const std::string& closed : std::vector<std::string>{"2>&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+        INFO(closed);
+        fs::remove(folder / "x.csv");
+        CHECK(folder.shell(noted + closed).status == 0);
+        CHECK(read_file(folder / "x.csv") == expected);
+    }
+    check_refused(folder.shell("\"$IRIDO\" spectrum - -w 550 <&-"),
+                  "<stdin>: cannot be read: Bad file descriptor");
 }
 
 TEST_CASE("two outputs are two files", "[cli][files]") {

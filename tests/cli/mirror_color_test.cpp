@@ -96,9 +96,9 @@ TEST_CASE("methods for mirrors refuse in one line", "[cli][color][refused]") {
     check_refused({"--method", "bloch", "--harmonics", "-1"},
                   "--harmonics: must be in [0, 1000] (got -1)");
     check_refused({"--method", "bloch", "--harmonics", "1.5"}, "--harmonics: ");
-    check_refused({"--subdivide", "2"}, "--subdivide: requires --method landmarks (got auto)");
+    check_refused({"--subdivide", "2"}, "--subdivide: requires --method landmarks (got 'auto')");
     check_refused({"--method", "landmarks", "--harmonics", "2"},
-                  "--harmonics: requires --method bloch (got landmarks)");
+                  "--harmonics: requires --method bloch (got 'landmarks')");
     check_refused({"--method", "landmarks/2", "--subdivide", "2"},
                   "--subdivide: conflicts with the number in --method");
     check_refused({"--method", "landmarks/0"}, "the number of landmarks: must be in [1, 1000]");

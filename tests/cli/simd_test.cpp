@@ -53,7 +53,7 @@ TEST_CASE("an unknown instruction set is refused in one line", "[cli][simd][refu
     CHECK(outcome.status == 2);
     CHECK(outcome.out.empty());
     CHECK(outcome.err ==
-          "irido: error: IRIDO_SIMD: must be one of plain, baseline, avx2, avx512 (got sse9)\n");
+          "irido: error: IRIDO_SIMD: must be one of plain, baseline, avx2, avx512 (got 'sse9')\n");
 }
 
 TEST_CASE("instructions that the machine lacks are replaced with a note", "[cli][simd]") {

@@ -111,8 +111,7 @@ std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, con
                                                   const std::optional<Triple>& base_color) {
     using enum ColorMethod::Kind;
     const Sensitivity& sensitivity = tables.sensitivity();
-    if (base_color && method.kind != gltf)
-        throw DomainError("a base colour must come with method gltf");
+    if (base_color && method.kind != gltf) throw DomainError("a base colour requires method gltf");
     switch (method.kind) {
         case equal:
             return std::make_unique<SampledColor>(sensitivity, tables.equal(method.count), stack,

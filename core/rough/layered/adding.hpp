@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,12 +24,29 @@ public:
     /// Refers to the scattering. tolerance is relative to what all paths together give.
     Adding(const LayeredScattering& scattering, double tolerance, const Execution& execution);
 
+    /// How finely angles and modes are taken, and what that leaves.
+    struct Level {
+        std::size_t level = 0;
+        double error = 0;  ///< largest difference from the next finer one, relative to all paths
+    };
+
+    /// The coarsest level whose values at these wavelengths differ from the next one's by the
+    /// tolerance at most, or the last but one.
+    Level level_of(std::span<const ScatterPair> pairs,
+                   const std::vector<double>& wavelength_nm) const;
+
+    /// What all paths add to the BRDF by single reflections, [pair][wavelength], at a level.
+    std::vector<double> brdf_rest(std::span<const ScatterPair> pairs,
+                                  const std::vector<double>& wavelength_nm,
+                                  std::size_t level) const;
+
     struct Values {
         std::vector<double> values;
         double error = 0;  ///< largest estimate, relative to the value by all paths
     };
 
-    /// What all paths add to the BRDF by single reflections, [pair][wavelength].
+    /// The same at the level that the tolerance takes, judged at some of the wavelengths; the finer
+    /// of the two compared where that is all of them.
     Values brdf_rest(std::span<const ScatterPair> pairs,
                      const std::vector<double>& wavelength_nm) const;
 
@@ -39,11 +57,28 @@ public:
 private:
     struct Grid;
     struct Lobes;
+    struct Workspace;
+    /// Values of things at a level, [thing][wavelength].
+    using AtLevel = std::function<std::vector<double>(const std::vector<double>& wavelength_nm,
+                                                      std::size_t level)>;
+    /// once  by single reflections, as AtLevel's values are
+    template <class Once>
+    Level level_of(const std::vector<double>& wavelength_nm, const Once& once,
+                   const AtLevel& at_level, std::vector<double>* finer) const;
+    template <class Once>
+    Values refined(const std::vector<double>& wavelength_nm, const Once& once,
+                   const AtLevel& at_level) const;
+
     Grid grid_of(std::size_t level, std::span<const double> extra_deg) const;
     Lobes lobes_of(const Grid& grid, std::size_t layer, std::size_t azimuths) const;
+    /// f_t cos of all layers, [wavelength][layer][angle].
+    std::vector<double> straight_of(const Grid& grid,
+                                    const std::vector<double>& wavelength_nm) const;
     template <class Take>
     void solve(const Grid& grid, std::span<const Lobes> lobes, std::span<const double> tau,
-               double wavelength_nm, std::size_t most_modes, const Take& take) const;
+               double wavelength_nm, std::size_t most_modes, bool to_nodes, const Take& take) const;
+    std::vector<double> block_at(std::span<const ScatterPair> pairs,
+                                 const std::vector<double>& wavelength_nm, std::size_t level) const;
     std::size_t first_level() const;
 
     const LayeredScattering& scattering_;

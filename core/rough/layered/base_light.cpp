@@ -15,9 +15,11 @@ namespace irido {
 
 namespace {
 
-constexpr double kBaseLightTolerance = 1e-9;
+/// Tolerance from which on rules of fewer nodes do.
+constexpr double kCoarse = 1e-6;
 
 /// The integral over psi for facets of tilt tm; `rise` = 90 - tm - td, in degrees.
+template <int points>
 double over_ring(double alpha, double cm, double sm, double cd, double sd, double rise_deg) {
     // cos o = level - swing cos psi; it ends where that is 0
     const double level = cm * cd, swing = sm * sd;
@@ -31,7 +33,7 @@ double over_ring(double alpha, double cm, double sm, double cd, double sd, doubl
     const std::array<Feature, 1> foot{Feature{begin, std::clamp(width, 1e-6, kPi)}};
     double sum = 0, from = begin;
     for (const double to : graded_panels(begin, 0.5 * kPi, foot)) {
-        for (const GaussNode& node : gauss_legendre<10>()) {
+        for (const GaussNode& node : gauss_legendre<points>()) {
             const double psi = 0.5 * ((from + to) + (to - from) * node.x);
             const double half = std::sin(0.5 * psi);
             const double ci = std::min(1.0, level + swing * std::cos(psi));
@@ -47,6 +49,7 @@ double over_ring(double alpha, double cm, double sm, double cd, double sd, doubl
     return sum;
 }
 
+template <int points, int ring_points>
 double base_light(double alpha, double theta_d_deg) {
     if (theta_d_deg <= 0 || theta_d_deg >= 90) return 0;
     const double cd = sin_deg(90 - theta_d_deg), sd = sin_deg(theta_d_deg);
@@ -56,11 +59,12 @@ double base_light(double alpha, double theta_d_deg) {
     double sum = 0;
     const auto add = [&](double begin_deg, double end_deg) {
         const std::vector<double> ends = graded_panels(begin_deg, end_deg, features);
-        for_each_node(ends, begin_deg, end_deg, [&](double tm_deg, double weight_deg) {
+        for_each_node<points>(ends, begin_deg, end_deg, [&](double tm_deg, double weight_deg) {
             const double cm = sin_deg(90 - tm_deg), sm = sin_deg(tm_deg);
             const double spread = alpha * alpha * cm * cm + sm * sm;
             const double D = alpha * alpha / (kPi * spread * spread);
-            sum += kDegree * weight_deg * sm * D * over_ring(alpha, cm, sm, cd, sd, kink - tm_deg);
+            sum += kDegree * weight_deg * sm * D *
+                   over_ring<ring_points>(alpha, cm, sm, cd, sd, kink - tm_deg);
         });
     };
     add(0, kink);
@@ -70,12 +74,14 @@ double base_light(double alpha, double theta_d_deg) {
 
 }  // namespace
 
-BaseLight::BaseLight(double alpha, unsigned threads)
-    : series_(1, kBaseLightTolerance, [&](std::span<const double> theta_deg) {
+BaseLight::BaseLight(double alpha, unsigned threads, double tolerance)
+    : series_(1, tolerance, [&](std::span<const double> theta_deg) {
           require_in_range("alpha", alpha, kSmoothest, kRoughest);
           std::vector<double> values(theta_deg.size());
-          parallel_for(values.size(), threads,
-                       [&](std::size_t i) { values[i] = base_light(alpha, theta_deg[i]); });
+          parallel_for(values.size(), threads, [&](std::size_t i) {
+              values[i] = tolerance < kCoarse ? base_light<16, 10>(alpha, theta_deg[i])
+                                              : base_light<8, 6>(alpha, theta_deg[i]);
+          });
           return values;
       }) {}
 

@@ -1,6 +1,7 @@
 #include "core/rough/layered/layered_color.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/coherent/coherent.hpp"
@@ -88,10 +89,11 @@ std::vector<Triple> sampled_colors(const Sensitivity& sensitivity, const SampleR
 }
 
 LayeredColor::LayeredColor(const ColorTables& tables, LayeredSurface surface, Crossings crossings,
-                           double tolerance, const Execution& execution)
+                           double tolerance, const Execution& execution, const ColorMethod& method)
     : tables_(tables),
       tolerance_(tolerance),
       execution_(execution),
+      method_(method),
       scattering_(held_surface(std::move(surface), tables.sensitivity()), crossings, execution),
       pieces_(pieces_of(scattering_.surface(), tables.sensitivity().support())) {}
 
@@ -143,7 +145,7 @@ void LayeredColor::add_first_layer(std::span<const ScatterPair> pairs,
     request.colors = angles.size();
     request.simd = execution_.simd;
     const Stack& stack = layer.facets().stack();
-    const auto algorithm = color_algorithm(tables_, stack, {}, request);
+    const auto algorithm = color_algorithm(tables_, stack, method_, request);
     const std::vector<StackColor> found =
         stack_color(*algorithm, stack, 1, angles, execution_.threads);
     for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -151,7 +153,7 @@ void LayeredColor::add_first_layer(std::span<const ScatterPair> pairs,
         const StackColor& color = found[static_cast<std::size_t>(place)];
         const double scale = kPi * factors[p] * lobe(layer.alpha(), facets[p]);
         for (std::size_t c = 0; c < 3; ++c) colors[p].xyz[c] += scale * color.xyz[c];
-        colors[p].error += color.error * std::min(1.0, scale);
+        if (scale > 0) colors[p].error += color.error * std::min(1.0, scale);
     }
 }
 
@@ -242,13 +244,15 @@ void LayeredColor::add_rest_of(std::span<const ScatterPair> pairs,
                                std::span<SurfaceColor> colors) const {
     const double tolerance = std::max(tolerance_, kAddingTolerance);
     const Adding adding(scattering_, tolerance, execution_);
-    double error = 0;
+    // one level for all wavelengths: what it leaves is smooth, too
+    constexpr std::array kJudged_nm{430.0, 460.0, 500.0, 540.0, 570.0, 600.0, 640.0};
+    const Adding::Level level = adding.level_of(pairs, {kJudged_nm.begin(), kJudged_nm.end()});
+    const double error = level.error;
     const std::vector<SurfaceColor> rest =
         integrated(pairs.size(), tolerance, [&](const std::vector<double>& wavelengths) {
-            Adding::Values values = adding.brdf_rest(pairs, wavelengths);
-            error = std::max(error, values.error);
-            for (double& value : values.values) value *= kPi;
-            return values.values;
+            std::vector<double> values = adding.brdf_rest(pairs, wavelengths, level.level);
+            for (double& value : values) value *= kPi;
+            return values;
         });
     for (std::size_t p = 0; p < colors.size(); ++p) {
         for (std::size_t c = 0; c < 3; ++c) colors[p].xyz[c] += rest[p].xyz[c];

@@ -26,10 +26,12 @@ class LayeredColor {
 public:
     /// tolerance  largest error of X, Y, Z, [1e-12, 1]: of BRDFs relative to 1 or, where that is
     ///            more, to the BRDF times pi of a mirror's facets
+    /// method     of the first layer's colours; StackColor::error says what others than the
+    ///            automatic one give
     /// Materials hold their end values where they are not known, see held_stack(), which throws
     /// DomainError; `tables` must outlive the result.
     LayeredColor(const ColorTables& tables, LayeredSurface surface, Crossings crossings,
-                 double tolerance, const Execution& execution);
+                 double tolerance, const Execution& execution, const ColorMethod& method = {});
 
     /// pi times the BRDF of pairs: a white diffuser has the illuminant's white. What all paths add
     /// is by Adding where there is no closed form, with its error.
@@ -54,6 +56,7 @@ private:
     const ColorTables& tables_;
     double tolerance_;
     Execution execution_;
+    ColorMethod method_;
     LayeredScattering scattering_;
     std::vector<double> pieces_;  ///< ends of what is smooth in wavelength
 };

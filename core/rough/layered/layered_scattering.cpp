@@ -70,7 +70,8 @@ bool LayeredScattering::is_closed() const {
 void LayeredScattering::require_closed(Paths paths) const {
     if (paths == Paths::all && !is_closed())
         throw DomainError(
-            "all paths have a closed form for one layer without a coating, and for a base alone");
+            "all paths have a closed form only for one layer without a coating and for a base "
+            "alone");
 }
 
 /// Layers that light crosses on its way to what reflects below.
@@ -378,22 +379,6 @@ std::vector<double> LayeredScattering::straight(std::size_t layer,
                           values.begin() + static_cast<std::ptrdiff_t>(i * wavelength_nm.size()));
     });
     return values;
-}
-
-std::vector<double> LayeredScattering::straight_of_all(std::span<const double> theta_deg,
-                                                       const std::vector<double>& wavelength_nm,
-                                                       unsigned threads) const {
-    const std::size_t angles = theta_deg.size(), W = wavelength_nm.size(), L = layers_.size();
-    std::vector<double> all(angles * W * L);
-    for (std::size_t l = 0; l < L; ++l) {
-        layers_[l]->facets().prepare(wavelength_nm, threads);
-        parallel_for(angles, threads, [&](std::size_t i) {
-            const std::vector<double> tau =
-                layers_[l]->straight(theta_deg[i], wavelength_nm, crossings_);
-            for (std::size_t w = 0; w < W; ++w) all[(w * L + l) * angles + i] = tau[w];
-        });
-    }
-    return all;
 }
 
 double LayeredScattering::passing(std::size_t layer, double theta_deg, double straight) const {

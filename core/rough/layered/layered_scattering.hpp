@@ -45,6 +45,7 @@ public:
 
     const LayeredSurface& surface() const { return surface_; }
     const Coating& coating() const { return coating_; }
+    Crossings crossings() const { return crossings_; }
     const LayerTransport& layer(std::size_t l) const { return *layers_[l]; }
     std::size_t layers() const { return layers_.size(); }
     /// Whether all paths have a closed form.
@@ -75,11 +76,6 @@ public:
     /// f_t cos of one layer at angles inside, [angle][wavelength].
     std::vector<double> straight(std::size_t layer, std::span<const double> theta_deg,
                                  const std::vector<double>& wavelength_nm) const;
-
-    /// The same of all layers that light passes, [wavelength][layer][angle].
-    std::vector<double> straight_of_all(std::span<const double> theta_deg,
-                                        const std::vector<double>& wavelength_nm,
-                                        unsigned threads) const;
 
     /// Albedo of the base, for all paths over 1 - albedo rbar, [wavelength]. Throws DomainError for
     /// Paths::all unless is_closed().

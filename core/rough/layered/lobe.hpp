@@ -22,6 +22,12 @@ public:
     /// near, far  cos and sin of half the azimuth
     MirrorFacet operator()(double near, double far) const;
 
+    /// |i + o|^2 is up2 + across2 + both cos^2(phi/2): squares of its part along the normal, and
+    /// across it where the azimuth is 180 degrees.
+    double up2() const { return upward2_; }
+    double across2() const { return sines2_; }
+    double both() const { return both_; }
+
 private:
     double sines2_, cosines2_, upward2_, both_;
     MirrorFacet facet_;

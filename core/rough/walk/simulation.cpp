@@ -287,19 +287,28 @@ private:
 LayeredSimulation::Values LayeredSimulation::simulated(std::span<const ScatterPair> pairs,
                                                        double theta_i_deg, std::uint32_t light,
                                                        bool is_albedo) const {
-    const std::size_t size = (is_albedo ? 1 : pairs.size()) * wavelengths_;
+    const std::size_t things = is_albedo ? 1 : pairs.size(), size = things * numbers();
+    const bool has_colors = !colors_[0].empty();
     std::vector<double> sums(kParts * size), squares(kParts * size);
     const auto key = philox_key(request_.seed);
     parallel_for(kParts, execution_.threads, [&](std::size_t part) {
         Walk walk(*this, pairs, theta_i_deg, is_albedo);
+        std::vector<double> colors(has_colors ? size : 0);
         double* const sum = sums.data() + part * size;
         double* const square = squares.data() + part * size;
-        const std::uint64_t begin = request_.samples / kParts * part +
+        const std::uint64_t begin = request_.first + request_.samples / kParts * part +
                                     std::min<std::uint64_t>(part, request_.samples % kParts);
         const std::uint64_t count = request_.samples / kParts + (part < request_.samples % kParts);
         for (std::uint64_t n = begin; n < begin + count; ++n) {
-            const std::span<const double> sample = walk(
+            std::span<const double> sample = walk(
                 {key, {static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(n >> 32), light}});
+            if (has_colors) {
+                for (std::size_t k = 0; k < size; ++k)
+                    colors[k] = std::inner_product(
+                        colors_[k % 3].begin(), colors_[k % 3].end(),
+                        sample.begin() + static_cast<std::ptrdiff_t>(k / 3 * wavelengths_), 0.0);
+                sample = colors;
+            }
             for (std::size_t k = 0; k < size; ++k) {
                 sum[k] += sample[k];
                 square[k] += sample[k] * sample[k];
@@ -321,20 +330,28 @@ LayeredSimulation::Values LayeredSimulation::simulated(std::span<const ScatterPa
     return values;
 }
 
+void LayeredSimulation::Values::add(double mine, const Values& other, double others) {
+    const double all = mine + others;
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+        mean[k] = (mine * mean[k] + others * other.mean[k]) / all;
+        error[k] = std::hypot(mine * error[k], others * other.error[k]) / all;
+    }
+}
+
 LayeredSimulation::Values LayeredSimulation::brdf(std::span<const ScatterPair> pairs) const {
     std::map<double, std::vector<std::size_t>> lights;
     for (std::size_t p = 0; p < pairs.size(); ++p) lights[pairs[p].theta_i_deg].push_back(p);
-    Values all{std::vector<double>(pairs.size() * wavelengths_),
-               std::vector<double>(pairs.size() * wavelengths_)};
+    const std::size_t size = numbers();
+    Values all{std::vector<double>(pairs.size() * size), std::vector<double>(pairs.size() * size)};
     std::uint32_t light = 0;
     for (const auto& [theta, places] : lights) {
         std::vector<ScatterPair> some;
         for (const std::size_t p : places) some.push_back(pairs[p]);
         const Values values = simulated(some, theta, light++, false);
         for (std::size_t k = 0; k < places.size(); ++k)
-            for (std::size_t w = 0; w < wavelengths_; ++w) {
-                all.mean[places[k] * wavelengths_ + w] = values.mean[k * wavelengths_ + w];
-                all.error[places[k] * wavelengths_ + w] = values.error[k * wavelengths_ + w];
+            for (std::size_t w = 0; w < size; ++w) {
+                all.mean[places[k] * size + w] = values.mean[k * size + w];
+                all.error[places[k] * size + w] = values.error[k * size + w];
             }
     }
     return all;

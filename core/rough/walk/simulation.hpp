@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,6 +21,7 @@ struct SimulationRequest {
     FacetChoice facets = FacetChoice::sampled;
     Crossings crossings = Crossings::single;  ///< of FacetChoice::filter
     std::uint64_t samples = 1'000'000;        ///< paths of each direction of the light, at least 2
+    std::uint64_t first = 0;                  ///< number of the first one: others draw others
     std::uint64_t seed = 1;
 };
 
@@ -36,9 +38,24 @@ public:
     LayeredSimulation(const LayeredScattering& scattering, const SimulationRequest& request,
                       const std::vector<double>& wavelength_nm, const Execution& execution);
 
+    /// What each wavelength adds to X, Y and Z.
+    using ColorWeights = std::array<std::vector<double>, 3>;
+
+    /// Colours instead: wherever there is [wavelength] below it is [X, Y, Z].
+    void set_colors(ColorWeights weights) { colors_ = std::move(weights); }
+
+    /// The paths from `first` on, as many as `samples`.
+    void set_paths(std::uint64_t first, std::uint64_t samples) {
+        request_.first = first;
+        request_.samples = samples;
+    }
+
     /// Means and their standard errors.
     struct Values {
         std::vector<double> mean, error;
+
+        /// Takes in the means of other paths: `mine` and `others` of them.
+        void add(double mine, const Values& other, double others);
     };
 
     /// BRDF, [pair][wavelength]. Pairs of one theta_i share paths.
@@ -51,11 +68,14 @@ private:
     class Walk;
     Values simulated(std::span<const ScatterPair> pairs, double theta_i_deg, std::uint32_t light,
                      bool is_albedo) const;
+    /// Numbers of each pair or angle.
+    std::size_t numbers() const { return colors_[0].empty() ? wavelengths_ : colors_.size(); }
 
     const LayeredScattering& scattering_;
     SimulationRequest request_;
     std::size_t wavelengths_;
     std::vector<double> base_;  ///< albedo at each wavelength
+    ColorWeights colors_;       ///< empty: the wavelengths themselves
     Execution execution_;
     std::vector<AngleTable> facets_, straight_;
 };

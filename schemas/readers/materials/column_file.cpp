@@ -142,7 +142,7 @@ std::string known_columns() {
 MaterialFile material_of_columns(const ColumnText& table, const std::vector<std::string>& header,
                                  const std::string& name) {
     const Layout layout = layout_of(header).value();
-    if (!layout.unit) require_nm(table, *layout.spectral, name);
+    if (!layout.unit) require_nm(table, *layout.spectral, name, "n,k");
     const SpectralUnit unit = layout.unit.value_or(SpectralUnit::nm);
     std::vector<IndexRow> rows = rows_of(table, layout, unit, name);
     std::vector<std::string> notes;

@@ -31,9 +31,8 @@ MaterialFile read_woollam_mat(std::string_view text, const std::string& name) {
     const std::string unit(trimmed(lines[1].text)), kind(trimmed(lines[2].text));
     const std::string words = plain_words(kind);
     if (words != "nk" && words != "e1e2")
-        throw InputError(
-            name, place_of(lines[2], lines[2].text),
-            "must be NK or E1E2, a table (got " + in_quotes(kind) + ", parameters of a model)");
+        throw InputError(name, place_of(lines[2], lines[2].text),
+                         "must be NK or E1E2 (got " + in_quotes(kind) + ", parameters of a model)");
     const bool is_nk = words == "nk";
     const ColumnNames names{[](const std::vector<std::string>&) { return false; },
                             "the unit's, " + std::string(is_nk ? "n and k" : "eps1 and eps2"), 3,

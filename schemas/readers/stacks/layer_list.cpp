@@ -140,7 +140,7 @@ private:
                      "thickness_sigma_nm or coherent (got " +
                          in_quotes(name) + ")");
             if (std::ranges::find(columns_, *column) != columns_.end())
-                fail(line, line.text, in_quotes(name) + " is there twice");
+                fail(line, line.text, "duplicate column " + in_quotes(name));
             has_material = has_material || *column == ListColumn::material;
             const bool is_thickness = *column == ListColumn::nm || *column == ListColumn::um ||
                                       *column == ListColumn::qwot;
@@ -174,7 +174,7 @@ private:
                 const auto value = parse_number(decimal);
                 if (!value || *value < 0)
                     fail(line, line.text,
-                         "must be a number from 0 on (got " + in_quotes(cell) + ")");
+                         "must be a number, at least 0 (got " + in_quotes(cell) + ")");
                 if (columns_[c] == ListColumn::sigma) {
                     if (*value != 0) row.layer["thickness_sigma_nm"] = *value;
                     continue;
@@ -197,7 +197,7 @@ private:
     double quarter_waves(const TextLine& line, const json& material, double count) const {
         if (!(options_.primary_nm > 0))
             fail(line, line.text,
-                 "the thickness is in quarter waves: give their wavelength with --primary NM");
+                 "the thickness is in quarter waves: --primary NM gives their wavelength");
         std::optional<double> n;
         if (material.is_number()) n = material.get<double>();
         if (material.is_object()) n = material["n"].get<double>();

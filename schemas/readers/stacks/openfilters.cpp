@@ -257,8 +257,15 @@ std::string formula_text(const Material& material) {
     return text + "\n";
 }
 
+/// A name must not begin lines of its own.
+std::string on_one_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    return text;
+}
+
 std::string material_text(const Material& material, WavelengthRange range, Losses& losses) {
-    std::string text = "Description: " + name_in_words(material) + "\nKind: regular\n";
+    std::string text = "Description: " + on_one_line(name_in_words(material)) + "\nKind: regular\n";
     const std::string formula = formula_text(material);
     if (!formula.empty()) {
         losses.add("the range of " + name_in_words(material));
@@ -328,7 +335,7 @@ WrittenStack write_openfilters(const Stack& stack, const StackWriteOptions& opti
                plain_number(layer.thickness_nm) + "\n\tRefineThickness: 1\n\tAddNeedles: 0\n";
     };
     std::string text =
-        "Version: 1.1\nFilter:\n\tDescription: " + options.name +
+        "Version: 1.1\nFilter:\n\tDescription: " + on_one_line(options.name) +
         "\n\tSubstrate: " + use(filter.substrate) + " " + plain_number(filter.substrate_nm) +
         "\n\tFrontMedium: " + use(stack.incident) + "\n\tBackMedium: " + use(filter.behind) +
         "\n\tCenterWavelength: 550\n\tWavelengthRange: 300 1000 1\n"

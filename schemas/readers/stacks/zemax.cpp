@@ -110,7 +110,7 @@ private:
             section_ = Section::material;
             const auto [place, is_new] =
                 materials.try_emplace(upper(words[1]), ZemaxMaterial{std::string(words[1]), {}});
-            if (!is_new) fail(line, words[1], "MATE " + place->second.name + " is there twice");
+            if (!is_new) fail(line, words[1], "duplicate MATE " + place->second.name);
             material_ = &place->second;
         } else {
             section_ = Section::coating;
@@ -186,7 +186,7 @@ double thickness_of(const ZemaxFile& zemax, const ZemaxLayer& layer, const Zemax
     if (is_absolute) return to_nm(typed, SpectralUnit::um);
     if (!(options.primary_nm > 0))
         zemax.fail(layer.line, layer.words[1],
-                   "the thickness is in waves: give the primary wavelength with --primary NM");
+                   "the thickness is in waves: --primary NM gives the primary wavelength");
     if (!material)
         zemax.fail(layer.line, layer.words[0],
                    "the thickness is in waves of a material that has no MATE");

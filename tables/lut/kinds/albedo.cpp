@@ -27,7 +27,7 @@ struct Source {
 
 void require_albedo(const LutRequest& request) {
     if (!request.vary.empty())
-        throw DomainError("nothing may vary (got " + request.vary.front().path + ")");
+        throw DomainError("albedo has no varied value (got '" + request.vary.front().path + "')");
     for (const Side side : request.color.sides)
         if (side != Side::reflected) throw DomainError("side must be R for albedo (got T)");
 }
@@ -43,8 +43,8 @@ LutPlan::Evaluate function_of(const LutRequest& request) {
             for (std::size_t i = 0; i < column.size(); ++i) {
                 if (!(column[i].error <= kWorstError))
                     throw DomainError("the albedo at cos_theta " + to_text(axes[0].values[i]) +
-                                      " has error " + to_text(column[i].error) + ", tables need " +
-                                      to_text(kWorstError));
+                                      " has error " + to_text(column[i].error) +
+                                      ", tables require " + to_text(kWorstError));
                 const Triple rgb = source->values(column[i].xyz);
                 for (std::size_t c = 0; c < 3; ++c) values[(i * alphas + a) * 3 + c] = rgb[c];
             }
@@ -99,7 +99,7 @@ std::vector<std::string> problems(const Lut& lut) {
 extern const LutKind lut_kind_albedo = {
     .name = "albedo",
     .summary = "Directional albedo, as a colour, of a rough surface whose facets are the stack.",
-    .axes = "cos theta, alpha",
+    .axes = "cos_theta, alpha",
     .notes =
         "Fraction of light that leaves in any direction after one reflection:\n"
         "    E(theta_i) = integral of D G2 R / (4 cos_i cos_o) cos_o over all directions o\n"

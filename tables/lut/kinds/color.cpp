@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/coherent/coherent.hpp"
+#include "core/color/remapped_film.hpp"
 #include "core/color/stack_color.hpp"
 #include "core/error.hpp"
 #include "core/math/angle_of_cosine.hpp"
@@ -32,6 +33,10 @@ void for_each_combination(std::span<const LutAxis> axes,
     }
 }
 
+double remap_width(const LutRequest& request) {
+    return request.has("remap-index") ? request.number("remap-index") : 0;
+}
+
 std::string path_of_spread(const LutRequest& request) {
     const std::string thickness = "thickness_nm";
     std::string path = request.vary.empty() ? std::string() : request.vary.front().path;
@@ -49,7 +54,8 @@ public:
         : tables_(std::move(tables)),
           color_(request.color),
           values_(request),
-          by_cosine_(by_cosine) {
+          by_cosine_(by_cosine),
+          remap_width_nm_(remap_width(request)) {
         color_.colors = colors;
         const std::vector<double> sigmas =
             request.has("sigma") ? request.list("sigma") : std::vector{0.0};
@@ -89,7 +95,9 @@ private:
             nullptr};
         level.stack->at(last);  // throws now rather than later
         const Stack stack = level.stack->at(first);
-        if (level.stack->varies_thickness_only()) {
+        if (remap_width_nm_ > 0) {
+            with_remapped_film(stack, remap_width_nm_);  // throws now, too
+        } else if (level.stack->varies_thickness_only()) {
             ColorRequest asked = color_;
             if (!request.source.reverse)
                 for (const VariedValue& vary : request.vary)
@@ -104,7 +112,7 @@ private:
         constexpr double worst = 1e-4;
         if (!(color.error <= worst))
             throw DomainError("the colour at " + to_text(angle_deg) + " degrees has error " +
-                              to_text(color.error) + ", tables need " + to_text(worst));
+                              to_text(color.error) + ", tables require " + to_text(worst));
     }
 
     /// [angle][values][channel]
@@ -117,11 +125,15 @@ private:
         std::vector<double> values(angles_deg.size() * combinations * 3);
         std::vector<StackColor> colors(angles_deg.size());
         for_each_combination(axes.subspan(1), [&](const std::vector<double>& varied) {
-            const Stack stack = level.stack->at(varied);
-            if (level.algorithm)
+            Stack stack = level.stack->at(varied);
+            if (remap_width_nm_ > 0) stack = with_remapped_film(std::move(stack), remap_width_nm_);
+            if (level.algorithm) {
                 (*level.algorithm)(stack, angles_deg, colors);
-            else
-                (*color_algorithm(*tables_, stack, {}, color_))(stack, angles_deg, colors);
+            } else {
+                ColorRequest own = color_;
+                if (remap_width_nm_ > 0) own.colors = angles_deg.size();
+                (*color_algorithm(*tables_, stack, {}, own))(stack, angles_deg, colors);
+            }
             for (std::size_t i = 0; i < colors.size(); ++i) {
                 require_known(colors[i], angles_deg[i]);
                 const Triple value = values_(colors[i].xyz);
@@ -138,6 +150,7 @@ private:
     ColorRequest color_;
     ColorValues values_;
     bool by_cosine_;
+    double remap_width_nm_;
 };
 
 LutPlan plan(const LutRequest& request) {
@@ -173,6 +186,8 @@ LutPlan plan(const LutRequest& request) {
     };
     result.measure = color_measure(request);
     result.facts = color_facts(request);
+    if (const double width_nm = remap_width(request); width_nm > 0)
+        result.facts["request"]["remap_index_nm"] = width_nm;
     return result;
 }
 
@@ -208,6 +223,12 @@ extern const LutKind lut_kind_color = {
                  .type = LutOption::Type::list,
                  .help = "standard deviations of the first varied value, a thickness, nm,\n"
                          "ascending; adds a first axis: mip levels in KTX2 files",
+                 .lowest = 0,
+                 .highest = kLargestThickness_nm},
+                {.name = "remap-index",
+                 .type = LutOption::Type::number,
+                 .help = "for artists: the index of one film goes to the incident medium's where\n"
+                         "its path 2 n d is less than this, nm (Belcour and Barla 2017 take 30)",
                  .lowest = 0,
                  .highest = kLargestThickness_nm}},
     .plan = plan,

@@ -85,7 +85,7 @@ std::vector<std::string> problems(const Lut& lut) {
 extern const LutKind lut_kind_falpha = {
     .name = "falpha",
     .summary = "Transmission filter of a rough layer, FPB24's F_alpha.",
-    .axes = "alpha, theta_i, theta_d",
+    .axes = "alpha, theta_i_deg, theta_d_deg",
     .notes =
         "F is per radian of theta_d, from its closed form, relative error below 1e-14:\n"
         "    ft_cos(theta_i) = integral of T(theta_d) F(theta_i, theta_d) dtheta_d\n"

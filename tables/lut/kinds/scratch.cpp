@@ -35,10 +35,18 @@ LutAxis slit_axis(const LutRequest& request) {
         axis.values = request.list("u");
         return axis;
     }
-    constexpr std::size_t kCount = 256;
+    const double count = request.number("u-count");
     axis.half_at = half_of(request);
-    for (std::size_t i = 0; i < kCount; ++i)
-        axis.values.push_back(axis.at_place(static_cast<double>(i) / static_cast<double>(kCount)));
+    for (double i = 0; i < count; ++i) axis.values.push_back(axis.at_place(i / count));
+    return axis;
+}
+
+/// Places D/(D + scale): Q bends most where D is small, and T there is a small difference of Q.
+LutAxis depth_axis(const LutRequest& request) {
+    constexpr std::size_t kCount = 64;
+    LutAxis axis{"depth_um", "um", {0, request.number("depth-max")}};
+    axis.half_at = request.number("depth-scale");
+    axis.values = axis.spaced(kCount);
     return axis;
 }
 
@@ -215,7 +223,7 @@ LutPlan plan(const LutRequest& request) {
         throw DomainError("--carrier requires --space xyz: X, Y and Z have carriers of their own");
     AxisPlan u{slit_axis(request), true},
         depth = listed_axis(request, "depth", {"depth_um", "um", {}});
-    if (!request.has("depth")) depth.axis.values = equally_spaced(0, 3.15, 64);
+    if (!request.has("depth")) depth.axis = depth_axis(request);
     if (request.has("u")) u = listed_axis(request, "u", u.axis);
     if (form.carrier && !form.place && depth.axis.values.front() != 0)
         throw DomainError("--carrier requires depths that begin at 0, where Q is A (got " +
@@ -223,7 +231,7 @@ LutPlan plan(const LutRequest& request) {
     LutPlan result;
     const double largest_u = std::max(u.axis.values.front(), u.axis.values.back());
     const double largest_depth = std::max(depth.axis.values.front(), depth.axis.values.back());
-    const bool is_placed = u.axis.half_at > 0;
+    const bool is_placed = u.axis.half_at > 0, is_deep_placed = depth.axis.half_at > 0;
     const LutAxis u_axis = u.axis;
     result.axes = {std::move(u), std::move(depth)};
     result.channels = scratch_channels(request, form);
@@ -236,8 +244,13 @@ LutPlan plan(const LutRequest& request) {
     if (request.space->name != "xyz")
         facts["adaptation"] = request.adaptation == Adaptation::bradford ? "bradford" : "none";
     if (is_placed || form.place) facts["u_scale_um"] = half_of(request);
+    if (is_deep_placed) facts["depth_scale_um"] = request.number("depth-scale");
+    auto& notes = result.facts["notes"] = nlohmann::json::array();
     if (is_placed)
-        result.facts["notes"] = {"u_um is equally spaced in u/(u + u_scale_um): filter there"};
+        notes.push_back("u_um is equally spaced in u/(u + u_scale_um), in which to interpolate");
+    if (is_deep_placed)
+        notes.push_back(
+            "depth_um is equally spaced in D/(D + depth_scale_um), in which to interpolate");
     if (form.carrier) facts["carrier_um"] = kSlitCarriers_um;
     return result;
 }
@@ -287,10 +300,17 @@ extern const LutKind lut_kind_scratch = {
     .text_type = "f64",
     .options = {{.name = "u",
                  .type = LutOption::Type::list,
-                 .help = "u = W q, um, [0, 1000] [256 values, equally spaced in\n"
-                         "u/(u + U-SCALE) from 0 to 255/256]",
+                 .help = "u = W q, um, [0, 1000] [U-COUNT values, equally spaced in\n"
+                         "u/(u + U-SCALE) from 0 on, U-COUNT of which would be 1]",
                  .lowest = 0,
                  .highest = SlitColors::kLargest_u_um},
+                {.name = "u-count",
+                 .type = LutOption::Type::whole,
+                 .help = "number of values of u, [16, 1024] [256]; the last one, U-SCALE times\n"
+                         "U-COUNT - 1, is 1000 at most",
+                 .fallback = "256",
+                 .lowest = 16,
+                 .highest = 1024},
                 {.name = "u-scale",
                  .type = LutOption::Type::number,
                  .help = "C of x = u/(u + C), um, [0.01, 3.9] [2]",
@@ -299,8 +319,21 @@ extern const LutKind lut_kind_scratch = {
                  .highest = 3.9},
                 {.name = "depth",
                  .type = LutOption::Type::list,
-                 .help = "depths D, um, [0, 100] [0:3.15/64]",
+                 .help = "depths D, um, [0, 100] [64 values, equally spaced in\n"
+                         "D/(D + DEPTH-SCALE) from 0 to DEPTH-MAX]",
                  .lowest = 0,
+                 .highest = kDeepest_um},
+                {.name = "depth-scale",
+                 .type = LutOption::Type::number,
+                 .help = "C of D/(D + C), um, [0.01, 100] [1]",
+                 .fallback = "1",
+                 .lowest = 0.01,
+                 .highest = kDeepest_um},
+                {.name = "depth-max",
+                 .type = LutOption::Type::number,
+                 .help = "um, [0.001, 100] [3.15]",
+                 .fallback = "3.15",
+                 .lowest = 0.001,
                  .highest = kDeepest_um},
                 {.name = "derivative",
                  .type = LutOption::Type::flag,

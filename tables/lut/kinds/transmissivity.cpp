@@ -44,7 +44,7 @@ LutPlan plan(const LutRequest& request) {
                  (*layer)(alpha_value, axes[1].values, axes[2].values)) {
                 if (!(error <= kWorstError))
                     throw DomainError("the transmissivity at alpha " + to_text(alpha_value) +
-                                      " has error " + to_text(error) + ", tables need " +
+                                      " has error " + to_text(error) + ", tables require " +
                                       to_text(kWorstError));
                 values.push_back(value);
             }
@@ -73,7 +73,7 @@ std::vector<std::string> problems(const Lut& lut) {
 extern const LutKind lut_kind_transmissivity = {
     .name = "transmissivity",
     .summary = "Light that passes straight through a rough layer of the stack, by wavelength.",
-    .axes = "alpha, theta_i, wavelength",
+    .axes = "alpha, theta_i_deg, wavelength_nm",
     .notes =
         "Each facet of the layer is the stack, whose outer media should be the same, so that\n"
         "light is not refracted:\n"

@@ -119,9 +119,20 @@ Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest
     throw ToleranceError(reason);
 }
 
+/// Writes a grid and the companion that tells where its parts begin, and returns its entry.
+json made_grid(const SceneTable& table, const BakePlace& place) {
+    GridFile file = grid_file(table.grid->scratches, table.grid->extent);
+    file.header["id"] = table.id;
+    const std::string header = file.header.dump(2) + "\n", path = place.folder + "/" + table.file;
+    write_own(path + kCompanion, header);
+    write_own(path, file.bytes);
+    return grid_entry(file.header, table.file, header.size() + file.bytes.size());
+}
+
 /// Makes one table, writes its file if it needs one, and returns its entry.
 json made_entry(const SceneTable& table, const LutFormat& format, const BakeRequest& request,
                 const std::function<void(double, const std::string&)>& progress) {
+    if (table.grid) return made_grid(table, request.place);
     LutMaking making = table.making;
     making.threads = request.threads;
     making.progress = progress;
@@ -392,6 +403,13 @@ Keeping keeping_of(const schemas::Scene& scene, const ScenePlan& plan, const Sce
 }
 
 json planned_entry(const SceneTable& table) {
+    if (table.grid) {
+        const GridFile file = grid_file(table.grid->scratches, table.grid->extent);
+        json entry = grid_entry(file.header, table.file, file.bytes.size());
+        entry["samples"] = table.grid->scratches.size();
+        entry["seconds"] = 0;
+        return entry;
+    }
     const auto start = std::chrono::steady_clock::now();
     LutPlan plan;
     const Lut lut = served_lut(table, [&](const LutRequest& request) {
@@ -463,7 +481,7 @@ BakeResult bake(const schemas::Scene& scene, const ScenePlan& plan, const BakeRe
             if (request.progress)
                 request.progress(
                     (static_cast<double>(t) + part) / static_cast<double>(plan.tables.size()),
-                    table.materials.front() + ": " + std::string(table.kind->name) +
+                    table.materials.front() + ": " + std::string(table.kind_name()) +
                         (what.empty() ? "" : ", ") + what);
         };
         progress(0, "");

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <regex>
 
+#include "schemas/documents/json_document.hpp"
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
 #include "tables/files/hash.hpp"
 #include "tables/lut/lut_file.hpp"
 #include "tables/lut/lut_metadata.hpp"
+#include "tables/scratch/grid_file.hpp"
 
 namespace irido::tables {
 
@@ -34,7 +36,7 @@ bool is_table_file(const std::string& name) {
         std::string formats;
         for (const LutFormat* const format : lut_formats())
             formats.append(formats.empty() ? "" : "|").append(format->name);
-        return std::regex("[a-z]+-[0-9a-f]{16}\\.(" + formats + ")(\\.json)?");
+        return std::regex("[a-z]+(-[a-z]+)*-[0-9a-f]{16}\\.(" + formats + ")(\\.json)?");
     }();
     return std::regex_match(name, pattern);
 }
@@ -51,10 +53,44 @@ json entry_of(const Lut& lut, const json& metadata) {
     return entry;
 }
 
+json grid_entry(const json& header, const std::string& file, std::size_t bytes) {
+    const double cell = header["cell_um"];
+    const auto axis = [&](const char* name, std::size_t of_origin, const json& count) {
+        const double first = header["origin_um"][of_origin].get<double>() + cell / 2;
+        return json{{"name", name},   {"unit", "um"},
+                    {"first", first}, {"last", first + cell * (count.get<double>() - 1)},
+                    {"count", count}, {"mapping", "linear"}};
+    };
+    return {{"kind", kGridKind},
+            {"axes", {axis("y_um", 1, header["rows"]), axis("x_um", 0, header["columns"])}},
+            {"channels", header["records"]["channels"]},
+            {"dtype", "f32"},
+            {"scratches", header["records"]["count"]},
+            {"error", nullptr},
+            {"notes", json::array()},
+            {"checksum", header["checksum"]},
+            {"file", file},
+            {"bytes", bytes}};
+}
+
+namespace {
+
+json found_grid(const std::string& path, const std::string& file, const std::string& id,
+                std::size_t bytes) {
+    const json header = schemas::parse_json(schemas::read_own_file(path + kCompanion), file);
+    const auto problems = grid_problems(schemas::read_own_file(path), header);
+    if (!problems.empty()) throw LutError("its file is damaged: " + problems.front());
+    if (header.value("id", "") != id) throw LutError("its file holds another grid");
+    return grid_entry(header, file, bytes);
+}
+
+}  // namespace
+
 json found_entry(const std::string& folder, const std::string& file, const std::string& id) {
     const std::string path = folder + "/" + file;
     const std::size_t bytes = size_of_table(path);
     if (bytes == 0) throw LutError("its file is missing or not a regular file");
+    if (file.starts_with(kGridKind + std::string("-"))) return found_grid(path, file, id, bytes);
     const Lut lut = read_lut(path);
     const std::string own_id = lut.facts.value("id", "");
     if (own_id.empty()) throw LutError("its file holds a table without an id (" + lut.kind + ")");

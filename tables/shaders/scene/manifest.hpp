@@ -26,6 +26,9 @@ bool is_one_sample(const Lut& lut);
 /// The manifest entry of a table, without its file.
 nlohmann::json entry_of(const Lut& lut, const nlohmann::json& metadata);
 
+/// The entry of a grid of scratches of so many bytes, by the header in its companion.
+nlohmann::json grid_entry(const nlohmann::json& header, const std::string& file, std::size_t bytes);
+
 /// The entry of the table in a file of the folder. Throws LutError or InputError unless it is
 /// intact and has this id.
 nlohmann::json found_entry(const std::string& folder, const std::string& file,

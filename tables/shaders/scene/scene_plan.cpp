@@ -16,8 +16,11 @@
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/documents/varied_stack.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/index_rows.hpp"
 #include "tables/files/hash.hpp"
 #include "tables/lut/color_values.hpp"
+#include "tables/shaders/scene/scene_problems.hpp"
+#include "tables/shaders/scene/scratched_material.hpp"
 
 namespace irido::tables {
 
@@ -117,39 +120,23 @@ private:
             for (const schemas::VariedRange& vary : material.vary)
                 if (!vary.range.is_one())
                     add("/vary" + schemas::pointer_step(vary.path),
-                        "nothing may vary with the shading " + name + " of a rough surface (got " +
-                            in_text(vary.range) + ")");
+                        "shading " + name + " takes no varied value (got " + in_text(vary.range) +
+                            ")");
         if (material.shading == schemas::Shading::bragg)
             if (const std::string fault = mirror_fault(material.document.stack); !fault.empty())
                 add("/shading", "bragg needs " + fault);
         return faults;
     }
 
-    /// What the stack lacks for the shader's mirror; "" if nothing.
-    static std::string mirror_fault(const Stack& stack) {
-        const auto* group =
-            stack.elements.size() == 1 ? std::get_if<Group>(&stack.elements[0].value) : nullptr;
-        if (!group || group->elements.size() != 2 ||
-            !std::ranges::all_of(group->elements, [](const Element& e) {
-                return std::holds_alternative<Layer>(e.value);
-            }))
-            return "one repeated group of two layers and nothing else";
-        const auto& first = std::get<Layer>(group->elements[0].value);
-        const auto& second = std::get<Layer>(group->elements[1].value);
-        if (first.material != stack.incident || first.material != stack.substrate)
-            return "the first layer's material on both sides of the mirror";
-        if (first_uniaxial(stack.materials)) return "isotropic media";
-        if (IndexTable(stack, {kMiddle_nm}).index(second.material, 0).imag() != 0)
-            return "layers that do not absorb";
-        return "";
-    }
-
     void plan_material(const schemas::SceneMaterial& material, MaterialPlan& plan) {
+        const bool has_stack = !material.document.stack.materials.empty();
+        if (!has_stack) return plan_scratches(material, plan);
         for (const HeldRange& held : held_ranges(material.document.stack, *sensitivity_))
             if (!held.usable)
-                throw schemas::InputError(material.source.file,
-                                          material.document.material_pointers[held.material],
-                                          "must be known from 400 to 700 nm for a colour");
+                throw schemas::InputError(
+                    material.source.file, material.document.material_pointers[held.material],
+                    material.document.stack.materials[held.material].name + " is known from " +
+                        schemas::in_words(held.range) + "; a colour needs data from 400 to 700 nm");
         const schemas::ValueRange all_angles{0, 90};
         if (material.angles_deg.first > all_angles.first ||
             material.angles_deg.last < all_angles.last)
@@ -171,6 +158,8 @@ private:
                 return plan_rough_layers(material, plan);
             case schemas::Shading::albedo:
                 return plan_albedo(material, plan);
+            case schemas::Shading::scratches:
+                return plan_scratches(material, plan);
         }
     }
 
@@ -247,8 +236,13 @@ private:
             table.may_end_early = !material.has_angles;
         }
         table.inputs = inputs_of(table);
+        add_table(material, plan, role, std::move(table), scene_.format);
+    }
+
+    void add_table(const schemas::SceneMaterial& material, MaterialPlan& plan,
+                   const std::string& role, SceneTable table, const std::string& format) {
         table.id = sha256_of(table.inputs.dump()).substr(0, 16);
-        table.file = std::string(kind) + "-" + table.id + "." + scene_.format;
+        table.file = std::string(table.kind_name()) + "-" + table.id + "." + format;
         const auto same = std::ranges::find(result_.tables, table.id, &SceneTable::id);
         const auto place = static_cast<std::size_t>(same - result_.tables.begin());
         if (same == result_.tables.end()) result_.tables.push_back(std::move(table));
@@ -276,6 +270,7 @@ private:
             inputs["vary"][vary.path] = {vary.values.front(), vary.values.back()};
         if (table.kind->stack && !request.vary.empty()) inputs["stack_at_end"] = end_of(request);
         if (table.kind->light) inputs["light"] = {request.illuminant, request.observer};
+        if (table.kind->space) inputs["space"] = request.space->name;
         if (table.kind->color)
             inputs["color"] = {request.space->name, request.adaptation == Adaptation::none,
                                request.color.sides.front() == Side::reflected,
@@ -516,6 +511,41 @@ private:
         omit_transmission(material, "albedo is for reflected light only");
     }
 
+    // --- scratches ----------------------------------------------------------------------------
+
+    void plan_scratches(const schemas::SceneMaterial& material, MaterialPlan& plan) {
+        ScratchNeeds needs = needs_of_scratches(scene_, *material.scratches);
+        plan.constants = std::move(needs.constants);
+        plan.snippets = std::move(needs.snippets);
+        for (ScratchNeed& need : needs.tables) {
+            if (!need.is_needed) {
+                omit(material, need.role + " table", need.why);
+                continue;
+            }
+            LutRequest request = request_of(material);
+            request.options = std::move(need.options);
+            request.space = &rgb_space("xyz");
+            LutMaking making = making_of(need.is_color);
+            if (need.is_single) making.type = LutType::f32;
+            use(material, plan, need.role, need.kind, std::move(request), making);
+            plan.tables.back().why = std::move(need.why);
+        }
+        SceneTable grid;
+        grid.grid =
+            std::make_shared<const SceneGrid>(SceneGrid{std::move(needs.scratches), needs.extent});
+        grid.making = making_of(false);
+        grid.inputs = {{"numbers", kNumbersVersion},
+                       {"kind", kGridKind},
+                       {"bytes", sha256_of(grid_file(grid.grid->scratches, needs.extent).bytes)}};
+        add_table(material, plan, "grid", std::move(grid), "bin");
+        if (material.document.stack.materials.empty()) return;
+        use(material, plan, "base", "color", color_request(material), making_of(true));
+        plan.snippets.emplace_back("color");
+        omit(material, kProductOfColors,
+             "the shader multiplies the colours of scratches and base, not their spectra",
+             Kind::loss);
+    }
+
     /// Tables of materials that failed.
     void drop_unused() {
         std::vector<SceneTable> kept;
@@ -542,28 +572,6 @@ private:
 
 ScenePlan plan_scene(const schemas::Scene& scene, const Execution& execution) {
     return Planner(scene, execution).run();
-}
-
-std::vector<std::string> problems_of_scene(const json& document, const std::string& file,
-                                           const std::string& folder, const Execution& execution) {
-    if (auto lines = schemas::scene_problems(document, file); !lines.empty()) return lines;
-    const schemas::Scene scene = schemas::read_scene(document, file, folder);
-    ScenePlan plan = plan_scene(scene, execution);
-    std::vector<std::string> lines;
-    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        MaterialPlan& material = plan.materials[m];
-        try {
-            for (const MaterialPlan::Use& use : material.tables) {
-                const SceneTable& table = plan.tables[use.table];
-                table.kind->plan(table.request);
-            }
-        } catch (const std::exception& error) {  // what the kind of table does not take
-            material.faults.push_back(schemas::fault_of(scene.materials[m], error));
-        }
-        for (const schemas::SceneFault& fault : material.faults)
-            lines.push_back(schemas::fault_text(scene, material.name, fault));
-    }
-    return lines;
 }
 
 LutRequest request_up_to(const SceneTable& table, double largest_angle_deg) {

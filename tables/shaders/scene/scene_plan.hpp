@@ -12,6 +12,7 @@
 #include "tables/lut/lut_format.hpp"
 #include "tables/lut/lut_kind.hpp"
 #include "tables/lut/lut_maker.hpp"
+#include "tables/scratch/grid_file.hpp"
 
 namespace irido::tables {
 
@@ -19,11 +20,20 @@ namespace irido::tables {
 /// then remade.
 inline constexpr int kNumbersVersion = 2;
 
-/// A table that a scene needs; its size is not known yet.
+/// Scratches, and the rectangle in which engines look them up.
+struct SceneGrid {
+    std::vector<Scratch> scratches;
+    GridExtent extent;
+};
+
+/// A table that a scene needs; its size is not known yet. Or a grid of scratches, which no kind of
+/// table makes.
 struct SceneTable {
     std::string id;    ///< hash of all that its values depend on, 16 hexadecimal digits
     std::string file;  ///< KIND-ID.FORMAT
     const LutKind* kind = nullptr;
+    std::shared_ptr<const SceneGrid> grid;  ///< in the place of kind, request and making
+    std::string_view kind_name() const { return grid ? kGridKind : kind->name; }
     LutRequest request;
     LutMaking making;
     /// The largest angle of an axis of cosines, degrees; 0 if the table has none.
@@ -47,6 +57,9 @@ struct Omission {
     std::optional<double> delta_e{};  ///< of a loss, if known: the largest value found
 };
 
+/// The loss of the shading scratches over a base.
+inline constexpr const char* kProductOfColors = "product of colours";
+
 /// The loss of the shading fourier past a film's critical angle.
 inline constexpr const char* kPastCriticalAngle = "light past the film's critical angle";
 
@@ -55,6 +68,7 @@ struct MaterialPlan {
     struct Use {
         std::string role;  ///< reflection, transmission, sensitivity, falpha, ...
         std::size_t table = 0;
+        std::string why{};  ///< this form of several, in words; "" if there is no choice
     };
     std::string name;
     schemas::Shading shading = schemas::Shading::color;
@@ -77,15 +91,6 @@ struct ScenePlan {
 /// Plans a scene: tables with axes and tolerances, constants, and omissions. Equal tables are
 /// shared. Depends on the scene only. A material that cannot be made has faults and no tables.
 ScenePlan plan_scene(const schemas::Scene& scene, const Execution& execution);
-
-/// All problems of a scene that are known before its tables are computed, one line each:
-/// "FILE: POINTER: material NAME: reason".
-/// document   the scene
-/// file       its name in messages
-/// folder     where its relative paths start
-/// execution  threads and SIMD level
-std::vector<std::string> problems_of_scene(const nlohmann::json& document, const std::string& file,
-                                           const std::string& folder, const Execution& execution);
 
 /// The table's request with its angles limited to `largest_angle_deg`.
 LutRequest request_up_to(const SceneTable& table, double largest_angle_deg);

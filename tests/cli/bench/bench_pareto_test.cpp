@@ -136,7 +136,7 @@ TEST_CASE("bench pareto refuses what it does not know in one line", "[cli][bench
         {{"--plot", ""}, "--plot: must name a file"},
         {{"-o", "x.svg", "-f", "csv", "--plot", "x.svg"}, "x.svg: is the same file as"},
         {{"-o", "/no/such/folder/x.csv"}, "/no/such/folder/x.csv: cannot be written"},
-        {{"-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
+        {{"-f", "xml"}, "--format: must be one of csv, json, npy (got 'xml')"},
         {{"--plot", "/no/such/folder/x.svg"}, "/no/such/folder/x.svg: cannot be written"},
     };
     for (const auto& [arguments, error] : cases) {

@@ -89,7 +89,7 @@ TEST_CASE("bench refuses what it does not know in one line", "[cli][bench][refus
         {{"stability", "--regime", "grasing"},
          "--regime: there is no regime 'grasing' (did you mean \"grazing\"?)"},
         {{"stability", "--regime", ""}, "--regime: must not be empty"},
-        {{"stability", "-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
+        {{"stability", "-f", "xml"}, "--format: must be one of csv, json, npy (got 'xml')"},
         {{"stability", "-j", "0"}, "--threads: must be in [1, 4096] (got 0)"},
         {{"stability", "-o", "/no/such/folder/x.csv", "-n", "1", "-r", "thin"}, "/no/such/folder"},
         {{"stability", "extra"}, "extra"},
@@ -165,7 +165,7 @@ TEST_CASE("bench speed refuses what it does not know in one line", "[cli][bench]
         {{"--cases", "41"}, "--cases: unknown case '41'"},
         {{"--time", "0"}, "--time: must be in [0.001, 60] (got 0)"},
         {{"--time", "1,2"}, "--time: must be a single number (got '1,2')"},
-        {{"-f", "xml"}, "--format: must be one of csv, json, npy (got xml)"},
+        {{"-f", "xml"}, "--format: must be one of csv, json, npy (got 'xml')"},
     };
     for (const auto& [arguments, error] : cases) {
         std::vector<std::string> all{"bench", "speed"};
@@ -205,15 +205,29 @@ TEST_CASE("bench scene compares a bake with tables of everything", "[cli][bench]
     check_refused(run_irido({"bench", "scene", "missing.json"}), "missing.json");
 }
 
-TEST_CASE("bench layered measures four methods", "[cli][bench]") {
+TEST_CASE("bench layered measures ways to evaluate mirrors and films", "[cli][bench]") {
     const Outcome outcome =
         run_irido({"bench", "layered", "--cases", "A", "--samples", "500", "--budget", "0"});
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
     const auto rows = parse_csv(outcome.out);
-    REQUIRE(rows.size() == 5);
+    REQUIRE(rows.size() == 8);
     CHECK(rows[0] == std::vector<std::string>{"case", "method", "prepare_s", "evaluate_s",
-                                              "smape_percent", "efficiency"});
+                                              "smape_percent", "efficiency", "per_second",
+                                              "delta_e_mean", "delta_e_max"});
     // all paths have no bias, unlike single reflections
-    CHECK(std::stod(rows[4][4]) < std::stod(rows[2][4]));
+    CHECK(rows[3][1] == "model");
+    CHECK(rows[5][1] == "all");
+    CHECK(std::stod(rows[5][4]) < std::stod(rows[3][4]));
+    CHECK(rows[7][1] == "prepared-rgb");
+    CHECK(std::stod(rows[7][8]) < 0.1);
+
+    const Outcome films =
+        run_irido({"bench", "layered", "--cases", "film-dielectric,film-spread", "--budget", "0"});
+    REQUIRE(films.status == 0);
+    for (const auto& row : parse_csv(films.out)) {
+        if (row[1] == "fourier" || row[1] == "spectral") CHECK(std::stod(row[8]) < 1e-2);
+        if (row[1] == "gaussian/3") CHECK(std::stod(row[7]) > 0.01);
+        if (row[1] == "levels") CHECK(std::stod(row[7]) < 3);
+    }
 }

@@ -123,6 +123,71 @@ TEST_CASE("all paths of two layers, and their simulation", "[cli][brdf][slow]") 
           simulated);
 }
 
+TEST_CASE("light that rough films refract", "[cli][brdf]") {
+    const auto rows = rows_of({"1 | 1.33@400 | 1.5", "--alpha", "0.2", "--side", "T",
+                               "--light-theta", "30", "--view-theta", "19.5,60", "-w", "550"});
+    CHECK(rows[0].back() == "btdf_per_sr");
+    CHECK(std::stod(rows[1][5]) > 20);
+    CHECK(rows[2][5] == "0");  // no facet refracts so far
+    const std::vector<std::string> film{"1 | 1.33@400 | 1.9+1.5i",
+                                        "--alpha",
+                                        "0.2",
+                                        "--light-theta",
+                                        "30",
+                                        "--view-theta",
+                                        "30",
+                                        "--color"};
+    const auto color = [&](const std::string& method) {
+        std::vector<std::string> arguments = film;
+        arguments.insert(arguments.end(), {"--method", method});
+        return std::stod(rows_of(arguments)[1][5]);
+    };
+    CHECK_THAT(color("fourier"), WithinRel(color("auto"), 1e-5));
+    CHECK_THAT(color("gaussian/3"), WithinRel(color("auto"), 2e-2));
+    CHECK(color("gaussian/3") != color("auto"));
+}
+
+TEST_CASE("shards of a simulation are joined", "[cli][brdf]") {
+    const TemporaryFolder folder;
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{
+            "brdf",  kMirror, "--alpha", "0.1",     "--light-theta", "30",        "--view-theta",
+            "20,30", "-w",    "450,550", "--paths", "simulation",    "--samples", "901"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_irido(arguments);
+    };
+    const std::string a = folder / "a.csv", b = folder / "b.csv";
+    REQUIRE(run({"--shard", "1/2", "-o", a}).status == 0);
+    REQUIRE(run({"--shard", "2/2", "-o", b}).status == 0);
+    CHECK(parse_csv(read_file(b))[1][8] == "450");
+    const auto whole = parse_csv(run({}).out), merged = parse_csv(run({"--merge", b, a}).out);
+    REQUIRE(merged.size() == whole.size());
+    CHECK(merged[0] == whole[0]);
+    for (std::size_t r = 1; r < whole.size(); ++r) {
+        CHECK_THAT(std::stod(merged[r][5]), WithinRel(std::stod(whole[r][5]), 1e-12));
+        CHECK_THAT(std::stod(merged[r][6]), WithinRel(std::stod(whole[r][6]), 5e-2));
+    }
+    check_refused(run({"--merge", a}), "the shards end at sample 451 of 901");
+    check_refused(run({"--merge", a, a}), "begins with sample 0; the shards before it end at 451");
+    check_refused(run({"--merge", a, b, "--light-phi", "10"}), "is a shard of another request");
+    check_refused(run({"--merge", a, b, "--shard", "1/2"}), "mutually exclusive");
+}
+
+TEST_CASE("simulations run to a tolerance, and in colour", "[cli][brdf]") {
+    const std::vector<std::string> pale{kPale, "--light-theta", "40",         "--view-theta",
+                                        "20",  "--paths",       "simulation", "--tolerance",
+                                        "0.05"};
+    std::vector<std::string> at = pale, color = pale;
+    at.insert(at.end(), {"-w", "500"});
+    color.emplace_back("--color");
+    const auto row = rows_of(at)[1];
+    CHECK(std::stod(row[6]) <= 0.05 * std::stod(row[5]));
+    const auto rows = rows_of(color);
+    CHECK(rows[0][10] == "hex");
+    CHECK(rows[0][11] == "stderr");
+    CHECK(std::stod(rows[1][11]) <= 0.05);
+}
+
 TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     const auto refuse = [](const std::vector<std::string>& more, const std::string& error) {
         std::vector<std::string> arguments{"brdf"};
@@ -140,7 +205,22 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");
     refuse({kPale, "--paths", "simulation", "--samples", "1"}, "--samples: must be in [2, 1e+12]");
     refuse({kPale, "--paths", "simulation", "--facets", "none"}, "--facets: must be one of");
-    refuse({kPale, "--paths", "simulation", "--color"}, "--color: takes --paths single or all");
+    refuse({kPale, "--paths", "simulation", "--color", "--method", "naive"}, "--method: takes");
+    refuse({kPale, "--paths", "simulation", "--samples", "10", "--tolerance", "0.1"},
+           "--tolerance: a simulation takes it instead of --samples");
+    refuse({kPale, "--paths", "simulation", "--shard", "3/2"}, "--shard: must be");
+    refuse({kPale, "--shard", "1/2"}, "--shard: requires --paths simulation");
+    refuse({kPale, "--color", "--method", "gaussian"}, "--method: takes the BRDF of one rough");
+    refuse({kPale, "--method", "gaussian"}, "--method: requires --color");
+    refuse({kPale, "--side", "T"}, "--side T: takes one rough layer without a coating");
+    refuse({kPale, "--side", "R,T"}, "--side: must be R or T");
+    refuse({kMirror, "--alpha", "0.1", "--side", "T"}, "--side T: light goes straight on");
+    refuse({"1 | 1.3@300 | 0.2+3i", "--alpha", "0.1", "--side", "T"}, "does not absorb");
+    std::string layers = R"({"stack": "1 | 1.5@100 | 1", "alpha": 0.1})";
+    for (int k = 1; k < 10000; ++k) layers += R"(, {"stack": "1 | 1.5@100 | 1", "alpha": 0.1})";
+    const TemporaryFolder many;
+    write_text(many / "s.json", R"({"layers": [)" + layers + "]}");
+    refuse({many / "s.json"}, "/layers");
     refuse({kPale, "--paths", "simulation", "--quantity", "sampling"}, "takes --quantity brdf");
     refuse({kPale, "--transmission", "no"}, "--transmission: must be one of single, multiple");
     refuse({kPale, "--color", "--quantity", "sampling"},

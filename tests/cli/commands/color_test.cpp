@@ -88,6 +88,9 @@ TEST_CASE("an illuminant from a file is the same as by its name", "[cli][color]"
     const auto file = row_of({"color", "1 | 1.33@380 | 1", "--illuminant", folder / "flat.csv"});
     for (std::size_t c = 2; c < 10; ++c)
         CHECK(std::abs(std::stod(named[c]) - std::stod(file[c])) < 1e-14);
+    write_text(folder / "um.csv", "0.3,7\n0.83,7\n");
+    check_refused(run_irido({"color", "1 | 1.33@380 | 1", "--illuminant", folder / "um.csv"}),
+                  "looks like um or eV (then add a header such as um,power)");
 }
 
 TEST_CASE("a material that does not reach the ends of the visible range", "[cli][color]") {
@@ -125,13 +128,13 @@ TEST_CASE("what colour refuses", "[cli][refused]") {
     };
     const std::vector<Case> cases{
         {{"--illuminant", "D66"},
-         "--illuminant: must be one of D65, D50, A, E, FL2, FL11, a CSV file (got D66)"},
+         "--illuminant: must be one of D65, D50, A, E, FL2, FL11, a CSV file (got 'D66')"},
         {{"--illuminant", "none.csv"}, "none.csv: cannot be read"},
         {{"--observer", "4"}, "--observer: must be 2 or 10 (got '4')"},
         {{"--space", "lab"}, "--space: must be one of srgb"},
         {{"--side", "R,R"}, "--side: must be R, T or R,T"},
         {{"--method", "guess"}, "--method: must be one of auto, quadrature, fourier"},
-        {{"--method", "naive/3"}, "--method: naive takes no number (got naive/3)"},
+        {{"--method", "naive/3"}, "--method: naive takes no number (got 'naive/3')"},
         {{"--method", "equal/1"}, "--method: the number of equal: must be in [2, 1e+06] (got 1)"},
         {{"--method", "fourrier"}, "(did you mean \"fourier\"?)"},
         {{"--method", "equal/x"}, "--method: "},
@@ -195,10 +198,10 @@ TEST_CASE("gltf takes the base colour that is typed", "[cli][color]") {
     CHECK(with("0,0,0").status == 0);
     CHECK(with("0.5,0.6,0.7").out != run_irido(gold).out);
     check_refused(with("1,1.2,0"), "--base-color: must be in [0, 1] (got 1.2)");
-    check_refused(with("1,0.5"), "--base-color: must be three numbers R,G,B (got 1,0.5)");
-    check_refused(with("0:1:0.5"), "--base-color: must be three numbers R,G,B (got 0:1:0.5)");
+    check_refused(with("1,0.5"), "--base-color: must be three numbers R,G,B (got '1,0.5')");
+    check_refused(with("0:1:0.5"), "--base-color: must be three numbers R,G,B (got '0:1:0.5')");
     check_refused(run_irido({"color", "1 | 1.3@300 | Au", "--base-color", "1,1,1"}),
-                  "--base-color: requires --method gltf (got auto)");
+                  "--base-color: requires --method gltf (got 'auto')");
 }
 
 TEST_CASE("a strip of colours", "[cli][color]") {

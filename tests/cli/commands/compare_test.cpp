@@ -356,11 +356,12 @@ TEST_CASE("compare refuses what it cannot do", "[cli][compare][slow]") {
     check_refused(compare({stack, "--engine", "glft"}),
                   "--engine: must be one of gltf, three, babylon, unity, materialx, "
                   "materialx-gltf, openpbr, cycles, cycles-principled, gaussian, smits, naive, "
-                  "equal/N (got glft) (did you mean \"gltf\"?)");
+                  "equal/N (got 'glft') (did you mean \"gltf\"?)");
     check_refused(compare({stack, "--engine", "gltf,gltf"}), "--engine: gltf is named twice");
     check_refused(compare({stack, "--engine", "equal/1"}), "--engine: the number of equal");
     check_refused(compare({stack, "-a", "95"}), "--angles");
-    check_refused(compare({stack, "--white", "e"}), "--white: must be one of own, common (got e)");
+    check_refused(compare({stack, "--white", "e"}),
+                  "--white: must be one of own, common (got 'e')");
     check_refused(compare({stack, "--rows"}), "--rows: requires --films or --random");
     check_refused(compare({stack, "--seed", "1"}), "--seed and --base require --random");
     check_refused(compare({stack, "--random", "5"}),
@@ -373,7 +374,7 @@ TEST_CASE("compare refuses what it cannot do", "[cli][compare][slow]") {
     check_refused(compare({"--random", "5", "--fit"}), "--fit and --weights require a STACK");
     check_refused(compare({stack, "--weights", "1"}), "--weights: requires --fit");
     check_refused(compare({stack, "--fit", "--weights", "1,2"}),
-                  "--weights: must be as many as there are angles, 17 (got 2)");
+                  "--weights: must have one value per angle, 17 (got 2)");
     check_refused(compare({stack, "--fit", "-a", "0,1", "--weights", "0,0"}),
                   "--weights: must not all be 0");
     check_refused(compare({stack, "--fit", "--engine", "naive"}),

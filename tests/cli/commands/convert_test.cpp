@@ -127,7 +127,7 @@ TEST_CASE("COATING.DAT is refused line by line", "[cli][convert]") {
     };
     refused("", "has no COAT");
     refused("HIGH 0.25\n", "1:1: must be MATE, COAT");
-    refused("MATE A\n0.5 2\nMATE A\n0.5 2\nCOAT C\n", "3:6: MATE A is there twice");
+    refused("MATE A\n0.5 2\nMATE A\n0.5 2\nCOAT C\n", "3:6: duplicate MATE A");
     refused("MATE A\n0.5 2 0\n0.5 2 0\nCOAT C\n", "3:1: wavelengths must ascend");
     refused("MATE A\n0.5 x 0\nCOAT C\n", "2:5: must be a number");
     refused("MATE A\nCOAT C\n", "MATE A has no rows");
@@ -228,6 +228,13 @@ TEST_CASE("a stack goes to OpenFilters and back", "[cli][convert]") {
     done({"convert", file, "-o", folder / "back.json"});
     CHECK(largest_difference(reflectance_of({stack}), reflectance_of({folder / "back.json"})) <
           3e-5);
+    // a project of the same materials beside it: their files are inputs, and stay as they are
+    done({"convert", file, "-o", folder / "again.ofp"});
+    CHECK(read_file(folder / "again.ofp").size() > 100);
+    // a name is one line, whatever is in it
+    const Outcome odd =
+        done({"convert", "1 | 1.5@10 | 1.6", "--set", "name=\"a\\nEnd\\nb\"", "-f", "openfilters"});
+    CHECK(has_line(odd.out, "\tDescription: a End b\n"));
     // the same again, in the same folder, but nothing else
     const std::string before = read_file(file);
     done({"convert", stack, "-o", file});

@@ -139,8 +139,9 @@ TEST_CASE("tasks that cannot be are refused in one line", "[cli][design]") {
         arguments.insert(arguments.end(), more.begin(), more.end());
         check_refused(run_irido(arguments), error);
     };
-    refuse({kCoating, "--target", "R 500 = 0"}, "nothing is free");
-    refuse({kCoating, "--free", "layers.*.thickness_nm"}, "there is no target");
+    refuse({kCoating, "--target", "R 500 = 0"}, "must have the key \"free\", or come with --free");
+    refuse({kCoating, "--free", "layers.*.thickness_nm"},
+           "must have the key \"targets\", or come with --target");
     refuse({kCoating, "--free", "layers.9.thickness_nm=0:1", "--target", "R 500 = 0"},
            "/free/0/path: fits no number in the stack");
     refuse({kCoating, "--free", "layers.0.thickness_nm=9:1", "--target", "R 500 = 0"},
@@ -152,7 +153,7 @@ TEST_CASE("tasks that cannot be are refused in one line", "[cli][design]") {
            "is free twice");
     refuse({kCoating, "--free", "layers.0.thickness_nm", "--method", "global", "--target",
             "R 500 = 0"},
-           "must have bounds for a global search");
+           "method global requires bounds");
     refuse({kCoating, free[0], free[1], "--target", "R 500"}, "must be QUANTITY");
     refuse({kCoating, free[0], free[1], "--target", "Q 500 = 1"},
            "/targets/0/quantity: must be one of R, T, A");
@@ -210,4 +211,15 @@ TEST_CASE("shards are other runs, and the best of them is kept", "[cli][design]"
     CHECK(best["design"]["runs"] == 16);
     check_refused(run_irido({"design", "--merge", "schemas/examples/soap-bubble.json"}),
                   "must be the result of a search");
+    for (const char* const design :
+         {R"({"merit": "x", "best_of_runs": [1]})", R"({"merit": 1, "best_of_runs": ["x"]})",
+          R"({"merit": 1, "best_of_runs": [1], "runs": "x"})", "5"}) {
+        INFO(design);
+        write_text(folder / "odd.json", std::string(R"({"design": )") + design + "}");
+        check_refused(run_irido({"design", "--merge", folder / "odd.json"}),
+                      "odd.json: /design: must be the result of a search");
+    }
+    check_refused(run_irido({"design", kCoating, "--free", "layers.0.thickness_nm=1:9", "--target",
+                             "R 500 = 0", "--report", "-"}),
+                  "--report: must have an extension");
 }

@@ -89,6 +89,23 @@ TEST_CASE("standard errors follow from the stated noise", "[cli][fit]") {
     CHECK(std::stod(rows[3][1]) == 2);
 }
 
+TEST_CASE("the output - of a fit is the stack instead of the table", "[cli][fit]") {
+    TemporaryFolder folder;
+    write_text(folder / "data.csv", "wavelength_nm,R\n500,0.02\n600,0.03\n");
+    const std::vector<std::string> ask{"fit",      "1 | 1.38@100 | 1.5",
+                                       "--free",   "layers.0.thickness_nm=50:150",
+                                       "--target", "R 500,600 = 0.02"};
+    std::vector<std::string> printed = ask, written = ask;
+    printed.insert(printed.end(), {"-o", "-"});
+    written.insert(written.end(), {"-o", "stack.json"});
+    const Outcome dash = run_irido(printed, "", folder.path());
+    INFO(dash.err);
+    CHECK(dash.status == 0);
+    CHECK(run_irido(written, "", folder.path()).out == run_irido(ask, "", folder.path()).out);
+    CHECK(dash.out == read_file(folder / "stack.json"));
+    CHECK(run_shell("ls", folder.path()).out == "data.csv\nstack.json\n");
+}
+
 TEST_CASE("what the data do not tell is said", "[cli][fit]") {
     TemporaryFolder folder;
     write_text(folder / "data.csv", "wavelength_nm,R\n500,0.04\n600,0.04\n");
@@ -100,7 +117,7 @@ TEST_CASE("what the data do not tell is said", "[cli][fit]") {
     REQUIRE(outcome.status == 0);
     CHECK(outcome.out.find("nan") == std::string::npos);
     CHECK(outcome.out.find("inf") == std::string::npos);
-    CHECK(outcome.err.find("the data do not tell layers.0.thickness_nm") != std::string::npos);
+    CHECK(outcome.err.find("the data do not determine layers.0.thickness_nm") != std::string::npos);
     CHECK(outcome.err.find("no target states its noise") != std::string::npos);
 }
 

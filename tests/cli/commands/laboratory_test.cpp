@@ -121,7 +121,27 @@ TEST_CASE("means over cones", "[cli][spectrum]") {
     check_refused(run_irido({"spectrum", kOxide, "--cone", "10", "--f-number", "4"}),
                   "mutually exclusive");
     check_refused(run_irido({"spectrum", kOxide, "-p", "s", "--cone", "10", "--columns", "r_re"}),
-                  "--cone: takes no --columns but A_layers");
+                  "--cone: cannot be combined with --columns other than A_layers");
+}
+
+TEST_CASE("the mean over a narrow cone is the value at its axis", "[cli][spectrum]") {
+    const std::vector<std::string> ask{
+        "spectrum", "1 | 1.38@99.6 | 1.52", "-w", "550", "-p", "s,p", "-a", "0,45,89"};
+    const auto rays = rows_of(ask);
+    for (const char* const half_angle :
+         {"1e-320", "1e-200", "1e-14", "1e-12", "1e-10", "1e-8", "1e-6"}) {
+        std::vector<std::string> with = ask;
+        with.insert(with.end(), {"--cone", half_angle});
+        const auto means = rows_of(with);
+        REQUIRE(means.size() == rays.size());
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            CAPTURE(half_angle, i);
+            if (i < 2) continue;  // along and across the surface are halves of each there
+            CHECK_THAT(number(means[i], "R"), WithinAbs(number(rays[i], "R"), 1e-12));
+            CHECK_THAT(number(means[i], "R") + number(means[i], "T"), WithinAbs(1, 1e-12));
+        }
+        CHECK_THAT(number(means[0], "R"), WithinAbs(number(rays[0], "R"), 1e-12));
+    }
 }
 
 TEST_CASE("a colour over a cone is the mean of its colours", "[cli][color]") {

@@ -401,3 +401,33 @@ TEST_CASE("list and shader come from the registries", "[cli][lut]") {
         CHECK_THAT(run_irido({"lut", "shader", "--language", "hlsl", kind}).out, !Contains("vec3"));
     }
 }
+
+TEST_CASE("a remapped film vanishes where it is thin", "[cli][lut]") {
+    const auto at = [](const std::string& film, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"lut",     "color", film,      "--cos", "1,0.5",
+                                           "--space", "xyz",   "--dtype", "f64"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run_irido(arguments);
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        std::vector<double> values;
+        for (const auto& row : parse_csv(outcome.out))
+            if (row != parse_csv(outcome.out).front())
+                for (std::size_t c = row.size() - 3; c < row.size(); ++c)
+                    values.push_back(number(row[c]));
+        return values;
+    };
+    const auto equal = [](const std::vector<double>& a, const std::vector<double>& b) {
+        REQUIRE(a.size() == b.size());
+        for (std::size_t k = 0; k < a.size(); ++k) CHECK(std::abs(a[k] - b[k]) < 2e-6);
+    };
+    const std::string nothing = "1 | 1.5@0 | 1.9+1.5i", thin = "1 | 1.5@5 | 1.9+1.5i";
+    const std::string thick = "1 | 1.5@10 | 1.9+1.5i";
+    const std::vector<std::string> remap{"--remap-index", "30"};
+    equal(at(nothing, remap), at("1 | 1.9+1.5i", {}));
+    equal(at(thick, remap), at(thick, {}));  // 2 n d is 30 nm
+    // t = 1/2: halfway between the indices
+    equal(at(thin, remap), at("1 | 1.25@5 | 1.9+1.5i", {}));
+    check_refused(run_irido({"lut", "color", "1 | 1.5@5 | 1.2@5 | 1", "--remap-index", "30"}),
+                  "one film");
+}

@@ -157,7 +157,7 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
         CHECK_FALSE(std::filesystem::exists(file));
     };
     check_refused(render({}), "--output: must name a picture, .png or .exr");
-    check_refused(render({"-o", folder / "x.jpg"}), "must be one of png, exr (got jpg)");
+    check_refused(render({"-o", folder / "x.jpg"}), "must be one of png, exr (got 'jpg')");
     check_refused(render({"-o", folder / "no/x.png"}), "cannot be written");
     refused({"--size", "0"}, "--size: must be in [1, 8192] (got 0)");
     refused({"--size", "100,1e6"}, "--size: must be in [1, 8192] (got 1e+06)");

@@ -148,6 +148,28 @@ TEST_CASE("points are combinations that a file lists", "[cli][sweep]") {
     CHECK(Words(rows[4].end() - 11, rows[4].end()) == Words(single[1].end() - 11, single[1].end()));
 }
 
+TEST_CASE("wavelengths of points have the unit that their column names", "[cli][sweep]") {
+    const TemporaryFolder folder;
+    const auto with = [&](const std::string& points) {
+        write_text(folder / "points.csv", points);
+        return run_irido(
+            {"sweep", kFilm, "--points", folder / "points.csv", "--compute", "spectrum"});
+    };
+    const Outcome nm = with("layers.0.thickness_nm,wavelength_nm\n100,550\n200,570\n");
+    CHECK(nm.status == 0);
+    for (const std::string& other : std::vector<std::string>{
+             "wavelength_um\n100,0.55\n200,0.57\n", "Wavelength (angstrom)\n100,5500\n200,5700\n",
+             "nm\n100,550\n200,570\n"}) {
+        INFO(other);
+        CHECK(with("layers.0.thickness_nm," + other).out == nm.out);
+    }
+    check_refused(with("wavelength,layers.0.thickness_nm\n550,100\n"), "must name its unit");
+    check_refused(with("wavelength_um,layers.0.thickness_nm\n5e9,100\n"),
+                  "wavelength_nm: must be in [1, 1e+07] (got 5e+12)");
+    check_refused(with("wavelength_nm;layers.0.thickness_nm\n550;100\n"),
+                  "columns must be separated by commas");
+}
+
 TEST_CASE("a sweep's bytes do not depend on threads", "[cli][sweep][slow]") {
     const TemporaryFolder folder;
     for (const std::string& format : kFormats) {

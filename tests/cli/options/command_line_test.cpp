@@ -94,7 +94,9 @@ TEST_CASE("The output - is standard output", "[cli][output]") {
          "550"},
         {"materials", "list"},
         {"lut", "falpha", "--alpha", "0.1", "--theta-i", "20", "--theta-d", "15"},
-        {"convert", kFilm}};
+        {"convert", kFilm},
+        {"design", kFilm, "--free", "layers.0.thickness_nm=50:150", "--target", "R 500 = 0",
+         "--evaluations", "5", "--quiet"}};
     for (std::vector<std::string> command : commands) {
         CAPTURE(command[0]);
         const Outcome plain = run_irido(command, "", folder.path());
@@ -104,7 +106,39 @@ TEST_CASE("The output - is standard output", "[cli][output]") {
         CHECK(dash.out == plain.out);
         CHECK_FALSE(dash.out.empty());
     }
+    check_refused(run_irido({"bake", "scene.json", "-o", "-"}, "", folder.path()),
+                  "--output: must name a folder");
+    check_refused(run_irido({"lut", "brdf", kFilm, "--alpha", "0.1"}, "", folder.path()),
+                  "--output: is required");
     CHECK(run_shell("ls -A | wc -l", folder.path()).out == "0\n");
+}
+
+TEST_CASE("help and version are written, or it is said why not", "[cli][output]") {
+    for (const std::string& words : std::vector<std::string>{"--help", "--version", "lut --help"}) {
+        INFO(words);
+        check_refused(run_shell("\"$IRIDO\" " + words + " > /dev/full", "."),
+                      "standard output: cannot be written: No space left on device");
+        check_refused(run_shell("\"$IRIDO\" " + words + " >&-", "."),
+                      "standard output: cannot be written: Bad file descriptor");
+        CHECK(run_shell("\"$IRIDO\" " + words + " | head -c 1", ".").err.empty());
+    }
+}
+
+TEST_CASE("ranges and several values are shown as they are written", "[cli][refused]") {
+    for (const auto& [typed, said] : std::vector<std::pair<std::string, std::string>>{
+             {"380-780", "(got '380-780'); a range is written 380:780:STEP or 380:780/COUNT"},
+             {"380..780", "(got '380..780'); a range is written 380:780:STEP or 380:780/COUNT"},
+             {"380 - 780.5", "a range is written 380:780.5:STEP"},
+             {"380 780", "several values are written 380,780"},
+             {"-5", "must be in [1, 1e+07] (got -5)"},
+             {"3e-x", "must be a number (got '3e-x') "},
+             {"550nm", "must be a number (got '550nm')"}}) {
+        INFO(typed);
+        const Outcome outcome = run_irido({"spectrum", kFilm, "--wavelengths=" + typed});
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.err + " ", Contains(said.substr(0, said.find_last_not_of(' ') + 1)));
+        CHECK((said.back() != ' ' || outcome.err.find("written") == std::string::npos));
+    }
 }
 
 TEST_CASE("wavelengths that look like um are told apart", "[cli][refused]") {

@@ -27,13 +27,14 @@ export const calls = {
         'float4(irido_film_without_fringes(float3(0.95, 1.0, 1.09), 1.0, 1.33, float2(1.5, 3.0), x), 1.0)',
     ],
     scratch: [
-        `float4(irido_scratch_wide($table, float2(2.0, 256.0), ${axis}, float3(0.575, 0.557, 0.452), 2.0, 0.14, x, y), 1.0)`,
-        `float4(irido_scratch_narrow($table, float2(2.0, 256.0), ${axis}, float3(0.575, 0.557, 0.452), 2.0, 0.14, x, y), 1.0)`,
+        `float4(irido_scratch_wide($table, float2(2.0, 256.0), float4(0.0, 3.15, 64.0, 1.0), float3(0.575, 0.557, 0.452), 2.0, 0.14, x, y), 1.0)`,
+        `float4(irido_scratch_narrow($table, float2(2.0, 256.0), float4(0.0, 3.15, 64.0, 0.0), float3(0.575, 0.557, 0.452), 2.0, 0.14, x, y), 1.0)`,
         'float4(irido_scratch_footprint($table, float2(128.0, 128.0), x, y, 60.0), 0.0, 0.0, 1.0)',
     ],
     'scratch-nodes': [
         'float4(irido_scratch_nodes($table, 33.0, x, y, 0.28), 1.0)',
         'float4(irido_scratch_nodes_slope($table, 33.0, x, y), 1.0)',
+        'float4(irido_scratch_nodes_point($table, 33.0, 2.0, float2(0.001 * x, y), 0.28, 60.0), 1.0)',
     ],
     layered: ['two_layers($table, x, y)'],
     sensitivity: [

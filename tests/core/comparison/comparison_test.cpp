@@ -267,7 +267,7 @@ TEST_CASE("random films are the same everywhere, and typable", "[comparison]") {
             CHECK(name_of(film.base()) == kind);
     CHECK(random_films(tables, 3, 2, {})[0].id != films[0].id);
     CHECK_THROWS_WITH(base_kind("metal"),
-                      "base must be one of dielectric, conductor, colored (got metal)");
+                      "base must be one of dielectric, conductor, colored (got 'metal')");
 }
 
 TEST_CASE("bases known at three wavelengths have engine colours only", "[comparison]") {

@@ -103,5 +103,5 @@ TEST_CASE("a tilted plane shows one angle, and names are checked", "[render]") {
     CHECK_THROWS_AS(plane_shape(90), DomainError);
     CHECK(shape_kind("bubble") == ShapeKind::bubble);
     CHECK_THROWS_WITH(shape_kind("cube"),
-                      Contains("must be one of sphere, bubble, plane, ring, gem (got cube)"));
+                      Contains("must be one of sphere, bubble, plane, ring, gem (got 'cube')"));
 }

@@ -107,13 +107,15 @@ TEST_CASE("means of BRDFs over footprints are those of many points", "[scratch]"
         DomainError);
 }
 
+// power() is a sum of Faddeeva functions over the places of a footprint, the table a Fourier
+// integral of what all places see together.
 TEST_CASE("tables of lobes hold what the lobes are", "[scratch]") {
     Random random(10);
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 24; ++i) {
         Scratch scratch = random_scratch(random);
-        scratch.start_um = random.uniform(-150, 50);
-        scratch.end_um = i % 3 ? scratch.start_um + random.uniform(20, 200) : 5000;
-        const Footprint footprint{Footprint::Kind::ellipse,
+        scratch.start_um = random.uniform(-250, 50);
+        scratch.end_um = i % 3 ? scratch.start_um + random.uniform(20, 400) : 5000;
+        const Footprint footprint{i % 4 == 1 ? Footprint::Kind::gaussian : Footprint::Kind::ellipse,
                                   {},
                                   random.uniform(1, 90),
                                   random.uniform(1, 90),
@@ -121,13 +123,19 @@ TEST_CASE("tables of lobes hold what the lobes are", "[scratch]") {
         const ScratchOptics optics{40, DepthPhase::slanted};
         const VisibleScratch seen = i % 2 ? VisibleScratch(scratch, optics, footprint)
                                           : VisibleScratch(scratch, optics, SurfacePoint{});
-        const LobeTable lobe(seen, 0, 300);
+        const LobeTable lobe(seen, 0, 300, kInfinity);
         CHECK(lobe.has_ends());
         for (int k = 0; k < 60; ++k) {
-            const double y = k % 2 ? random.uniform(-300, 300) : random.uniform(-8, 8);
+            const double y = k % 2 ? random.uniform(-300, 300) : random.uniform(-14, 14);
             CHECK(std::abs(lobe(y) - seen.power(y)) < 1e-10 * seen.power(y) + 1e-13);
         }
         CHECK(lobe(301) == seen.power(301));
+        // a part of the range alone is the same
+        const LobeTable far(seen, 20, 300, kInfinity), near(seen, 1.5, 9, kInfinity);
+        CHECK(std::abs(far(50) - lobe(50)) < 1e-15);
+        CHECK(std::abs(near(3) - lobe(3)) < 1e-13);
+        CHECK(near(0) == seen.power(0));
+        CHECK(LobeTable(seen, 2, 2, kInfinity)(2) == seen.power(2));
     }
     const VisibleScratch endless(worked_scratch(), {}, SurfacePoint{});
     const LobeTable lobe(endless, 0, 300);

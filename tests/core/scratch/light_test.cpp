@@ -174,10 +174,17 @@ TEST_CASE("area lights are sums of point lights", "[scratch]") {
             {-view[0] + random.uniform(-0.1, 0.1), -view[1] + random.uniform(-0.1, 0.1), view[2]},
             random.uniform(0.05, 0.3)};
         const LightCone cone(light);
-        const AngularReflectance reflectance =
-            i % 4 == 3 ? AngularReflectance([](double c) { return 0.2 + 0.7 * c * c; }) : nullptr;
-        const double ratio = light_ratio(seen, LightSlices(cone, seen.tangent()),
-                                         optics.depth_phase, view, 0.55, {}, reflectance);
+        CosineSeries reflectance;
+        if (i % 4 == 3) {
+            const CosineRange range{0, 1};
+            std::vector<double> values;
+            for (const double c : CosineSeries::nodes(range)) values.push_back(0.2 + 0.7 * c * c);
+            reflectance = {range, values};
+        }
+        const LightSlices slices(cone, seen.tangent());
+        const double ratio =
+            light_ratios(seen, {slices, optics.depth_phase, view}, std::array{1 / 0.55}, {},
+                         reflectance, lobe_under(seen, slices, view, 0.55))[0];
         // polar grid in the cone
         const UnitVector axis = cone.bound().normal;
         const double top = std::acos(cone.bound().least);
@@ -197,7 +204,7 @@ TEST_CASE("area lights are sums of point lights", "[scratch]") {
                            std::sin(theta) * (std::cos(phi) * side[k] + std::sin(phi) * up[k]);
                 if (w[2] <= 0) continue;
                 double f = scratch_brdf(seen, pair_of(seen, optics.depth_phase, w, view), 0.55);
-                if (reflectance) f *= reflectance(std::sqrt((1 + dot(w, view)) / 2));
+                if (!reflectance.is_empty()) f *= reflectance(std::sqrt((1 + dot(w, view)) / 2), 0);
                 sum += f * w[2] * std::sin(theta) * top / kRings * kTwoPi / kTurns;
             }
         }

@@ -6,7 +6,7 @@
 #include "core/colorimetry/observer.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
-#include "core/rough/ggx.hpp"
+#include "core/scratch/rough_base.hpp"
 #include "core/spectrum/spectrum.hpp"
 #include "core/stack/builder.hpp"
 #include "tests/core/scratch/support.hpp"
@@ -136,6 +136,97 @@ TEST_CASE("coherent sums of one scratch are its power, of many at a point their 
         for (std::size_t c = 0; c < 3; ++c) sum[c] += 0.01 * s[c] * f[i];
     }
     for (std::size_t c = 0; c < 3; ++c) CHECK(relative(xyz[c], sum[c]) < 1e-6);
+}
+
+// The facets alone: no scratch comes near.
+TEST_CASE("rough bases under area lights have the totals of their facets", "[scratch]") {
+    const auto facets_of = [](double alpha, const LightCone& light, const UnitVector& view) {
+        const CosineRange range = half_cosines(light, view);
+        double sum = 0;
+        for (const double weight : facet_weights(alpha, light, view, range)) sum += weight;
+        return sum;
+    };
+    const UnitVector view = direction_of(35, 40);
+    // almost the whole sky: the albedo, by another rule
+    const LightCone sky(SphereLight{{0, 0, 1000}, 999.999999999});
+    for (const double alpha : {0.05, 0.2, 0.6, 1.0}) {
+        double albedo = 0;
+        constexpr int kRings = 400, kTurns = 800;
+        for (int i = 0; i < kRings; ++i) {
+            const double cosine = (i + 0.5) / kRings, flat = std::sqrt(1 - cosine * cosine);
+            for (int k = 0; k < kTurns; ++k) {
+                const double turn = kTwoPi * k / kTurns;
+                const UnitVector light{flat * std::cos(turn), flat * std::sin(turn), cosine};
+                albedo += facet_brdf(alpha, light, view) * cosine * kTwoPi / (kRings * kTurns);
+            }
+        }
+        CAPTURE(alpha);
+        CHECK(relative(facets_of(alpha, sky, view), albedo) < 1e-4);
+        CHECK(albedo < 1);
+    }
+    // about the mirror direction of smooth facets: all of it; beside it: nothing, as D falls
+    const double x = -std::sin(35 * kDegree) * std::cos(40 * kDegree),
+                 y = -std::sin(35 * kDegree) * std::sin(40 * kDegree), z = std::cos(35 * kDegree);
+    const LightCone lamp(SphereLight{{1000 * x, 1000 * y, 1000 * z}, 120});
+    CHECK(std::abs(facets_of(1e-4, lamp, view) - 1) < 1e-5);
+    CHECK(facets_of(1e-4, LightCone(SphereLight{{0, 0, 1000}, 120}), view) < 1e-6);
+    // parts of a light add up, sharp facets on the edge between them
+    const auto square = [&](double from, double to) {
+        std::vector<std::array<double, 3>> corners;
+        for (const auto& [u, v] : {std::pair(from, -200.0), std::pair(to, -200.0),
+                                   std::pair(to, 200.0), std::pair(from, 200.0)})
+            corners.push_back({1000 * x + u, 1000 * y + v, 1000 * z});
+        return LightCone(PolygonLight{corners});
+    };
+    for (const double alpha : {1e-4, 3e-3, 0.1, 0.7}) {
+        const double both = facets_of(alpha, square(-200, 300), view);
+        for (const double cut : {-150.0, -1e-3, 0.0, 0.4, 90.0})
+            CHECK(relative(facets_of(alpha, square(-200, cut), view) +
+                               facets_of(alpha, square(cut, 300), view),
+                           both) < 2e-7);
+    }
+    // a small light is one direction; a film's reflectance follows the angle
+    StackBuilder b(1);
+    b.add(b.layer(1.4, 300));
+    ScratchedSurface surface{b.over(Complex(2, 3)), 0.2, {}, 1, {worked_scratch()}, {}};
+    const std::vector<double> wavelength_nm{430, 610};
+    const LightCone star(SphereLight{{kPair.light[0], kPair.light[1], kPair.light[2]}, 1e-5});
+    const ScratchedScattering scattering = seen_from(surface, SurfacePoint{});
+    const auto f = scattering.brdf(std::array{kPair}, wavelength_nm);
+    const auto ratio =
+        scattering.light_ratios(std::array{star}, std::vector{kPair.view}, wavelength_nm, {});
+    for (std::size_t i = 0; i < 2; ++i)
+        CHECK(relative(ratio[i], f[i] * kPi * 1e-10 * kPair.light[2]) < 5e-5);
+    CHECK_THROWS_AS(facets_of(1e-5, lamp, view), DomainError);
+    CHECK(facets_of(0.3, lamp, {1, 0, 0}) == 0);
+}
+
+// Each scratch's integral is as exact as the sum needs, not as exact as its own light would.
+TEST_CASE("lights on many scratches are the sums of those on each", "[scratch]") {
+    Random random(31);
+    ScratchedSurface surface;
+    for (int i = 0; i < 30; ++i) {
+        Scratch scratch = random_scratch(random);
+        scratch.start_um = random.uniform(-400, 0);
+        scratch.end_um = scratch.start_um + random.uniform(40, 600);
+        surface.scratches.push_back(scratch);
+    }
+    surface.scratches.push_back(worked_scratch());
+    const Footprint footprint{Footprint::Kind::ellipse, {}, 90, 40, 20};
+    const std::vector<double> wavelength_nm{420, 550, 680};
+    const auto all = seen_from(surface, footprint)
+                         .light_ratios(std::array{kLamp}, std::vector{kPair.view}, wavelength_nm,
+                                       LightIntegral{});
+    std::vector<double> sum(3, 0.0);
+    for (const Scratch& scratch : surface.scratches) {
+        ScratchedSurface one;
+        one.scratches = {scratch};
+        const auto part = seen_from(one, footprint)
+                              .light_ratios(std::array{kLamp}, std::vector{kPair.view},
+                                            wavelength_nm, LightIntegral{});
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += part[i];
+    }
+    for (std::size_t i = 0; i < 3; ++i) CHECK(relative(all[i], sum[i]) < 1e-8);
 }
 
 TEST_CASE("the mean over places of a field is its ensemble", "[scratch]") {

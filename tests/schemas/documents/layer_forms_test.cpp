@@ -216,6 +216,7 @@ TEST_CASE("forms of layers that are refused", "[schemas][refused]") {
     }
     StackRequest request{"air | 2@1Q | 1", {}, {}};
     request.reference_nm = "x";
-    CHECK_THROWS_WITH(read_stack(request),
-                      Catch::Contains("--reference: must be a wavelength in [1, 1e7] nm (got x)"));
+    CHECK_THROWS_WITH(
+        read_stack(request),
+        Catch::Contains("--reference: must be a wavelength in [1, 1e7] nm (got 'x')"));
 }

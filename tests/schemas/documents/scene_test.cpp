@@ -325,12 +325,12 @@ TEST_CASE("validate says what plan would refuse, each thing once and with its pl
         {film + R"(, "shading": "rough-layers")", ": material a: rough-layers needs \"roughness\""},
         {film + R"(, "shading": "rough-layers", "roughness": 0.1,
                    "vary": {"layers.0.thickness_nm": [1, 2]})",
-         "/vary/layers.0.thickness_nm: material a: nothing may vary with the shading rough-layers "
-         "of a rough surface (got 1 to 2)"},
+         "/vary/layers.0.thickness_nm: material a: shading rough-layers takes no varied value "
+         "(got 1 to 2)"},
         {film + R"(, "shading": "albedo", "roughness": 0.1,
                    "vary": {"layers.0.thickness_nm": [1, 2]})",
-         "/vary/layers.0.thickness_nm: material a: nothing may vary with the shading albedo of a "
-         "rough surface (got 1 to 2)"},
+         "/vary/layers.0.thickness_nm: material a: shading albedo takes no varied value "
+         "(got 1 to 2)"},
         {R"("stack": "1 | 1.33@400 | 1.4@100 | 1.5", "shading": "fourier")",
          "/shading: material a: fourier needs one coherent film of a real index (got more than one "
          "layer)"},

@@ -270,7 +270,7 @@ TEST_CASE("lut brdf refuses what it cannot write", "[cli][brdf]") {
                   "must be one of binary, merl, bsdf");
     check_refused(run_irido({"lut", "brdf", pale, "-f", "merl"}), "--output: is required");
     check_refused(run_irido({"lut", "brdf", pale, "--paths", "all", "-o", folder / "x.bsdf"}),
-                  "--paths all: tables take it where it has a closed form");
+                  "--paths all: requires a closed form");
     check_refused(run_irido({"lut", "brdf", pale, "-w", "500,400", "-o", folder / "x.bsdf"}),
                   "--wavelengths: must ascend");
 }

@@ -77,7 +77,9 @@ TEST_CASE("tables of scratches measure their error and pass their check", "[cli]
     CHECK(carrier["axes"][0]["count"] == 256);
     CHECK(carrier["axes"][1]["count"] == 64);
     CHECK(carrier["request"]["u_scale_um"] == 2);
-    CHECK(carrier["error"]["value"].get<double>() < 3);
+    CHECK(carrier["request"]["depth_scale_um"] == 1);
+    CHECK(carrier["axes"][1]["last"] == 3.15);
+    CHECK(carrier["error"]["value"].get<double>() < 0.5);
     CHECK(carrier["error"]["value"].get<double>() > 1e-3);
     const auto narrow = made({"scratch", "--carrier", "--per-place", "--dtype", "f16"}, "d.ktx2");
     CHECK(narrow["channels"][0] == "dX_dx_re");
@@ -97,6 +99,10 @@ TEST_CASE("impossible tables of scratches are refused", "[cli][lut]") {
     refused({"--carrier", "--space", "srgb"}, "--space xyz");
     refused({"--carrier", "--derivative"}, "--derivative");
     refused({"--carrier", "--depth", "0.1,0.2"}, "begin at 0");
+    refused({"--u-count", "1024"}, "u_um");
+    refused({"--u-count", "8"}, "--u-count");
+    refused({"--depth-max", "0"}, "--depth-max");
+    refused({"--depth-scale", "nan"}, "--depth-scale");
     refused({"--space", "lab"}, "--space");
     check_refused(run_irido({"lut", "scratch-footprint", "--offset", "2"}), "--offset");
 }

@@ -312,7 +312,7 @@ TEST_CASE("plan: a material that its shading cannot have is a fault of its own",
           std::string::npos);
     CHECK(fault("1 | 1.33@400 | 1.5", R"("shading": "albedo", "roughness": 0.1,
                                          "vary": {"layers.0.thickness_nm": [1, 2]})")
-              .find("nothing may vary") != std::string::npos);
+              .find("takes no varied value") != std::string::npos);
 }
 
 TEST_CASE("a baked table is within its tolerance of the exact colour at 10000 random points",

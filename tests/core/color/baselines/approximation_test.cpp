@@ -231,7 +231,7 @@ TEST_CASE("glTF's base colour is that of the bare base") {
     for (const Triple& bad : {Triple{-0.1, 0, 0}, Triple{0, 1.1, 0}, Triple{0, 0, NAN}})
         CHECK_THROWS_WITH(with_base(boar, bad), Contains("base colour must be in [0, 1]"));
     CHECK_THROWS_WITH(approximate_color(d65(), boar, {Kind::naive}, {}, Triple{1, 1, 1}),
-                      "a base colour must come with method gltf");
+                      "a base colour requires method gltf");
 }
 
 TEST_CASE("approximations err as much as they are known to") {
@@ -339,5 +339,5 @@ TEST_CASE("approximations refuse stacks that they do not suit", "[refused]") {
     // dark where the few wavelengths are
     const ColorTables dark(Sensitivity(observer(2), Table{{380, 500, 600, 780}, {0, 1, 1, 0}}));
     CHECK_THROWS_WITH(approximate_color(dark, one, {Kind::equal, 2}, {}),
-                      "equal wavelengths must be more for this light (got 2)");
+                      "equal/N: N must be larger for this illuminant (got 2)");
 }

@@ -112,3 +112,21 @@ TEST_CASE("all paths are reciprocal and keep energy", "[rough][layered][slow]") 
         white.albedo(theta, {500}, Paths::single)[0] + adding.albedo_rest(theta, {500}).values[0],
         WithinAbs(1, 2e-3));
 }
+
+TEST_CASE("levels of adding approach each other", "[rough][layered]") {
+    const LayeredScattering scattering(
+        surface_of(R"({"inside": 1.35, "layers": [{"stack": "1.35 | 1.7@150 | 1.35",
+            "alpha": 0.2}], "base": {"albedo": 0.5}})"),
+        Crossings::single, Execution(0));
+    const std::vector<ScatterPair> pairs{{45, 45, 180}, {45, 70, 90}, {10, 80, 0}};
+    const Adding adding(scattering, 1e-3, Execution(0));
+    const std::vector<double> coarse = adding.brdf_rest(pairs, {550}, 0);
+    const std::vector<double> middle = adding.brdf_rest(pairs, {550}, 1);
+    const std::vector<double> fine = adding.brdf_rest(pairs, {550}, 3);
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        CHECK_THAT(coarse[p], WithinRel(fine[p], 1e-2));
+        CHECK_THAT(middle[p], WithinRel(fine[p], 1e-3));
+    }
+    CHECK(adding.level_of(pairs, {550}).level <= 1);
+    CHECK(adding.level_of(pairs, {550}).error <= 1e-3);
+}

@@ -2,8 +2,13 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 
+#include "core/colorimetry/illuminant.hpp"
+#include "core/colorimetry/observer.hpp"
+#include "core/math/constants.hpp"
 #include "core/rough/layered/adding.hpp"
+#include "core/rough/layered/layered_color.hpp"
 #include "tests/support/sample_surfaces.hpp"
 
 using namespace irido;
@@ -34,8 +39,11 @@ std::vector<double> sum_of(std::vector<double> once, const std::vector<double>& 
 
 // Paths that know nothing of the filter, of adding or of the integrals over facets.
 TEST_CASE("simulations of random surfaces meet the formulas", "[rough][simulation][slow]") {
+    // IRIDO_TEST_STRUCTURES: how many
+    const char* const many = std::getenv("IRIDO_TEST_STRUCTURES");
+    const int count = many ? std::atoi(many) : 24;
     Random random(31);
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < count; ++i) {
         const LayeredScattering scattering(random_surface(random, 3), Crossings::single,
                                            Execution(0));
         const double theta = random.uniform(0, 80);
@@ -96,4 +104,52 @@ TEST_CASE("opaque layers and bare bases are simulated", "[rough][simulation]") {
         CHECK(distance(simulation.albedo(theta), scattering.albedo(theta, kNm, Paths::all), 1e-4) <
               3.5);
     }
+}
+
+TEST_CASE("parts of a simulation add up to the whole", "[rough][simulation]") {
+    const LayeredScattering scattering(
+        surface_of(R"({"layers": [{"stack": "1 | 2@100 | 1", "alpha": 0.3}],
+                       "base": {"albedo": 0.5}})"),
+        Crossings::single, Execution(1));
+    SimulationRequest request;
+    request.samples = 3000;
+    LayeredSimulation simulation(scattering, request, kNm, Execution(1));
+    const std::vector<ScatterPair> pairs{{10, 20, 30}};
+    const LayeredSimulation::Values whole = simulation.brdf(pairs);
+    simulation.set_paths(0, 1000);
+    LayeredSimulation::Values sum = simulation.brdf(pairs);
+    simulation.set_paths(1000, 2000);
+    sum.add(1000, simulation.brdf(pairs), 2000);
+    for (std::size_t k = 0; k < whole.mean.size(); ++k) {
+        CHECK(std::abs(sum.mean[k] - whole.mean[k]) <= 1e-13 * whole.mean[k]);
+        CHECK(std::abs(sum.error[k] - whole.error[k]) <= 2e-2 * whole.error[k]);
+    }
+}
+
+TEST_CASE("colours are simulated", "[rough][simulation]") {
+    const LayeredSurface surface = surface_of(
+        R"({"layers": [{"stack": "1 | (1@250 | 1.5@250)^4 | 1", "alpha": 0.2}],
+            "base": {"albedo": 0.5}})");
+    const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
+    const std::vector<ScatterPair> pairs{{30, 30, 180}, {30, 60, 90}};
+    const auto exact = LayeredColor(tables, surface, Crossings::single, 1e-4, Execution(0))
+                           .brdf(pairs, Paths::all);
+    const SampleRule rule = equal_rule(tables.sensitivity(), 119);
+    LayeredSimulation::ColorWeights weights = rule.weight;
+    for (std::size_t c = 0; c < 3; ++c) {
+        double light = 0;
+        for (const double weight : weights[c]) light += weight;
+        for (double& weight : weights[c]) weight *= tables.sensitivity().white()[c] / light;
+    }
+    SimulationRequest request;
+    request.samples = 10000;
+    const LayeredScattering scattering(surface, Crossings::single, Execution(0));
+    LayeredSimulation simulation(scattering, request, rule.wavelength_nm, Execution(0));
+    simulation.set_colors(weights);
+    const LayeredSimulation::Values got = simulation.brdf(pairs);
+    REQUIRE(got.mean.size() == 6);
+    std::vector<double> expected;
+    for (const SurfaceColor& color : exact)
+        for (const double part : color.xyz) expected.push_back(part / kPi);
+    CHECK(distance(got, expected, 1e-3) < 3.5);
 }

@@ -66,7 +66,7 @@ TEST_CASE("Woollam's tables", "[formats]") {
     check_index("400 nm\nnm\nE1E2\n400 3 4\n500 3 4\n", 450, 2, 1);
     check_index("x\num\nnk\n0.4 1.5 0.1\n0.5 1.4 0.2\n", 500, 1.4, 0.2);
     CHECK(error_of("x\nnm\nCAUCHY\n1.45 0.01 0\n") ==
-          "m.txt: 3:1: must be NK or E1E2, a table (got 'CAUCHY', parameters of a model)");
+          "m.txt: 3:1: must be NK or E1E2 (got 'CAUCHY', parameters of a model)");
     CHECK(error_of("x\nnm\nNK\n400 1.5\n").find("must have 3 columns") != std::string::npos);
 }
 
