@@ -30,14 +30,16 @@ constexpr double kShort_nm = 400;
 /// which on spectra with their closed forms are quicker.
 constexpr double kForNine = 0.67, kForAny = 12;
 
-/// Round trips whose fringes are to be resolved at the default tolerance, as many more as it is
-/// smaller; and intervals that the Gaussian takes itself.
+/// Round trips whose fringes are to be resolved, and intervals that the Gaussian takes itself.
 constexpr double kRoundTrips = 4, kOfGaussian = 10;
 
 /// Colours for one.
 constexpr std::size_t kMostNodes = 1500;
 
 constexpr std::size_t kMostLayers = 2;
+
+/// Below it count the fringes of very many round trips, which fall slowly: the observer has kinks.
+constexpr double kLeastTolerance = 5e-8;
 
 /// One thickness of a rule, in standard deviations from the mean or in parts of a range.
 struct RuleNode {
@@ -182,8 +184,7 @@ public:
         : places_(std::move(places)),
           sides_(request.sides.size()),
           tolerance_(request.tolerance),
-          reach_(std::sqrt(-2 * std::log(kOfTails * request.tolerance))),
-          more_(std::max(1.0, std::log(request.tolerance) / std::log(kDefaultTolerance))) {
+          reach_(std::sqrt(-2 * std::log(kOfTails * request.tolerance))) {
         ColorRequest plain = request;
         plain.tolerance = std::max(kSmallestTolerance, kOfColors * request.tolerance);
         plain.colors *= kNine.size();
@@ -238,12 +239,11 @@ private:
     std::size_t first_level(const Layer& layer, std::size_t spread) const {
         const double phase = turn_per_nm_[spread] * layer.thickness_sigma_nm;
         if (!(phase < kForAny)) return kLevels;
-        if (!is_cut(layer) && phase * more_ < kForNine) return 0;
+        if (!is_cut(layer) && phase < kForNine) return 0;
         const double wide = reach_ * layer.thickness_sigma_nm +
                             std::min(layer.thickness_nm, reach_ * layer.thickness_sigma_nm);
         // equal steps need two a wave, Clenshaw and Curtis's pi
-        const double waves =
-            more_ * kRoundTrips * turn_per_nm_[spread] * wide / (2 * std::numbers::pi);
+        const double waves = kRoundTrips * turn_per_nm_[spread] * wide / (2 * std::numbers::pi);
         const double least = kOfGaussian + (is_cut(layer) ? std::numbers::pi : 2) * waves;
         std::size_t level = kGaussLevels;
         while (level < kLevels && static_cast<double>(kIntervals.at(level - kGaussLevels)) < least)
@@ -326,7 +326,6 @@ private:
     std::size_t sides_;
     double tolerance_;
     double reach_;  ///< standard deviations from the mean to the last thickness that counts
-    double more_;   ///< of the usual round trips
     std::unique_ptr<ColorAlgorithm> plain_;
     std::vector<double> turn_per_nm_;  ///< phase of a round trip through each spread layer
 };
@@ -341,7 +340,8 @@ std::unique_ptr<ColorAlgorithm> spread_color(const ColorTables& tables, const St
                                              const ColorMethod& method,
                                              const ColorRequest& request) {
     std::vector<LayerPlace> places = spread_places(stack);
-    if (places.empty() || places.size() > kMostLayers) return nullptr;
+    if (places.empty() || places.size() > kMostLayers || request.tolerance < kLeastTolerance)
+        return nullptr;
     const WavelengthRange seen = tables.sensitivity().support();
     Stack held = held_stack(stack, tables.sensitivity());
     for (const LayerPlace& place : places)

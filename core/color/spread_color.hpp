@@ -22,7 +22,8 @@ bool has_spread(const Stack& stack);
 ///   stack    one of those to come, as of color_algorithm()
 ///   request  of them
 ///   method   of the stacks without spread
-/// nullptr if a material amplifies or the spread layers are none, more than two or incoherent.
+/// nullptr if the tolerance is below 5e-8, a material amplifies, or the spread layers are none,
+/// more than two or incoherent.
 std::unique_ptr<ColorAlgorithm> spread_color(const ColorTables& tables, const Stack& stack,
                                              const ColorMethod& method,
                                              const ColorRequest& request);

@@ -96,7 +96,7 @@ private:
         level.stack->at(last);  // throws now rather than later
         const Stack stack = level.stack->at(first);
         if (remap_width_nm_ > 0) {
-            with_remapped_film(stack, remap_width_nm_);
+            with_remapped_film(stack, remap_width_nm_);  // throws now, too
         } else if (level.stack->varies_thickness_only()) {
             ColorRequest asked = color_;
             if (!request.source.reverse)
