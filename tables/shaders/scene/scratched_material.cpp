@@ -20,6 +20,8 @@ namespace irido::tables {
 
 namespace {
 
+/// CIEDE2000 that halves of the derivative keep.
+constexpr double kHalves = 0.5;
 constexpr double kSlitScale_um = 2, kDepthScale_um = 1;  ///< of the places of u and of the depth
 
 /// Widths or depths that occur.
@@ -138,11 +140,12 @@ ScratchNeeds needs_of_scratches(const schemas::Scene& scene,
     ScratchNeed& narrow = add(
         "narrow", "scratch", slit_options(depth.high, scene.delta_e, true), has_narrow,
         has_narrow ? any + "lights cover as little as " + rounded_text(least) + of_x + ", below " +
-                         to_text(kNarrowLight) + ": its derivative, whose f16 does not cancel"
+                         to_text(kNarrowLight) + ": its derivative, which does not cancel"
         : lights.has_areas()
             ? "every light covers " + limit + " or more, at least " + rounded_text(least)
             : "all lights are points");
     narrow.is_color = true;
+    narrow.is_single = scene.delta_e < kHalves;
     const double path_um = 2 * (width.high + depth.high);
     const double count = node_count(path_um);
     ScratchNeed& points = add(
