@@ -339,7 +339,7 @@ int render_scene(const RenderCommand& command, const schemas::StackSource& sourc
     if (format != RenderFormat::png)
         throw UsageError(
             "--output: a scene of several materials makes a contact sheet, .png; "
-            "--show NAME draws one");
+            "--show MATERIAL draws one");
     return render_sheet(command, query, all,
                         {all.size(), square_columns(all.size()), query.scene().camera});
 }
@@ -407,7 +407,7 @@ void add_render_command(CLI::App& program, Run& run) {
     command
         ->add_option("--show", options->show,
                      "of a scene: the material to draw [a contact sheet of all]")
-        ->type_name("NAME");
+        ->type_name("MATERIAL");
     add_output_options(*command, options->output, "png or exr");
     command->add_option("--bits", options->bits, "bits of a component of .png: 8 or 16 [8]")
         ->type_name("N");

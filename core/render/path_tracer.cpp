@@ -19,8 +19,6 @@ constexpr std::size_t kMostFaceSamples = 1U << 15U;
 constexpr std::size_t kSplits = 3;
 /// Chance of the mirror after the first reflection, where a surface scatters as well.
 constexpr double kMirrorPart = 0.5;
-/// A path whose light is less is given up: a part of white.
-constexpr float kFaintest = 1e-6F;
 
 using Lanes = Eigen::Map<Eigen::ArrayXf>;
 using ConstLanes = Eigen::Map<const Eigen::ArrayXf>;
@@ -206,7 +204,7 @@ Triple PathTracer::go_on(const Vector3& from, const Vector3& direction, std::siz
                          const Numbers& numbers, Scratch& scratch) const {
     const std::span<const float> through(scratch.through_);
     const std::size_t count = nodes_.count();
-    if (lanes(through.first(scratch.split_ ? 2 * count : count)).maxCoeff() < kFaintest) return {};
+    if (!(lanes(through.first(scratch.split_ ? 2 * count : count)).maxCoeff() > 0)) return {};
     const Ray ray{from, direction, kOffFace};
     const std::optional<Place> place = first_place(ray);
     // the nearest lamp before that

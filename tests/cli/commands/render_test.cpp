@@ -236,7 +236,7 @@ TEST_CASE("a surface in white surroundings has the albedo of irido brdf", "[cli]
     const auto check = [&](const std::string& document, const std::vector<std::string>& more) {
         write_text(file, document);
         std::vector<std::string> words{"--shape",       "plane", "--tilt", "40",
-                                       "--environment", "white", "--size", "8",
+                                       "--environment", "white", "--size", "16,8",
                                        "--samples",     "256",   "-o",     folder / "x.exr"};
         words.insert(words.end(), more.begin(), more.end());
         const Outcome drawn = render(words, file);

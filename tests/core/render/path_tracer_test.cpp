@@ -265,6 +265,9 @@ TEST_CASE("a diffuser has the radiance that its lamp's irradiance gives", "[rend
     // at 60 degrees from the normal
     const Triple far = lit_by(Lamp(FarLamp{{std::sqrt(3.0), 0, 1}, 4, 1}));
     for (const double channel : far) CHECK_THAT(channel, WithinRel(0.5 * 4 * 0.5, 0.02));
+    // draws of a narrow lamp weigh next to nothing, its radiance is enormous
+    const Triple narrow = lit_by(Lamp(FarLamp{{0, 0, 1}, 2, 0.001}));
+    for (const double channel : narrow) CHECK_THAT(channel, WithinRel(1.0, 0.02));
     // a ball far enough for the plane to be even
     const Triple ball = lit_by(Lamp(BallLamp{{0, 0, 100}, 10, 30}));
     for (const double channel : ball) CHECK_THAT(channel, WithinRel(0.5 * 30 * 0.01, 0.02));
