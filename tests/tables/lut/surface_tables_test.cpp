@@ -131,9 +131,10 @@ TEST_CASE("lut brdf writes half-angle tables with their error", "[cli][brdf][slo
     // one sample against irido brdf
     const std::size_t h = lut.axes[1].count() / 3, d = lut.axes[2].count() / 3;
     const std::size_t p = lut.axes[0].count() - 1;
-    const auto [pair, is_above] = tables::directions_of(
+    const tables::HalfAnglePair sample = tables::directions_of(
         {lut.axes[1].values[h], lut.axes[2].values[d], lut.axes[0].values[p]});
-    REQUIRE(is_above);
+    REQUIRE(sample.is_above);
+    const tables::TablePair& pair = sample.pair;
     const double phi = 2 * std::atan2(pair.far, pair.near) / kDegree;
     const Outcome exact = run_irido(
         {"brdf", "-", "--color", "--light-theta", std::to_string(pair.theta_i_deg), "--view-theta",
