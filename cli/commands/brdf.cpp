@@ -155,6 +155,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
                      "colours of one rough layer's facets by a method of irido color, such as\n"
                      "gaussian, fourier or landmarks/3 [auto]")
         ->type_name("METHOD");
+    offer(*command, "method", color_method_names);
     add_scratch_options(*command, options->query.scratch);
     command->add_flag("--scatterogram", options->query.scatterogram,
                       "two discs of directions seen from above: in a white environment, and pi\n"

@@ -42,13 +42,6 @@ constexpr std::array kMethods{
     NamedMethod{"landmarks", landmarks, 1, kMostSubdivisions, 1},
 };
 
-std::vector<std::string_view> method_names() {
-    std::vector<std::string_view> names;
-    names.reserve(kMethods.size());
-    for (const NamedMethod& method : kMethods) names.push_back(method.name);
-    return names;
-}
-
 bool contains(std::span<const std::string_view> names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
@@ -92,12 +85,19 @@ double parse_tolerance(const std::string& text) {
                         : parse_one_number("--tolerance", text, kSmallestTolerance, 1);
 }
 
+std::vector<std::string_view> color_method_names() {
+    std::vector<std::string_view> names;
+    names.reserve(kMethods.size());
+    for (const NamedMethod& method : kMethods) names.push_back(method.name);
+    return names;
+}
+
 ColorMethod parse_method(const std::string& text) {
     const std::size_t slash = text.find('/');
     const std::string name = text.substr(0, slash);
     const auto method = std::ranges::find(kMethods, name, &NamedMethod::name);
     if (method == kMethods.end()) {
-        const std::vector<std::string_view> names = method_names();
+        const std::vector<std::string_view> names = color_method_names();
         throw UsageError("--method: " + not_one_of(names, name) +
                          schemas::did_you_mean(name, {names.begin(), names.end()}));
     }
@@ -263,7 +263,7 @@ void add_color_options(CLI::App& command, ColorOptions& options) {
                     "observer as Gaussians; gltf (-p u): the formulas of\n"
                     "KHR_materials_iridescence, as in three.js; smits: a single round trip")
         ->type_name("METHOD");
-    offer(command, "method", method_names);
+    offer(command, "method", color_method_names);
     command
         .add_option("--subdivide", options.subdivide,
                     "for landmarks: split boxes next to gap m into S - m, [1, 1000] [1]")

@@ -51,6 +51,9 @@ double parse_tolerance(const std::string& text);
 /// A method by name, with or without a number: auto, quadrature, equal/32.
 ColorMethod parse_method(const std::string& text);
 
+/// Names of the colour methods, without their numbers.
+std::vector<std::string_view> color_method_names();
+
 /// The method, with --subdivide and --harmonics applied.
 ColorMethod parse_method(const ColorOptions& options);
 

@@ -93,8 +93,7 @@ public:
         shift.state_ = seed;
         return shift;
     }
-    /// Perturbation by that many 2^-53 so that all q2 and all phases increase (decrease if
-    /// negative).
+    /// That many 2^-53, so that all q2 and all phases increase (decrease if negative).
     static Shift along(double roundings) {
         Shift shift;
         shift.along_ = roundings * 0x1p-53;
@@ -124,8 +123,7 @@ private:
     double along_ = 0;
 };
 
-/// A medium at one angle. n, k, n0^2 cos^2 and n0^2 sin^2 are kept for the derivatives of eps and
-/// q2.
+/// A medium at one angle; n, k, n0^2 cos^2, n0^2 sin^2 serve the derivatives of eps and q2.
 template <class R>
 struct MediumOf {
     Cx<R> eps, q2, kz;

@@ -139,7 +139,7 @@ TEST_CASE("bash completes commands, options, words and files", "[cli][manual]") 
         {"irido sweep -f h", "h5"},
         {"irido lut color x --dtype ", "f16 f32 f64"},
         {"irido lut transmissivity x --polarization ", "s p u"},
-        {"irido lut shader br", "bragg"},
+        {"irido lut shader br", "bragg brdf"},
         {"irido lut albedo x --side ", "R"},
         {"irido sweep --compute ", "spectrum color bands cm"},
         {"irido sweep x --compute bands --gap", "--gaps"},

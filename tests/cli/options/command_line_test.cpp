@@ -108,8 +108,9 @@ TEST_CASE("The output - is standard output", "[cli][output]") {
     }
     check_refused(run_irido({"bake", "scene.json", "-o", "-"}, "", folder.path()),
                   "--output: must name a folder");
-    check_refused(run_irido({"lut", "brdf", kFilm, "--alpha", "0.1"}, "", folder.path()),
-                  "--output: is required");
+    check_refused(
+        run_irido({"lut", "brdf", kFilm, "--alpha", "0.1", "-f", "merl"}, "", folder.path()),
+        "--output: is required");
     CHECK(run_shell("ls -A | wc -l", folder.path()).out == "0\n");
 }
 
