@@ -21,7 +21,8 @@ constexpr std::size_t kEndSamples = 1025;     ///< along a range that may end ea
 constexpr std::size_t kFewOnLines = 64;  ///< samples up to which all lines along an axis are tried
 
 /// Whether an error will be small enough before there are too many samples along an axis, going by
-/// how it fell so far.
+/// how it fell so far. Fringes that are not resolved yet tell nothing: the error of few samples
+/// counts only where it is near the tolerance.
 class Prospect {
 public:
     explicit Prospect(double tolerance) : tolerance_(tolerance) {}
@@ -31,10 +32,11 @@ public:
         const auto samples = static_cast<double>(count);
         if (samples_ > 0) {
             const double power = std::log(error_ / error) / std::log(samples / samples_);
+            const bool is_telling = count >= kManySamples || error <= kNear * tolerance_;
             const bool is_far =
                 !(power > 0) || samples * std::pow(error / tolerance_, 1 / power) >
                                     kFarOff * static_cast<double>(kMostSamplesOfAxis);
-            far_ = is_far ? far_ + 1 : 0;
+            far_ = is_telling && is_far ? far_ + 1 : 0;
         }
         error_ = error;
         samples_ = samples;
@@ -42,7 +44,8 @@ public:
     }
 
 private:
-    static constexpr double kFarOff = 2;
+    static constexpr double kFarOff = 2, kNear = 16;
+    static constexpr std::size_t kManySamples = 1024;
     static constexpr int kMostFar = 2;
 
     double tolerance_, error_ = 0, samples_ = 0;

@@ -244,8 +244,12 @@ TEST_CASE("one polarization, and the mean of both", "[cli][color]") {
 }
 
 TEST_CASE("a billion periods end soon, in numbers", "[cli][color][slow]") {
-    const Outcome outcome = run_irido({"color", "air | (TiO2@58 | SiO2@94)^1000000000 | BK7"});
-    CHECK(outcome.status == 1);
-    CHECK_THAT(outcome.err, Contains("the tolerance 1e-06 cannot be met"));
-    CHECK_THAT(outcome.err, !Contains("nan") && !Contains("inf"));
+    const auto of_periods = [](const std::string& count) {
+        return row_of({"color", "air | (TiO2@58 | SiO2@94)^" + count + " | BK7"});
+    };
+    const auto few = of_periods("10000000"), many = of_periods("1000000000");
+    // blue light is absorbed long before the last period, yellow light by all of them
+    CHECK(std::abs(std::stod(few[4]) - std::stod(many[4])) < 2e-6);
+    CHECK(std::stod(many[3]) < std::stod(few[3]) - 1e-4);
+    CHECK(std::stod(many[3]) > 0.9);
 }
