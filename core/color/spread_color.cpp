@@ -20,7 +20,8 @@ namespace {
 constexpr double kOfColors = 0.7, kOfTails = 0.05;
 
 /// The error of a rule is the square of the one inside it, both as parts of how much the colours
-/// differ; this many times as much is taken.
+/// differ, once the rule resolves them; beside narrow resonances it is larger, and the power 3/2 is
+/// taken, this many times.
 constexpr double kSafety = 4;
 
 /// Wavelength at which light turns most of what the observer sees.
@@ -315,7 +316,9 @@ private:
             const double range = largest_difference(sum.most, sum.least);
             const double agreement = largest_difference(sum.all, sum.inside);
             const double rule =
-                agreement > 0 ? std::min(agreement, kSafety * agreement * (agreement / range)) : 0;
+                agreement > 0
+                    ? std::min(agreement, kSafety * agreement * std::sqrt(agreement / range))
+                    : 0;
             StackColor& color = colors[open[i / sides_] * sides_ + i % sides_];
             color = {sum.all, sum.error + rule + kOfTails * tolerance_, sum.evaluations,
                      ColorMethod::Kind::quadrature};

@@ -106,6 +106,37 @@ TEST_CASE("repetitions of a group share the deviation of a layer", "[color]") {
     CHECK(largest_difference(of_colors.xyz, of_spectra.xyz) <= of_colors.error + of_spectra.error);
 }
 
+TEST_CASE("narrow resonances at grazing angles are resolved over the thickness", "[color]") {
+    StackBuilder b;
+    const std::size_t titania = b.material(find_material("TiO2")->material);
+    const std::size_t fluoride = b.material(find_material("MgF2")->material);
+    b.add(b.layer({1.8, 0.005}, 13.652));
+    b.add(StackBuilder::group(2, {StackBuilder::layer_of(titania, 89.65818037650145),
+                                  StackBuilder::layer_of(fluoride, 159.0147389867394)}));
+    b.add(StackBuilder::layer_of(b.material(find_material("SiO2")->material), 30.754));
+    Stack stack = b.over_material(b.material(find_material("Ag")->material));
+    Layer& spread = std::get<Layer>(std::get<Group>(stack.elements[1].value).elements[0].value);
+    const double mean_nm = spread.thickness_nm, sigma_nm = 7.932794444561064;
+    ColorRequest request;
+    request.light = Light::p;
+    spread.thickness_sigma_nm = sigma_nm;
+    const StackColor found = color(stack, 89, request);
+    // equal steps, which are exact for Gaussians
+    spread.thickness_sigma_nm = 0;
+    Triple mean{};
+    double weights = 0;
+    for (int j = -112; j <= 112; ++j) {
+        const double x = j / 16.0, weight = std::exp(-x * x / 2);
+        spread.thickness_nm = mean_nm + sigma_nm * x;
+        const Triple xyz = color(stack, 89, request).xyz;
+        for (std::size_t c = 0; c < 3; ++c) mean[c] += weight * xyz[c];
+        weights += weight;
+    }
+    for (double& value : mean) value /= weights;
+    CHECK(found.error <= 1e-6);
+    CHECK(largest_difference(found.xyz, mean) < 2e-6);
+}
+
 TEST_CASE("spreads that colours cannot average are left to spectra", "[color]") {
     StackBuilder b;
     b.add(b.layer({1.5, -0.01}, 200));
