@@ -147,7 +147,7 @@ SimulationPlan parse_simulation(const SurfaceQuery& query, Crossings crossings) 
         throw UsageError("--shard: every part must have 2 samples or more");
     if (!query.color.tolerance.empty()) {
         if (!query.samples.empty() || plan.shard || !plan.merge.empty())
-            throw UsageError("--tolerance: a simulation takes it instead of --samples, unsharded");
+            throw UsageError("--tolerance of a simulation excludes --samples, --shard and --merge");
         plan.tolerance = parse_tolerance(query.color.tolerance);
     }
     return plan;

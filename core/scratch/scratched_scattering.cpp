@@ -283,7 +283,9 @@ std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone>
                                                       const std::vector<double>& wavelength_nm,
                                                       const LightIntegral& method) const {
     if (sum_.kind != ScratchSum::Kind::separate)
-        throw DomainError("area lights require the incoherent sum of scratches");
+        throw DomainError(
+            "area lights require scratches that are added one by one, not an ensemble or a "
+            "coherent sum");
     const std::size_t count = wavelength_nm.size();
     std::vector<std::vector<LightSlices>> slices(lights.size());  // [light][scratch]
     for (std::size_t l = 0; l < lights.size(); ++l)
