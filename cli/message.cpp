@@ -96,11 +96,11 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
 }
 
 void print_error(std::string_view text) {
-    std::cerr << "irido: error: " << message_line(text) << '\n';
+    std::cerr << "irido: error: " + message_line(text) + '\n';
 }
 
 void note(const std::string& text, bool quiet) {
-    if (!quiet) std::cerr << "irido: note: " << message_line(text) << '\n';
+    if (!quiet) std::cerr << "irido: note: " + message_line(text) + '\n';
 }
 
 void Notes::operator()(const std::string& text) {

@@ -45,7 +45,7 @@ public:
 
 private:
     static constexpr double kFarOff = 2, kNear = 16;
-    static constexpr std::size_t kManySamples = 1024;
+    static constexpr std::size_t kManySamples = 256;
     static constexpr int kMostFar = 2;
 
     double tolerance_, error_ = 0, samples_ = 0;

@@ -175,7 +175,7 @@ TEST_CASE("brdf of scratches refuses what it cannot do", "[cli][brdf][scratch]")
     refused(plain, {"--light-integral", "band"}, "--light-integral: requires --area-light");
     refused(plain, {"--area-light", kSphere, "--light-integral", "gauss/0"}, "--light-integral");
     refused(plain, {"--area-light", kSphere, "--light-theta", "3"}, "--area-light");
-    refused(plain, {"--area-light", kSphere, "--coherent"}, "incoherent sum");
+    refused(plain, {"--area-light", kSphere, "--coherent"}, "added one by one");
     refused(plain, {"--area-light", R"({"center_mm":[0,0,1],"radius_mm":2})"}, "radius_mm");
     refused(plain, {"--area-light", R"({"center_mm":[0,0,1]})"}, "radius_mm");
     refused(plain, {"--area-light", "no-such-file.json"}, "no-such-file.json");

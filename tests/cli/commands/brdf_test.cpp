@@ -208,7 +208,7 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--paths", "simulation", "--color", "--method", "naive"},
            "--method: requires --paths single or all");
     refuse({kPale, "--paths", "simulation", "--samples", "10", "--tolerance", "0.1"},
-           "--tolerance: a simulation takes it instead of --samples");
+           "--tolerance of a simulation excludes --samples");
     refuse({kPale, "--paths", "simulation", "--shard", "3/2"}, "--shard: must be");
     refuse({kPale, "--shard", "1/2"}, "--shard: requires --paths simulation");
     refuse({kPale, "--color", "--method", "gaussian"}, "--method: takes the BRDF of one rough");
