@@ -34,7 +34,7 @@ void require_place(std::string_view name, const Place& place) {
 
 }  // namespace
 
-LightCone::LightCone(const AreaLight& light) {
+LightCone::LightCone(const AreaLight& light) : light_(light) {
     if (const auto* sphere = std::get_if<SphereLight>(&light))
         set_sphere(*sphere);
     else
@@ -52,6 +52,7 @@ void LightCone::set_sphere(const SphereLight& light) {
                           to_text(distance) + " (got " + to_text(light.radius_mm) + ")");
     bound_ = {*unit_of(c), std::sqrt((1 - sine) * (1 + sine))};
     half_spaces_ = {bound_};
+    half_angle_ = std::asin(sine);
 }
 
 void LightCone::set_polygon(const PolygonLight& light) {
@@ -94,8 +95,12 @@ void LightCone::set_polygon(const PolygonLight& light) {
             "vertices_mm must be a convex polygon, in order, whose plane does not "
             "contain the shaded point");
     bound_ = {*axis, 1};
-    for (const UnitVector& corner : corners_)
-        bound_.least = std::min(bound_.least, dot(*axis, corner));
+    for (const UnitVector& corner : corners_) {
+        const double cosine = dot(*axis, corner);
+        const Place off = cross(*axis, corner);
+        bound_.least = std::min(bound_.least, cosine);
+        half_angle_ = std::max(half_angle_, std::atan2(std::sqrt(dot(off, off)), cosine));
+    }
     if (bound_.least < 0)
         bound_.least = -1;  // a cap above a hemisphere holds no hull of its corners
 }

@@ -41,14 +41,19 @@ public:
     bool contains(const UnitVector& direction) const;
     /// A circular cone around all of its directions: the axis and the cosine of its half-angle.
     const HalfSpace& bound() const { return bound_; }
+    /// The half-angle of that cone, radians, precise for the smallest lights.
+    double half_angle() const { return half_angle_; }
+    const AreaLight& light() const { return light_; }
 
 private:
     void set_sphere(const SphereLight& light);
     void set_polygon(const PolygonLight& light);
 
+    AreaLight light_;
     std::vector<HalfSpace> half_spaces_;
     std::vector<UnitVector> corners_;
     HalfSpace bound_{};
+    double half_angle_ = 0;
 };
 
 /// Arcs psi of a circle w = (tau, r sin psi, r cos psi), r = sqrt(1 - tau^2), in the frame of a

@@ -10,6 +10,7 @@
 #include "core/math/gauss.hpp"
 #include "core/math/parallel.hpp"
 #include "core/math/vector_math.hpp"
+#include "core/scratch/light_points.hpp"
 #include "core/scratch/rough_base.hpp"
 #include "core/scratch/slit_color.hpp"
 #include "core/spectrum/spectrum.hpp"
@@ -288,15 +289,26 @@ std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone>
             "coherent sum");
     const std::size_t count = wavelength_nm.size();
     std::vector<std::vector<LightSlices>> slices(lights.size());  // [light][scratch]
+    std::vector<int> orders(lights.size(), 0);
+    if (method.kind == LightIntegral::Kind::exact)
+        std::ranges::transform(lights, orders.begin(), [&](const LightCone& light) {
+            return order_of(light, wavelength_nm);
+        });
     for (std::size_t l = 0; l < lights.size(); ++l)
-        for (const VisibleScratch& scratch : visible_)
-            slices[l].emplace_back(lights[l], scratch.tangent());
+        if (orders[l] == 0)
+            for (const VisibleScratch& scratch : visible_)
+                slices[l].emplace_back(lights[l], scratch.tangent());
     std::vector<double> nu;
     for (const double wavelength : wavelength_nm) nu.push_back(kNanometres / wavelength);
     std::vector<double> values;
     for (const UnitVector& view : views) {
         std::vector<double> scratches(count, 0.0), facets(count, 0.0);
+        std::vector<double> points(count, 0.0);
         for (std::size_t l = 0; l < lights.size(); ++l) {
+            if (const int order = orders[l]; order > 0) {
+                add_points(lights[l].light(), order, view, wavelength_nm, points);
+                continue;
+            }
             CosineSeries reflectance;
             if (surface_.base) {
                 const CosineRange range = half_cosines(lights[l], view);
@@ -315,9 +327,42 @@ std::vector<double> ScratchedScattering::light_ratios(std::span<const LightCone>
         }
         const std::vector<ScratchBalance> shares = balances(view[2], wavelength_nm);
         for (std::size_t i = 0; i < count; ++i)
-            values.push_back(shares[i].scratches * scratches[i] + shares[i].base * facets[i]);
+            values.push_back(shares[i].scratches * scratches[i] + shares[i].base * facets[i] +
+                             points[i]);
     }
     return values;
+}
+
+int ScratchedScattering::order_of(const LightCone& light,
+                                  const std::vector<double>& wavelength_nm) const {
+    // where its directions are too near each other for the arcs of LightSlices
+    constexpr double kSmall = 1e-4, kFewTurns = 12;
+    constexpr double kSeen = 6;  // coherence radii to the farthest end that counts
+    if (!(light.half_angle() < kSmall) || wavelength_nm.empty()) return 0;
+    double length_um = 0;
+    for (const VisibleScratch& scratch : visible_)
+        length_um =
+            std::max(length_um, kSeen * scratch.coherence_radius_um() + scratch.scratch().width_um +
+                                    2 * scratch.scratch().depth_um);
+    const double turn =
+        kTwoPi * kNanometres / std::ranges::min(wavelength_nm) * length_um * light.half_angle();
+    if (turn > kFewTurns) return 0;
+    return turn < 1e-3 ? 2 : turn < 0.3 ? 4 : 8 + static_cast<int>(turn);
+}
+
+void ScratchedScattering::add_points(const AreaLight& light, int order, const UnitVector& view,
+                                     const std::vector<double>& wavelength_nm,
+                                     std::vector<double>& sums) const {
+    const std::vector<LightPoint> points = light_points(light, order);
+    std::vector<std::vector<double>> parts(points.size());
+    parallel_for(points.size(), execution_.threads, [&](std::size_t i) {
+        if (points[i].direction[2] > 0)
+            parts[i] = pair_brdf({points[i].direction, view}, wavelength_nm);
+    });
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double weight = points[i].solid_angle * points[i].direction[2];
+        for (std::size_t w = 0; w < parts[i].size(); ++w) sums[w] += weight * parts[i][w];
+    }
 }
 
 void ScratchedScattering::add_light(const std::vector<LightSlices>& slices, const UnitVector& view,

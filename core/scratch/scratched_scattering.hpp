@@ -82,6 +82,11 @@ private:
     void add_light(const std::vector<LightSlices>& slices, const UnitVector& view,
                    const std::vector<double>& nu, const LightIntegral& method,
                    const CosineSeries& reflectance, std::vector<double>& sums) const;
+    /// Of the Gauss rule for a light that is almost a point; 0 for others.
+    int order_of(const LightCone& light, const std::vector<double>& wavelength_nm) const;
+    /// Adds what is reflected of such a light.
+    void add_points(const AreaLight& light, int order, const UnitVector& view,
+                    const std::vector<double>& wavelength_nm, std::vector<double>& sums) const;
     std::vector<double> separate(const SkyPair& pair,
                                  const std::vector<double>& wavelength_nm) const;
     double coherent(const SkyPair& pair, double wavelength_um) const;

@@ -51,6 +51,73 @@ TEST_CASE("colours of a scratch have the values of exact integrals", "[scratch]"
     CHECK(relative(seen_from(worked_surface(), footprint).density(), 0.012719706554316024) < 1e-12);
 }
 
+// Gauss points of a light that is almost a point against the exact integral over its arcs, which is
+// right to about 1e-16 over the square of the half-angle.
+TEST_CASE("lights that are almost points reflect as the exact integral says", "[scratch]") {
+    Random random(29);
+    const std::vector<double> wavelength_nm{430, 610};
+    for (int i = 0; i < 60; ++i) {
+        const Scratch scratch = random_scratch(random);
+        const DepthPhase phase = i % 2 ? DepthPhase::slanted : DepthPhase::vertical;
+        const ScratchOptics optics{random.uniform(20, 80), phase};
+        const ScratchedScattering scattering =
+            seen_from({std::nullopt, std::nullopt, optics, 1, {scratch}, {}}, SurfacePoint{});
+        const VisibleScratch seen(scratch, optics, SurfacePoint{});
+        // a view in which the light's mirror along the scratch is near
+        const UnitVector middle = direction_of(random.uniform(0, 70), random.uniform(-180, 180));
+        const auto [tx, ty] = seen.tangent();
+        const double along = -(middle[0] * tx + middle[1] * ty) + random.uniform(-1e-3, 1e-3);
+        const double most = std::sqrt(1 - along * along);
+        const double across = random.uniform(-0.9, 0.9) * most;
+        const UnitVector view{along * tx - across * ty, along * ty + across * tx,
+                              std::sqrt(1 - along * along - across * across)};
+        const double half_angle = random.log_uniform(3e-5, 9.9e-5), far = 1e4;
+        AreaLight light = SphereLight{{far * middle[0], far * middle[1], far * middle[2]},
+                                      far * std::sin(half_angle)};
+        if (i % 3 == 0) {
+            PolygonLight corners;
+            for (const double turn : {0.1, 1.4, 2.9, 4.8}) {
+                const double x = far * half_angle * std::cos(turn),
+                             y = far * half_angle * std::sin(turn);
+                corners.vertices_mm.push_back({far * middle[0] + x * middle[2],
+                                               far * middle[1] + y * middle[2],
+                                               far * middle[2] - x * middle[0] - y * middle[1]});
+            }
+            light = corners;
+        }
+        const LightCone cone(light);
+        REQUIRE(cone.half_angle() < 1e-4);
+        const std::vector<double> ratio = scattering.light_ratios(
+            std::array{cone}, std::vector{view}, wavelength_nm, LightIntegral{});
+        for (std::size_t w = 0; w < wavelength_nm.size(); ++w) {
+            const double exact = light_ratio(seen, LightSlices(cone, seen.tangent()), phase, view,
+                                             wavelength_nm[w] / 1000, {});
+            CAPTURE(i, w, ratio[w], exact, half_angle);
+            CHECK(std::abs(ratio[w] - exact) <= 3e-6 * exact + 1e-20);
+        }
+    }
+}
+
+TEST_CASE("the farthest lights reflect the BRDF towards their middle", "[scratch]") {
+    const ScratchedScattering scattering = seen_from(worked_surface(), SurfacePoint{});
+    const std::vector<double> wavelength_nm{550};
+    const double f = scattering.brdf(std::array{kPair}, wavelength_nm)[0];
+    const UnitVector& to = kPair.light;
+    for (const double far : {1e8, 1e11}) {
+        const auto ratio_of = [&](const AreaLight& light) {
+            return scattering.light_ratios(std::array{LightCone(light)}, std::vector{kPair.view},
+                                           wavelength_nm, LightIntegral{})[0];
+        };
+        const double radius = 10, solid_angle = kPi * radius * radius / (far * far);
+        const SphereLight ball{{far * to[0], far * to[1], far * to[2]}, radius};
+        CHECK(relative(ratio_of(ball), f * to[2] * solid_angle) < 1e-6);
+        PolygonLight square;  // level, so seen at the light's angle
+        for (const auto& [x, y] : {std::pair(0.0, 0.0), {300.0, 0.0}, {300.0, 200.0}, {0.0, 200.0}})
+            square.vertices_mm.push_back({far * to[0] + x, far * to[1] + y, far * to[2]});
+        CHECK(relative(ratio_of(square), f * to[2] * 6e4 * to[2] / (far * far)) < 2e-5);
+    }
+}
+
 TEST_CASE("a base multiplies by its reflectance and its share of the light", "[scratch]") {
     // a film whose reflectance depends on the angle
     StackBuilder b(1);
