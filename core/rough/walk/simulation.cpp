@@ -289,13 +289,13 @@ LayeredSimulation::Values LayeredSimulation::simulated(std::span<const ScatterPa
                                                        bool is_albedo) const {
     const std::size_t things = is_albedo ? 1 : pairs.size(), size = things * numbers();
     const bool has_colors = !colors_[0].empty();
-    std::vector<double> sums(kParts * size), squares(kParts * size);
+    std::vector<LongSum> sums(kParts * size), squares(kParts * size);
     const auto key = philox_key(request_.seed);
     parallel_for(kParts, execution_.threads, [&](std::size_t part) {
         Walk walk(*this, pairs, theta_i_deg, is_albedo);
         std::vector<double> colors(has_colors ? size : 0);
-        double* const sum = sums.data() + part * size;
-        double* const square = squares.data() + part * size;
+        LongSum* const sum = sums.data() + part * size;
+        LongSum* const square = squares.data() + part * size;
         const std::uint64_t begin = request_.first + request_.samples / kParts * part +
                                     std::min<std::uint64_t>(part, request_.samples % kParts);
         const std::uint64_t count = request_.samples / kParts + (part < request_.samples % kParts);
@@ -310,60 +310,92 @@ LayeredSimulation::Values LayeredSimulation::simulated(std::span<const ScatterPa
                 sample = colors;
             }
             for (std::size_t k = 0; k < size; ++k) {
-                sum[k] += sample[k];
-                square[k] += sample[k] * sample[k];
+                sum[k].add(sample[k]);
+                square[k].add(sample[k] * sample[k]);
             }
         }
     });
-    Values values{std::vector<double>(size), std::vector<double>(size)};
-    const auto N = static_cast<double>(request_.samples);
-    for (std::size_t k = 0; k < size; ++k) {
-        double sum = 0, square = 0;
-        for (std::size_t part = 0; part < kParts; ++part) {
-            sum += sums[part * size + k];
-            square += squares[part * size + k];
+    Values values;
+    values.samples = request_.samples;
+    values.sum.resize(size);
+    values.square.resize(size);
+    for (std::size_t part = 0; part < kParts; ++part)
+        for (std::size_t k = 0; k < size; ++k) {
+            values.sum[k].add(sums[part * size + k]);
+            values.square[k].add(squares[part * size + k]);
         }
-        values.mean[k] = sum / N;
-        values.error[k] =
-            std::sqrt(std::max(0.0, square / N - values.mean[k] * values.mean[k]) / (N - 1));
-    }
+    values.set_means();
     return values;
 }
 
-void LayeredSimulation::Values::add(double mine, const Values& other, double others) {
-    const double all = mine + others;
-    for (std::size_t k = 0; k < mean.size(); ++k) {
-        mean[k] = (mine * mean[k] + others * other.mean[k]) / all;
-        error[k] = std::hypot(mine * error[k], others * other.error[k]) / all;
+void LayeredSimulation::Values::set_means() {
+    const auto N = static_cast<double>(samples);
+    mean.resize(sum.size());
+    error.resize(sum.size());
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+        mean[k] = sum[k].value() / N;
+        error[k] = std::sqrt(std::max(0.0, square[k].value() / N - mean[k] * mean[k]) / (N - 1));
     }
 }
+
+void LayeredSimulation::Values::add(const Values& others) {
+    samples += others.samples;
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+        sum[k].add(others.sum[k]);
+        square[k].add(others.square[k]);
+    }
+    set_means();
+}
+
+namespace {
+
+/// Copies the values of some rows; there is room for them.
+void put(const LayeredSimulation::Values& from, std::size_t first, std::size_t count,
+         std::size_t place, LayeredSimulation::Values& to) {
+    const auto copy = [&](const auto& some, auto& all) {
+        std::copy_n(some.begin() + static_cast<std::ptrdiff_t>(first), count,
+                    all.begin() + static_cast<std::ptrdiff_t>(place));
+    };
+    copy(from.mean, to.mean);
+    copy(from.error, to.error);
+    copy(from.sum, to.sum);
+    copy(from.square, to.square);
+}
+
+LayeredSimulation::Values room_for(std::size_t size, std::uint64_t samples) {
+    LayeredSimulation::Values values;
+    values.samples = samples;
+    values.mean.resize(size);
+    values.error.resize(size);
+    values.sum.resize(size);
+    values.square.resize(size);
+    return values;
+}
+
+}  // namespace
 
 LayeredSimulation::Values LayeredSimulation::brdf(std::span<const ScatterPair> pairs) const {
     std::map<double, std::vector<std::size_t>> lights;
     for (std::size_t p = 0; p < pairs.size(); ++p) lights[pairs[p].theta_i_deg].push_back(p);
     const std::size_t size = numbers();
-    Values all{std::vector<double>(pairs.size() * size), std::vector<double>(pairs.size() * size)};
+    Values all = room_for(pairs.size() * size, request_.samples);
     std::uint32_t light = 0;
     for (const auto& [theta, places] : lights) {
         std::vector<ScatterPair> some;
         for (const std::size_t p : places) some.push_back(pairs[p]);
         const Values values = simulated(some, theta, light++, false);
         for (std::size_t k = 0; k < places.size(); ++k)
-            for (std::size_t w = 0; w < size; ++w) {
-                all.mean[places[k] * size + w] = values.mean[k * size + w];
-                all.error[places[k] * size + w] = values.error[k * size + w];
-            }
+            put(values, k * size, size, places[k] * size, all);
     }
     return all;
 }
 
 LayeredSimulation::Values LayeredSimulation::albedo(std::span<const double> theta_i_deg) const {
-    Values all;
-    for (std::size_t i = 0; i < theta_i_deg.size(); ++i) {
-        const Values values = simulated({}, theta_i_deg[i], static_cast<std::uint32_t>(i), true);
-        all.mean.insert(all.mean.end(), values.mean.begin(), values.mean.end());
-        all.error.insert(all.error.end(), values.error.begin(), values.error.end());
-    }
+    const std::size_t size = numbers();
+    Values all = room_for(theta_i_deg.size() * size, request_.samples);
+    for (std::size_t i = 0; i < theta_i_deg.size(); ++i)
+        put(simulated({}, theta_i_deg[i], static_cast<std::uint32_t>(i), true), 0, size, i * size,
+            all);
     return all;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/math/long_sum.hpp"
 #include "core/rough/layered/layered_scattering.hpp"
 #include "core/rough/walk/facet_table.hpp"
 
@@ -50,12 +51,17 @@ public:
         request_.samples = samples;
     }
 
-    /// Means and their standard errors.
+    /// Means and their standard errors, and the sums that they are of, which make those of some
+    /// paths and of the others those of all, to the last digit.
     struct Values {
         std::vector<double> mean, error;
+        std::vector<LongSum> sum, square;
+        std::uint64_t samples = 0;
 
-        /// Takes in the means of other paths: `mine` and `others` of them.
-        void add(double mine, const Values& other, double others);
+        /// Takes in other paths.
+        void add(const Values& others);
+        /// Means and errors of the sums.
+        void set_means();
     };
 
     /// BRDF, [pair][wavelength]. Pairs of one theta_i share paths.
