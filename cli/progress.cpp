@@ -57,4 +57,42 @@ void Progress::clear() {
     is_shown_ = false;
 }
 
+StepProgress::StepProgress(bool quiet, std::size_t steps)
+    : progress_(quiet), steps_(static_cast<double>(std::max<std::size_t>(1, steps))) {
+    if (!progress_.is_on()) return;
+    ticker_ = std::jthread([this](const std::stop_token& stop) {
+        std::unique_lock guard(lock_);
+        while (!stop.stop_requested()) {
+            woken_.wait_for(guard, stop, kInterval, [] { return false; });
+            if (begun_ > 0 && !stop.stop_requested()) show();
+        }
+    });
+}
+
+void StepProgress::begin(const std::string& what) {
+    const std::lock_guard guard(lock_);
+    begun_ += 1;
+    part_ = 0;
+    step_ = what;
+    what_.clear();
+}
+
+void StepProgress::set(double part, const std::string& what) {
+    const std::lock_guard guard(lock_);
+    part_ = std::clamp(part, 0.0, 1.0);
+    what_ = what;
+}
+
+void StepProgress::show() {
+    progress_.set((begun_ - 1 + part_) / steps_, what_.empty() ? step_ : step_ + ": " + what_);
+}
+
+void StepProgress::clear() {
+    if (ticker_.joinable()) {
+        ticker_.request_stop();
+        ticker_.join();
+    }
+    progress_.clear();
+}
+
 }  // namespace irido::cli

@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace irido::cli {
 
@@ -21,6 +23,8 @@ public:
     void set(double done, const std::string& text = "");
     /// Removes the bar.
     void clear();
+    /// Whether anything is ever shown.
+    bool is_on() const { return is_on_; }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -34,6 +38,31 @@ private:
     bool is_shown_ = false;
     Clock::time_point begin_;  ///< when the part was begun_
     double begun_ = 0;
+};
+
+/// The progress of work that consists of steps. A step is shown while it lasts, even if it says
+/// nothing itself.
+class StepProgress {
+public:
+    StepProgress(bool quiet, std::size_t steps);
+    ~StepProgress() { clear(); }
+
+    /// Begins the first step, then the next ones.
+    void begin(const std::string& what);
+    /// Of the current step: what it is at, and the part of it that is done; from any thread.
+    void set(double part, const std::string& what);
+    /// Removes the bar for good.
+    void clear();
+
+private:
+    void show();
+
+    Progress progress_;
+    double steps_, begun_ = 0, part_ = 0;
+    std::string step_, what_;
+    std::mutex lock_;
+    std::condition_variable_any woken_;
+    std::jthread ticker_;
 };
 
 }  // namespace irido::cli

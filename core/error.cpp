@@ -2,6 +2,9 @@
 
 #include <array>
 #include <charconv>
+#include <vector>
+
+#include "core/nearest.hpp"
 
 namespace irido {
 
@@ -20,7 +23,8 @@ void require_in_range(std::string_view name, double value, double lowest, double
 std::string not_one_of(std::span<const std::string_view> names, std::string_view got) {
     std::string text = "must be one of ";
     for (std::size_t i = 0; i < names.size(); ++i) text.append(i == 0 ? "" : ", ").append(names[i]);
-    return text.append(" (got '").append(got).append("')");
+    return text.append(" (got '").append(got).append("')") +
+           did_you_mean(got, {names.begin(), names.end()});
 }
 
 }  // namespace irido

@@ -4,7 +4,8 @@
 #include <span>
 
 #include "cli/options/command.hpp"
-#include "schemas/readers/nearest.hpp"
+#include "cli/progress.hpp"
+#include "core/nearest.hpp"
 
 namespace irido::cli {
 
@@ -42,10 +43,15 @@ std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> al
             continue;
         }
         throw UsageError("--cases: unknown case '" + std::string(name) + "'" +
-                         schemas::did_you_mean(name, case_names(all)) + " (see irido bench " +
-                         bench + " --help)");
+                         did_you_mean(name, case_names(all)) + " (see irido bench " + bench +
+                         " --help)");
     }
     return chosen;
+}
+
+/// Adds --quiet.
+inline void add_quiet_flag(CLI::App& command, bool& quiet) {
+    command.add_flag("--quiet", quiet, "no progress on standard error");
 }
 
 /// The help of --cases.

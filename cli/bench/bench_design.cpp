@@ -19,6 +19,7 @@ struct BenchDesignOptions {
     std::string seed = "1";
     std::string evaluations;
     OutputOptions output;
+    bool quiet = false;
     unsigned threads = 0;
 };
 
@@ -110,8 +111,13 @@ int run_bench_design(const BenchDesignOptions& options) {
     if (!options.evaluations.empty())
         settings.evaluations = parse_whole_number("--evaluations", options.evaluations, 1, 1e12);
     std::vector<DesignRow> rows;
-    for (const DesignCase& one : chosen_cases(options.cases, design_cases(), "design"))
+    const auto cases = chosen_cases(options.cases, design_cases(), "design");
+    StepProgress progress(options.quiet, cases.size());
+    for (const DesignCase& one : cases) {
+        progress.begin(std::string(one.name));
         rows.push_back(measured_design(one, settings));
+    }
+    progress.clear();
     write_records(design_records(rows), options.output);
     return 0;
 }
@@ -135,6 +141,7 @@ void add_bench_design(CLI::App& bench, Run& run) {
         ->type_name("N");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
+    add_quiet_flag(*command, options->quiet);
     set_examples(
         *command,
         {"irido bench design -o design.csv", "irido bench design --cases ar8,ar8-45 --seed 7"},

@@ -67,6 +67,7 @@ struct LayeredOptions {
     std::string samples = "30000";
     std::string budget = "0.5";
     OutputOptions output;
+    bool quiet = false;
 };
 
 LayeredSurface surface_of(const MirrorCase& of) {
@@ -372,9 +373,13 @@ int run_bench_layered(const LayeredOptions& options) {
                              parse_one_number("--budget", options.budget, 0, 3600),
                              Execution(1, execution_of().simd)};
     std::vector<LayeredRow> rows;
-    for (const LayeredCase& one :
-         chosen_cases<LayeredCase>(options.cases, kLayeredCases, "layered"))
+    const auto cases = chosen_cases<LayeredCase>(options.cases, kLayeredCases, "layered");
+    StepProgress progress(options.quiet, cases.size());
+    for (const LayeredCase& one : cases) {
+        progress.begin(std::string(one.name));
         one.add(bench, rows);
+    }
+    progress.clear();
     tables::Column::Texts names, methods;
     for (const LayeredRow& row : rows) {
         names.push_back(row.name);
@@ -436,6 +441,7 @@ void add_bench_layered(CLI::App& bench, Run& run) {
         ->type_name("S");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command);
+    add_quiet_flag(*command, options->quiet);
     set_examples(
         *command, {"irido bench layered", "irido bench layered --cases A --samples 1e5 -f json"},
         "240 directions of view under a beam from 30 degrees, on one thread; mirrors at 15\n"

@@ -25,6 +25,7 @@ struct ParetoOptions {
     std::string time = "0.01";
     std::optional<std::string> plot;
     OutputOptions output;
+    bool quiet = false;
 };
 
 /// One method with tolerances 10^-2 to 10^-last_power, or with counts of something.
@@ -63,7 +64,8 @@ struct ParetoRow {
     EqualMatch equal;
 };
 
-std::vector<ParetoRow> rows_of(const ColorCase& one, ColorComparison comparison) {
+std::vector<ParetoRow> rows_of(const ColorCase& one, ColorComparison comparison,
+                               StepProgress& progress) {
     std::vector<ParetoRow> rows;
     const auto add = [&](std::size_t index, std::size_t count, double tolerance) {
         const Candidate& candidate = candidates()[index];
@@ -80,6 +82,7 @@ std::vector<ParetoRow> rows_of(const ColorCase& one, ColorComparison comparison)
     };
     for (std::size_t index = 0; index < candidates().size(); ++index) {
         const Candidate& candidate = candidates()[index];
+        progress.begin(std::string(one.name) + ", " + candidate.name());
         for (int power = 2; power <= candidate.last_power; ++power)
             add(index, 0, std::stod("1e-" + std::to_string(power)));
         const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch;
@@ -201,11 +204,14 @@ int run_pareto(const ParetoOptions& options) {
     const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
     std::vector<std::vector<ParetoRow>> cases;
     std::vector<ParetoRow> rows;
-    for (const ColorCase& one : chosen_cases<ColorCase>(options.cases, color_cases(), "pareto")) {
-        cases.push_back(
-            rows_of(one, {tables, color_families(one, count, seed), one.is_set, seconds, simd}));
+    const auto chosen = chosen_cases<ColorCase>(options.cases, color_cases(), "pareto");
+    StepProgress progress(options.quiet, chosen.size() * candidates().size());
+    for (const ColorCase& one : chosen) {
+        cases.push_back(rows_of(
+            one, {tables, color_families(one, count, seed), one.is_set, seconds, simd}, progress));
         rows.insert(rows.end(), cases.back().begin(), cases.back().end());
     }
+    progress.clear();
     write_records(to_records(rows), options.output);
     if (options.plot)
         write_picture([&] { return picture(cases); }, {},
@@ -240,6 +246,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
                      "also plot the rows of every case into FILE (.svg, .png or .pdf)")
         ->type_name("FILE");
     add_output_options(*command, options->output, record_formats_text());
+    add_quiet_flag(*command, options->quiet);
     set_examples(
         *command,
         {"irido bench pareto -o pareto.csv --plot pareto.svg",

@@ -15,6 +15,7 @@ struct RenderBenchOptions {
     std::string cases = "all", size = "500";
     unsigned threads = 0;
     OutputOptions output;
+    bool quiet = false;
 };
 
 struct PictureCase {
@@ -156,9 +157,14 @@ int run_bench_render(const RenderBenchOptions& options) {
     check_writable(options.output);
     const std::size_t size = parse_whole_number("--size", options.size, 1, 8192);
     std::vector<MeasuredPicture> rows;
-    for (const PictureCase& one :
-         chosen_cases(options.cases, std::span<const PictureCase>(kPictureCases), "render"))
+    const auto chosen =
+        chosen_cases(options.cases, std::span<const PictureCase>(kPictureCases), "render");
+    StepProgress progress(options.quiet, chosen.size());
+    for (const PictureCase& one : chosen) {
+        progress.begin(std::string(one.name));
         measure_case(one, size, execution_of(options.threads), rows);
+    }
+    progress.clear();
     tables::Column::Texts cases, methods;
     for (const MeasuredPicture& row : rows) {
         cases.emplace_back(row.picture);
@@ -190,6 +196,7 @@ void add_bench_render(CLI::App& bench, Run& run) {
         ->type_name("N");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
+    add_quiet_flag(*command, options->quiet);
     set_examples(
         *command, {"irido bench render", "irido bench render --cases two-layer --size 256"},
         "Methods: exact: every pixel by irido color; irido: the table of irido render; 41, 9\n"

@@ -28,6 +28,7 @@ struct SceneBenchOptions {
     std::string seed = "1";
     unsigned threads = 0;
     OutputOptions output;
+    bool quiet = false;
 };
 
 /// The example scenes and their stacks, embedded in the program.
@@ -238,23 +239,30 @@ int run_scene(const SceneBenchOptions& options) {
     points.threads = options.threads;
     const Workplace place;
     std::vector<SceneRow> rows;
-    for (const auto& [name, file] : scenes_of(options, place)) {
+    const auto scenes = scenes_of(options, place);
+    StepProgress progress(options.quiet, 4 * scenes.size());
+    for (const auto& [name, file] : scenes) {
+        progress.begin(name + ", baked");
         if (file == "-") throw UsageError("SCENE: must be a file, as it is baked twice (got -)");
         const schemas::Scene scene = schemas::read_scene(file);
         const std::string folder = place / ("tables-" + std::to_string(rows.size()));
         SceneRow first = baked(name, scene, folder, options);
+        progress.begin(name + ", compared");
         points.all_levels = false;
         first.worst = worst_of_bake(scene, folder, execution_of(options.threads), points);
         points.all_levels = true;
         first.worst_of_levels = worst_of_bake(scene, folder, execution_of(options.threads), points);
+        progress.begin(name + ", baked again");
         SceneRow second = baked(name, scene, folder, options);
         second.method = "irido again";
         second.worst = first.worst;
         second.worst_of_levels = first.worst_of_levels;
         rows.push_back(first);
         rows.push_back(second);
+        progress.begin(name + ", tables of fixed size");
         rows.push_back(fixed(name, scene, options, points));
     }
+    progress.clear();
     write_records(to_records(rows), options.output);
     return 0;
 }
@@ -275,6 +283,7 @@ void add_bench_scene(CLI::App& bench, Run& run) {
         ->type_name("S");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
+    add_quiet_flag(*command, options->quiet);
     set_examples(
         *command, {"irido bench scene", "irido bench scene vehicle.json --count 10000 -f json"},
         "Methods: irido: a bake into an empty folder; irido again: the same bake repeated;\n"

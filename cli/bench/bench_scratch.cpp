@@ -32,6 +32,7 @@ struct ScratchBenchOptions {
     std::string count = "400", seed = "1", time = "0.01";
     std::optional<std::string> plot;
     OutputOptions output;
+    bool quiet = false;
 };
 
 /// A light that covers u = W q from one end to the other, on a scratch of given depth.
@@ -377,8 +378,10 @@ std::vector<ScratchBenchRow> measured(const ScratchBenchOptions& options) {
     const SlitTexture wide(sensitivity, false, false), narrow(sensitivity, true, true);
     const SpectralNodes exact = spectral_nodes(sensitivity, 24);
     std::vector<ScratchBenchRow> rows;
+    StepProgress progress(options.quiet, 4);
     for (const auto& [name, least, most] :
          {std::tuple("wide", 0.2, 0.8), std::tuple("narrow", 0.003, 0.05)}) {
+        progress.begin(std::string(name) + " lights");
         const ScratchBench<SlitLight> bench(
             sensitivity, name, random_lights(least, most, count, seed), seconds, 2,
             [&](const SlitLight& light) { return color_by_nodes(exact, light, exact_lobe); });
@@ -399,7 +402,9 @@ std::vector<ScratchBenchRow> measured(const ScratchBenchOptions& options) {
         bench.add(rows, "table-carrier-f32", static_cast<double>(wide.bytes()), wide);
         bench.add(rows, "table-slope-f16", static_cast<double>(narrow.bytes()), narrow);
     }
+    progress.begin("point lights");
     add_points(rows, sensitivity, random_points(count, seed), seconds);
+    progress.begin("fields");
     add_fields(rows, sensitivity, seconds);
     return rows;
 }
@@ -474,6 +479,7 @@ void add_bench_scratch(CLI::App& bench, Run& run) {
         ->add_option("--plot", options->plot, "also plot the rows into FILE (.svg, .png or .pdf)")
         ->type_name("FILE");
     add_output_options(*command, options->output, record_formats_text());
+    add_quiet_flag(*command, options->quiet);
     set_examples(*command,
                  {"irido bench scratch", "irido bench scratch --count 5000 --plot scratch.svg"},
                  "Widths 0.8 to 6 um, depths 0.05 to 3 um; wide lights cover 0.2 to 0.8 of q, the\n"

@@ -23,6 +23,7 @@ struct SpeedOptions {
     std::string time = "0.1";
     std::string cases = "all";
     OutputOptions output;
+    bool quiet = false;
     unsigned threads = 0;
 };
 
@@ -394,6 +395,8 @@ int run_speed(const SpeedOptions& options) {
         options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
     const SimdLevel widest = execution_of(all_threads).simd;
     std::vector<SpeedRow> rows;
+    StepProgress progress(options.quiet, cases.size() + 1);
+    progress.begin("machine");
     // clock rates change: the limit is measured before and after the rate
     const auto add = [&](SimdLevel level, unsigned threads, const auto& measure) {
         const double before = machine_limit(level, threads);
@@ -408,6 +411,7 @@ int run_speed(const SpeedOptions& options) {
     for (const bool by_newton : {true, false})
         add(SimdLevel::plain, 1, [&] { return landmarks_row(by_newton, budget); });
     for (const SpeedCase& one : cases) {
+        progress.begin(std::string(one.name));
         if (one.alpha > 0) {
             add(SimdLevel::plain, 1, [&] { return filter_sum_row(one, budget); });
             for (const SimdLevel level : levels)
@@ -429,6 +433,7 @@ int run_speed(const SpeedOptions& options) {
         if (all_threads > 1)
             add(widest, all_threads, [&] { return measurement.by_kernel({all_threads, widest}); });
     }
+    progress.clear();
     write_records(to_records(rows), options.output);
     return 0;
 }
@@ -448,6 +453,7 @@ void add_bench_speed(CLI::App& bench, Run& run) {
     offer(*command, "cases", names, OfferedWords::Use::several);
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
+    add_quiet_flag(*command, options->quiet);
     set_examples(
         *command,
         {"irido bench speed -o speed.csv",

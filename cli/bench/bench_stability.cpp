@@ -5,8 +5,8 @@
 #include "cli/bench/bench.hpp"
 #include "cli/exit_status.hpp"
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 #include "core/truth/stability.hpp"
-#include "schemas/readers/nearest.hpp"
 
 namespace irido::cli {
 
@@ -17,6 +17,7 @@ struct StabilityOptions {
     std::string seed = "1";
     std::string regimes = "all";
     OutputOptions output;
+    bool quiet = false;
     unsigned threads = 0;
 };
 
@@ -25,7 +26,7 @@ const Regime& regime_named(std::string_view name) {
     std::vector<std::string> names;
     for (const Regime& regime : regimes()) names.emplace_back(regime.name);
     throw UsageError("--regime: there is no regime '" + std::string(name) + "'" +
-                     schemas::did_you_mean(name, names) + " (see irido bench stability --help)");
+                     did_you_mean(name, names) + " (see irido bench stability --help)");
 }
 
 /// Parses "a,b" into regimes, in that order.
@@ -84,8 +85,13 @@ int run_stability(const StabilityOptions& options) {
     const std::uint64_t seed = parse_whole_number("--seed", options.seed, 0, kLargestSeed);
     const Execution execution = execution_of(options.threads);
     std::vector<RegimeReport> reports;
-    for (const Regime& regime : parse_regimes(options.regimes))
+    const std::vector<Regime> chosen = parse_regimes(options.regimes);
+    StepProgress progress(options.quiet, chosen.size());
+    for (const Regime& regime : chosen) {
+        progress.begin(std::string(regime.name));
         reports.push_back(measure_stability(regime, count, seed, execution));
+    }
+    progress.clear();
     write_records(to_records(reports), options.output);
     const std::string wrong = violations(reports);
     if (wrong.empty()) return 0;
@@ -120,6 +126,7 @@ void add_bench_stability(CLI::App& bench, Run& run) {
         *command, "regime", [] { return case_names(regimes()); }, OfferedWords::Use::several);
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
+    add_quiet_flag(*command, options->quiet);
     set_examples(
         *command,
         {"irido bench stability --count 1000 -o stability.csv",

@@ -3,6 +3,7 @@
 #include "cli/options/command.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/surface_options.hpp"
+#include "cli/queries/layered_simulation.hpp"
 #include "cli/queries/surface_query.hpp"
 #include "tables/pictures/png_file.hpp"
 
@@ -55,14 +56,24 @@ int run_brdf(const BrdfCommand& command) {
     if (!query.samples.empty() && command.output.file.empty() &&
         parse_one_number("--samples", query.samples, 2, 1e12) > kManySamples)
         throw UsageError("--samples: more than 1e8 require --output FILE");
-    const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
-    check_writable(command.output);
-    SurfaceRows rows =
-        query.scatterogram
-            ? layered_scatterogram(documents_of(document, command), query)
-            : std::visit(
-                  [&](const auto& surface) { return rows_of_surface(surface, document, query); },
-                  document.surface);
+    SurfaceRows rows;
+    if (!command.surface.source.stack.empty()) {
+        const schemas::SurfaceDocument document =
+            read_noted_surface(command.surface, command.quiet);
+        check_writable(command.output);
+        rows = query.scatterogram ? layered_scatterogram(documents_of(document, command), query)
+                                  : std::visit(
+                                        [&](const auto& surface) {
+                                            return rows_of_surface(surface, document, query);
+                                        },
+                                        document.surface);
+        rows.plot.title = title_of(document, command.surface);
+    } else if (!query.merge.empty()) {
+        rows = rows_of_shards(query);
+        check_writable(command.output);
+    } else {
+        throw UsageError("SURFACE is required (see irido brdf --help)");
+    }
     if (!picture) {
         write_records(rows.records, command.output);
         return 0;
@@ -73,7 +84,6 @@ int run_brdf(const BrdfCommand& command) {
         write_bytes(tables::png_file(*rows.pixels, bits), command.output, true);
         return 0;
     }
-    rows.plot.title = title_of(document, command.surface);
     for (const std::string& text : rows.plot.notes) query.note(text);
     write_picture([&] { return tables::figure_of(rows.records, rows.plot); }, command.picture,
                   *picture, command.output);
@@ -88,6 +98,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
         "How a surface scatters light, rough layers of thin films or scratches: BRDF, albedo.");
     const auto options = std::make_shared<BrdfCommand>();
     add_surface_options(*command, options->surface);
+    command->get_option("SURFACE")->required(false);  // unless with --merge
     add_direction_options(*command, options->query.directions);
     command
         ->add_option("-w,--wavelengths", options->wavelengths,
@@ -125,13 +136,13 @@ void add_brdf_command(CLI::App& program, Run& run) {
     offer(*command, "facets", "sampled filter");
     command
         ->add_option("--shard", options->query.shard,
-                     "of a simulation: part K of N of the samples only; adds the columns\n"
-                     "first_sample and samples, for --merge")
+                     "of a simulation: part K of N of the samples only; adds columns with the\n"
+                     "sums that --merge joins")
         ->type_name("K/N");
     command
         ->add_option("--merge", options->query.merge,
-                     "join the CSV files of all shards of the same command, in any order,\n"
-                     "instead of simulating")
+                     "join the CSV files of all shards of one command, in any order, into what\n"
+                     "it writes without --shard; without a SURFACE the files alone say of what")
         ->type_name("FILE");
     command
         ->add_option("--transmission", options->query.transmission,
@@ -166,6 +177,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
         ->type_name("SURFACE")
         ->allow_extra_args(false);
     add_light_options(*command, options->query.color);
+    add_strict_option(*command, options->query.color.strict);
     add_space_options(*command, options->query.color);
     command
         ->add_option("--tolerance", options->query.color.tolerance,

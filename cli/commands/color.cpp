@@ -1,3 +1,4 @@
+#include <array>
 #include <memory>
 
 #include "cli/options/command.hpp"
@@ -48,11 +49,13 @@ tables::Figure chromaticity(const ColorCommand& command, const ColorQuery& query
                                        query.illuminations().front()->white());
 }
 
+constexpr std::array<std::string_view, 2> kPlots{"strip", "chromaticity"};
+
 int run_color(const ColorCommand& command) {
     const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
     if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
     if (command.plot != "strip" && command.plot != "chromaticity")
-        throw UsageError("--plot: must be strip or chromaticity (got '" + command.plot + "')");
+        throw UsageError("--plot: " + not_one_of(kPlots, command.plot));
     if (command.plot == "chromaticity" && !picture)
         throw UsageError("--plot: requires a picture, such as --output FILE.svg");
     const auto say = [&](const std::string& text) { note(text, command.quiet); };

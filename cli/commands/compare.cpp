@@ -114,7 +114,7 @@ int compare_stack(const CompareCommand& command) {
         SweptStacks stacks(schemas::load_stack(command.stack), space, *query);
         check_writable(command.output);
         rows = varied_rows(command, space, *query, stacks);
-        title = title_of(stacks.first(), command.stack);
+        title = title_of(stacks.first(), command.stack, varied);
     }
     if (!picture) {
         write_records(rows, command.output);
@@ -147,8 +147,9 @@ std::vector<ComparedFilm> films_of(const CompareCommand& command, const ColorTab
         try {
             base = base_kind(command.base);
         } catch (const DomainError&) {
-            throw UsageError("--base: must be one of dielectric, conductor, colored, all (got '" +
-                             command.base + "')");
+            constexpr std::array<std::string_view, 4> names{"dielectric", "conductor", "colored",
+                                                            "all"};
+            throw UsageError("--base: " + not_one_of(names, command.base));
         }
     }
     return random_films(tables, count, seed_of(command), base);

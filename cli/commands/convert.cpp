@@ -36,7 +36,7 @@ struct Target {
 };
 
 Target resolved_target(const OutputOptions& output) {
-    const bool is_default = output.format.empty() && output.file.empty();
+    const bool is_default = output.format.empty() && is_nameless(output);
     const std::string name = is_default ? "json" : resolved_format(output);
     if (name == "json") return {};
     if (name == "expression" || (output.format.empty() && name == "txt")) return {true};
@@ -160,7 +160,8 @@ int run_convert(const ConvertCommand& command) {
     for (const std::string& text : document.notes) note(text, command.quiet);
     if (target.other) return write_other(command, *target.other, document);
     if (source.reverse && target.is_json()) reverse(source);
-    const std::string text = target.is_json() ? as_json(std::move(source), command.output.file)
+    const std::string place = is_nameless(command.output) ? "" : command.output.file;
+    const std::string text = target.is_json() ? as_json(std::move(source), place)
                                               : as_expression(document, command.quiet);
     write_bytes(text, command.output, false);
     return 0;

@@ -189,7 +189,7 @@ int merge_designs(const DesignCommand& command) {
 int run_design(const DesignCommand& command) {
     if (!command.merge.empty()) return merge_designs(command);
     schemas::DesignTask task = read_task(command.task);
-    note_task(task, command.quiet);
+    note_task(task, command.task.strict, command.quiet);
     check_outputs(command);
     const SearchEnd end(task.time_s);
     std::vector<double> start;

@@ -123,7 +123,7 @@ int run_fit(const FitCommand& command) {
     resolved_record_format(command.table);
     schemas::DesignTask task = read_task(command.task);
     task.problem.merit = MeritKind::chi2;
-    note_task(task, command.quiet);
+    note_task(task, command.task.strict, command.quiet);
     check_writable(command.stack);
     check_plot(command.plot, command.stack);
     std::vector<std::string> files;

@@ -134,7 +134,7 @@ tables::LutRequest parse(const tables::LutKind& kind, const LutCommand& command)
     request.document = schemas::read_source(request.source);
     for (const std::string& text : request.document.notes) note(text, command.quiet);
     if (kind.light)
-        report_held_ranges(request.document, *request.sensitivity, false,
+        report_held_ranges(request.document, *request.sensitivity, command.color.strict,
                            [&](const std::string& text) { note(text, command.quiet); });
     return request;
 }
@@ -152,8 +152,10 @@ void draw_lut(const LutCommand& command, const tables::LutKind& kind,
               const tables::LutRequest& request, const tables::PictureFormat& picture,
               const tables::Lut& lut) {
     const std::string_view summary = kind.summary.substr(0, kind.summary.find_last_not_of('.') + 1);
+    std::vector<std::string> varied;
+    for (const tables::VariedValue& vary : request.vary) varied.push_back(vary.path);
     const std::string title =
-        kind.stack ? title_of(request.document, command.stack) : std::string(summary);
+        kind.stack ? title_of(request.document, command.stack, varied) : std::string(summary);
     const auto figure = [&] {
         tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture));
         for (const std::string& text : drawn.notes) note(text, command.quiet);
@@ -234,6 +236,7 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
                              : "R (reflected) or T (transmitted) [R]");
     if (kind.color) offer(*command, "side", kind.name == "albedo" ? "R" : "R T");
     if (kind.light) add_light_options(*command, typed->color);
+    if (kind.light && kind.stack) add_strict_option(*command, typed->color.strict);
     if (kind.space) typed->color.space = "xyz";
     if (kind.color || kind.space) add_space_options(*command, typed->color);
     add_table_size_options(*command, typed->table,

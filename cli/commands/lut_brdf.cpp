@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "cli/commands/lut_brdf.hpp"
@@ -12,10 +13,10 @@
 #include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
 #include "core/color/held_stack.hpp"
+#include "core/math/constants.hpp"
 #include "core/math/degrees.hpp"
 #include "core/rough/walk/rest_table.hpp"
 #include "core/rough/walk/tabulated_scattering.hpp"
-#include "schemas/documents/canonical_stack.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/lut/lut_figure.hpp"
 #include "tables/lut/measured/half_angle_table.hpp"
@@ -38,7 +39,7 @@ constexpr const char* kBsdfWavelengths = "360:830:10";
 struct LutBrdfCommand {
     SurfaceOptions surface;
     SurfaceQuery query;
-    std::string wavelengths, phi_d, theta_h, theta_d;
+    std::string wavelengths, phi_d, theta_h, theta_d, exposure;
     TableOptions table;
     PictureOptions picture;
     OutputOptions output;
@@ -220,6 +221,13 @@ tables::LutPlan plan_of(const PairColors& pairs, const ColorColumns& colors,
     return plan;
 }
 
+double exposure_of(const LutBrdfCommand& command) {
+    if (command.exposure.empty()) return 0;
+    if (!asked_picture(command.output, command.picture))
+        throw UsageError("--exposure: requires a picture, such as --output FILE.png");
+    return parse_one_number("--exposure", command.exposure, -kMostExposure, kMostExposure);
+}
+
 int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
                       const std::string& title) {
     const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
@@ -254,7 +262,9 @@ int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
         return 0;
     }
     const auto figure = [&] {
-        tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture));
+        // pi times the BRDF, as of brdf --color: a white diffuser is white
+        tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture),
+                                                  kPi * std::exp2(exposure_of(command)));
         for (const std::string& text : drawn.notes) say(text);
         return drawn;
     };
@@ -264,12 +274,13 @@ int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
 
 int run_lut_brdf(const LutBrdfCommand& command) {
     const BrdfOutput kind = output_of(command);
+    exposure_of(command);  // before the work
     if (kind == BrdfOutput::table && !asked_picture(command.output, command.picture))
         resolved_brdf_format(command.output);
     SurfaceQuery query = command.query;
     query.execution = execution_of(command.threads);
     query.note = [&](const std::string& text) { note(text, command.quiet); };
-    const Paths paths = parse_table_paths(query.paths);
+    const Paths paths = parse_closed_paths(query.paths);
     const Crossings crossings = parse_crossings(query.transmission);
     const ColorColumns colors(query.color);
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
@@ -311,33 +322,6 @@ int run_lut_brdf(const LutBrdfCommand& command) {
 
 }  // namespace
 
-nlohmann::json surface_facts(const LayeredSurface& surface, const SurfaceQuery& query) {
-    nlohmann::json layers = nlohmann::json::array();
-    for (const RoughLayer& layer : surface.layers)
-        layers.push_back(
-            {{"alpha", layer.alpha}, {"stack", schemas::canonical_stack(layer.stack)}});
-    nlohmann::json albedo;
-    if (const auto* table = std::get_if<Table>(&surface.base_albedo)) {
-        for (std::size_t k = 0; k < table->value.size(); ++k)
-            albedo.push_back({table->wavelength_nm[k], table->value[k]});
-    } else {
-        albedo = std::get<Constant>(surface.base_albedo).value;
-    }
-    return {{"request",
-             {{"layers", layers},
-              {"base", {{"albedo", albedo}}},
-              {"paths", query.paths},
-              {"transmission", query.transmission},
-              {"illuminant", query.color.illuminant},
-              {"observer", query.color.observer}}}};
-}
-
-Paths parse_table_paths(const std::string& text) {
-    if (text == "single") return Paths::single;
-    if (text == "all") return Paths::all;
-    throw UsageError("--paths: must be single or all (got '" + text + "')");
-}
-
 void add_lut_brdf(CLI::App& lut, Run& run) {
     CLI::App* command = lut.add_subcommand("brdf", std::string(kLutBrdfSummary));
     const auto options = std::make_shared<LutBrdfCommand>();
@@ -360,10 +344,15 @@ void add_lut_brdf(CLI::App& lut, Run& run) {
                      "of .bsdf files, nm, [1, 1e7] [360:830:10]")
         ->type_name("LIST");
     add_light_options(*command, options->query.color);
+    add_strict_option(*command, options->query.color.strict);
     add_space_options(*command, options->query.color);
     add_table_size_options(*command, options->table, "[f32]");
     add_output_options(*command, options->output, "binary (merl), bsdf, " + table_formats_text());
     add_picture_options(*command, options->picture);
+    command
+        ->add_option("--exposure", options->exposure,
+                     "brighten a picture, which shows pi times the BRDF, by 2^EV, [-40, 40] [0]")
+        ->type_name("EV");
     add_table_layout_options(*command, options->table);
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");

@@ -17,10 +17,4 @@ inline constexpr std::string_view kLutLayeredSummary =
 void add_lut_brdf(CLI::App& lut, Run& run);
 void add_lut_layered(CLI::App& lut, Run& run);
 
-/// The surface and the request as a table's metadata has them.
-nlohmann::json surface_facts(const LayeredSurface& surface, const SurfaceQuery& query);
-
-/// Of tables: single or all, else UsageError.
-Paths parse_table_paths(const std::string& text);
-
 }  // namespace irido::cli

@@ -127,7 +127,7 @@ int run_lut_layered(const LutLayeredCommand& command) {
     SurfaceQuery query = command.query;
     query.execution = execution_of(command.threads);
     query.note = [&](const std::string& text) { note(text, command.quiet); };
-    const Paths paths = parse_table_paths(query.paths);
+    const Paths paths = parse_closed_paths(query.paths);
     const Crossings crossings = parse_crossings(query.transmission);
     const ColorColumns colors(query.color);
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
@@ -188,6 +188,7 @@ void add_lut_layered(CLI::App& lut, Run& run) {
         ->type_name("N");
     add_table_paths_options(*command, options->query.paths, options->query.transmission);
     add_light_options(*command, options->query.color);
+    add_strict_option(*command, options->query.color.strict);
     add_space_options(*command, options->query.color);
     add_dtype_option(*command, options->type, "[f32]");
     add_output_options(*command, options->output, "csv, npy, bin, ktx2 or exr");

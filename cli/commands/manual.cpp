@@ -3,7 +3,7 @@
 
 #include "cli/manual/manual.hpp"
 #include "cli/options/command.hpp"
-#include "schemas/readers/nearest.hpp"
+#include "core/nearest.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/version.hpp"
 
@@ -27,7 +27,7 @@ const CommandPage& page_of(const CommandPage& program, const std::vector<std::st
         if (page->name == typed) return *page;
         names.push_back(page->name);
     }
-    throw UsageError("unknown command '" + typed + "'" + schemas::did_you_mean(typed, names));
+    throw UsageError("unknown command '" + typed + "'" + did_you_mean(typed, names));
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

@@ -6,10 +6,10 @@
 #include "cli/options/command.hpp"
 #include "core/error.hpp"
 #include "core/material/library.hpp"
+#include "core/nearest.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/material_database.hpp"
 #include "schemas/readers/material_file.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "schemas/readers/text_file.hpp"
 
 namespace irido::cli {
@@ -29,7 +29,7 @@ struct MaterialsOptions {
 LibraryMaterial material_named(std::string_view name) {
     if (auto found = find_material(name)) return *std::move(found);
     throw UsageError("unknown material '" + std::string(name) + "'" +
-                     schemas::did_you_mean(name, library_names_and_aliases()) +
+                     did_you_mean(name, library_names_and_aliases()) +
                      "; see irido materials list");
 }
 
@@ -94,7 +94,7 @@ schemas::MaterialFile shown_material(const std::string& name) {
     if (name == "-" || schemas::is_material_file(name))
         return schemas::read_material_file(schemas::read_text(name), schemas::shown_path(name));
     throw UsageError("unknown material '" + name + "'" +
-                     schemas::did_you_mean(name, library_names_and_aliases()) +
+                     did_you_mean(name, library_names_and_aliases()) +
                      "; see irido materials list and find; material files end in .csv, .txt, .tsv, "
                      ".dat, .nk, .mat, "
                      ".yml or .yaml");

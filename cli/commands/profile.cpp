@@ -75,7 +75,9 @@ int run_profile(const ProfileCommand& command) {
     const tables::PictureFormat* const picture = asked_picture(command.output);
     if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    const ProfileQuery query(static_cast<const ProfileOptions&>(*command.typed), {.note = say});
+    auto typed = static_cast<const ProfileOptions&>(*command.typed);
+    typed.faces = picture != nullptr;  // where E and the absorption jump
+    const ProfileQuery query(typed, {.note = say});
     const auto prepared = query.prepare(read_noted_stack(command.stack, command.quiet));
     check_writable(command.output);
     const tables::Records records = records_of(query, *prepared);

@@ -3,8 +3,10 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <variant>
 
+#include "cli/exit_status.hpp"
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/progress.hpp"
@@ -101,8 +103,9 @@ void print_stats(const RenderCommand& command, const PictureQuery& query,
 struct Shown {
     std::variant<schemas::StackDocument, schemas::SurfaceDocument> document;
     std::optional<double> alpha{};
-    std::string label{};     ///< in a sheet
-    nlohmann::json written;  ///< for the metadata
+    std::string label{};                               ///< in a sheet
+    nlohmann::json written;                            ///< for the metadata
+    const schemas::SceneMaterial* material = nullptr;  ///< of a scene
 };
 
 Shown shown_stack(schemas::StackDocument document, std::optional<double> alpha = {}) {
@@ -118,10 +121,11 @@ Shown shown_surface(const schemas::StackSource& source) {
 }
 
 /// What is to be said of a document before it is drawn.
-void note_document(const RenderCommand& command, const PictureQuery& query, const Shown& shown) {
-    const auto say = [&](const std::string& text) { note(text, command.quiet); };
+void note_document(const RenderCommand& command, const PictureQuery& query, const Shown& shown,
+                   Notes& notes) {
+    const auto say = [&](const std::string& text) { notes(text); };
     const auto held = [&](schemas::StackDocument document) {
-        report_held_ranges(document, query.sensitivity(), false, say);
+        report_held_ranges(document, query.sensitivity(), command.picture.light.strict, say);
     };
     if (const auto* const stack = std::get_if<schemas::StackDocument>(&shown.document)) {
         for (const std::string& text : stack->notes) say(text);
@@ -153,7 +157,8 @@ DrawnPicture draw_shown(const PictureQuery& query, const Shown& shown,
 
 int render_one(const RenderCommand& command, const PictureQuery& query, const Shown& shown,
                RenderFormat format) {
-    note_document(command, query, shown);
+    Notes notes(command.quiet);
+    note_document(command, query, shown, notes);
     RenderProgress progress(command.quiet, 1);
     const DrawnPicture drawn =
         draw_shown(query, shown, [&](double part) { progress.set(0, part); });
@@ -228,34 +233,58 @@ tables::Pixels labelled_ground(const std::vector<Shown>& all, const SheetLayout&
     return tables::rasterized(drawing, 1);
 }
 
-int render_sheet(const RenderCommand& command, const PictureQuery& query,
-                 const std::vector<Shown>& all, const SheetLayout& layout) {
+void require_room(const SheetLayout& layout) {
     constexpr std::size_t kMostSide = 16384;
     if (std::max(layout.total_width(), layout.total_height()) > kMostSide)
         throw UsageError("the sheet would be " + std::to_string(layout.total_width()) + " x " +
                          std::to_string(layout.total_height()) +
                          " pixels, at most 16384 a side are drawn");
-    note_document(command, query, all.front());
-    tables::Pixels sheet = labelled_ground(all, layout);
-    RenderProgress progress(command.quiet, all.size());
+}
+
+/// Draws the pictures of a sheet. Where `left_out` is given, one that cannot be drawn leaves `all`,
+/// and its error is passed there.
+std::vector<tables::Pixels> draw_all(
+    const RenderCommand& command, const PictureQuery& query, std::vector<Shown>& all,
+    const std::function<void(const Shown&, const schemas::InputError&)>& left_out) {
     constexpr Triple kWhite{1, 1, 1};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const DrawnPicture drawn =
-            draw_shown(query, all[i], [&](double part) { progress.set(i, part); });
-        const tables::Pixels pixels = tables::pixels_over(drawn.picture, kWhite);
-        for (std::size_t y = 0; y < layout.height; ++y)
-            std::copy_n(&pixels.inks[y * layout.width], layout.width,
-                        &sheet.inks[(layout.top(i) + y) * sheet.width + layout.left(i)]);
-        if (i == 0) {
+    const std::size_t count = all.size();
+    RenderProgress progress(command.quiet, count);
+    std::vector<tables::Pixels> pictures;
+    std::vector<Shown> kept;
+    Notes notes(command.quiet);
+    for (std::size_t i = 0; i < count; ++i) {
+        try {
+            const bool is_new = pictures.empty() || all[i].material;  // not a varied value
+            if (is_new) note_document(command, query, all[i], notes);
+            const DrawnPicture drawn =
+                draw_shown(query, all[i], [&](double part) { progress.set(i, part); });
+            pictures.push_back(tables::pixels_over(drawn.picture, kWhite));
+            kept.push_back(std::move(all[i]));
+            if (pictures.size() > 1) continue;
             progress.clear();
             print_stats(command, query, drawn);
+        } catch (const schemas::InputError& error) {
+            if (!left_out) throw;
+            progress.clear();
+            left_out(all[i], error);
         }
     }
     progress.clear();
+    all = std::move(kept);
+    return pictures;
+}
+
+void write_sheet(const RenderCommand& command, const PictureQuery& query,
+                 const std::vector<Shown>& all, std::span<const tables::Pixels> pictures,
+                 const SheetLayout& layout) {
+    tables::Pixels sheet = labelled_ground(all, layout);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t y = 0; y < layout.height; ++y)
+            std::copy_n(&pictures[i].inks[y * layout.width], layout.width,
+                        &sheet.inks[(layout.top(i) + y) * sheet.width + layout.left(i)]);
     write_bytes(tables::png_file(sheet, bits_of(command), 0,
                                  metadata_of_picture(query, all.front().written)),
                 command.output, true);
-    return 0;
 }
 
 /// A picture for every combination of the varied values.
@@ -292,18 +321,27 @@ std::vector<Shown> varied_pictures(const schemas::StackSource& source, const Swe
 
 // --- scenes -----------------------------------------------------------------------------------
 
-/// Each material of a scene, or the one that is asked for.
+using SceneFaults = std::vector<std::string>;
+
+std::string fault_of_picture(const schemas::Scene& scene, const schemas::SceneMaterial& material,
+                             const schemas::InputError& error) {
+    const schemas::SceneFault fault =
+        material.scratches ? schemas::SceneFault{material.pointer + "/surface", error.message}
+                           : schemas::fault_of(material, error);
+    return schemas::fault_text(scene, material.name, fault);
+}
+
+/// Each material of a scene that has no faults, or the one that is asked for.
 std::vector<Shown> scene_pictures(const RenderCommand& command, const schemas::Scene& scene,
-                                  const nlohmann::json& document) {
+                                  const nlohmann::json& document, SceneFaults& faults) {
     std::vector<Shown> all;
-    std::string names;
+    std::vector<std::string_view> names;
     for (const schemas::SceneMaterial& material : scene.materials) {
-        names += (names.empty() ? "" : ", ") + material.name;
+        names.push_back(material.name);
         if (!command.show.empty() && command.show != material.name) continue;
         if (!material.faults.empty()) {
-            const schemas::SceneFault& fault = material.faults.front();
-            throw schemas::InputError(scene.file, fault.pointer,
-                                      "material " + material.name + ": " + fault.reason);
+            faults.push_back(schemas::fault_text(scene, material.name, material.faults.front()));
+            continue;
         }
         std::optional<double> alpha;
         if (material.is_rough) alpha = (material.alpha.first + material.alpha.last) / 2;
@@ -316,9 +354,10 @@ std::vector<Shown> scene_pictures(const RenderCommand& command, const schemas::S
         else
             all.push_back(shown_stack(material.document, alpha));
         all.back().label = material.name;
+        all.back().material = &material;
     }
-    if (all.empty())
-        throw UsageError("--show: the scene has no material " + command.show + ", it has " + names);
+    if (all.empty() && faults.empty())
+        throw UsageError("--show: " + not_one_of(names, command.show));
     return all;
 }
 
@@ -326,22 +365,45 @@ int render_scene(const RenderCommand& command, const schemas::StackSource& sourc
                  RenderFormat format) {
     const schemas::Scene scene = schemas::read_scene(source.document, source.file, source.folder);
     if (!command.vary.empty()) throw UsageError("--vary: takes a stack or a surface, not a scene");
-    const std::vector<Shown> all = scene_pictures(command, scene, source.document);
+    SceneFaults faults;
+    std::vector<Shown> all = scene_pictures(command, scene, source.document, faults);
     PictureQueryOptions typed = command.picture;
     if (typed.light.illuminant == ColorOptions{}.illuminant)
         typed.light.illuminant = scene.illuminant;
     if (typed.light.observer == ColorOptions{}.observer)
         typed.light.observer = std::to_string(scene.observer_deg);
-    const bool is_sheet = all.size() > 1;
+    const std::size_t count = all.size() + faults.size();
+    const bool is_sheet = count > 1;
     const PictureQuery query(typed, execution_of(command.threads), is_sheet ? 192 : 512);
     check_writable(command.output);
-    if (!is_sheet) return render_one(command, query, all.front(), format);
+    if (all.empty()) throw schemas::InputError("", "", faults.front());
+    if (!is_sheet) {
+        try {
+            return render_one(command, query, all.front(), format);
+        } catch (const schemas::InputError& error) {
+            throw schemas::InputError("", "",
+                                      fault_of_picture(scene, *all.front().material, error));
+        }
+    }
     if (format != RenderFormat::png)
         throw UsageError(
             "--output: a scene of several materials makes a contact sheet, .png; "
             "--show MATERIAL draws one");
-    return render_sheet(command, query, all,
-                        {all.size(), square_columns(all.size()), query.scene().camera});
+    const auto layout = [&] {
+        return SheetLayout(all.size(), square_columns(all.size()), query.scene().camera);
+    };
+    require_room(layout());
+    const std::vector<tables::Pixels> pictures =
+        draw_all(command, query, all, [&](const Shown& shown, const schemas::InputError& error) {
+            faults.push_back(fault_of_picture(scene, *shown.material, error));
+        });
+    if (all.empty()) throw schemas::InputError("", "", faults.front());
+    write_sheet(command, query, all, pictures, layout());
+    for (const std::string& fault : faults) print_error(fault);
+    if (faults.empty()) return 0;
+    print_error(scene.file + ": " + std::to_string(faults.size()) + " of " + std::to_string(count) +
+                " materials left out");
+    return kCheckFailed;
 }
 
 /// Throws UsageError for values that pictures cannot vary.
@@ -385,8 +447,12 @@ int run_render(const RenderCommand& command) {
     const std::size_t columns =
         space.columns().size() > 1 ? space.columns().back().size() : square_columns(count);
     const Camera& camera = query.scene().camera;
-    return render_sheet(command, query, varied_pictures(source, space, camera.width),
-                        {count, columns, camera});
+    const SheetLayout layout(count, columns, camera);
+    require_room(layout);
+    std::vector<Shown> all = varied_pictures(source, space, camera.width);
+    const std::vector<tables::Pixels> pictures = draw_all(command, query, all, {});
+    write_sheet(command, query, all, pictures, layout);
+    return 0;
 }
 
 }  // namespace

@@ -2,17 +2,19 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <memory>
 
+#include "cli/options/color_options.hpp"
 #include "cli/options/command.hpp"
 #include "cli/options/long_work.hpp"
 #include "cli/progress.hpp"
+#include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "schemas/documents/canonical_stack.hpp"
 #include "schemas/documents/scene_document.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/shaders/scene/bake.hpp"
 #include "tables/shaders/scene/scene_error.hpp"
@@ -32,7 +34,7 @@ struct SceneCommand {
     std::string format = "text", explained;
     bool force = false, verify = false, prune = false;
     unsigned threads = 0;
-    bool quiet = false;
+    bool strict = false, quiet = false;
 };
 
 std::string size_text(const json& axes) {
@@ -116,9 +118,12 @@ std::optional<double> delta_e_of(const schemas::Scene& scene, const tables::Scen
 
 /// Plans one table: its row, and its entry.
 void plan_table(const schemas::Scene& scene, PlannedScene& result, std::size_t t,
-                const tables::Baked& before, const SceneCommand& command) {
+                const tables::Baked& before, const SceneCommand& command, StepProgress& progress) {
     tables::SceneTable& table = result.plan.tables[t];
     table.making.threads = command.threads;
+    table.making.progress = [&progress](double done, const std::string& what) {
+        progress.set(done, what);
+    };
     tables::Keeping keeping;
     if (!command.place.folder.empty() && !command.force)
         keeping = tables::keeping_of(scene, result.plan, table, before, command.place, false);
@@ -139,22 +144,24 @@ void plan_table(const schemas::Scene& scene, PlannedScene& result, std::size_t t
 
 PlannedScene planned(const schemas::Scene& scene, const SceneCommand& command) {
     PlannedScene result;
-    Progress progress(command.quiet);
     result.plan = tables::plan_scene(scene, execution_of(command.threads));
     result.faults = tables::faults_of(result.plan);
     tables::Baked before;
     if (!command.place.folder.empty()) before = tables::baked_scene(command.place, scene);
     if (!before.note.empty()) result.notes.push_back(before.note);
     const std::size_t count = result.plan.tables.size();
+    StepProgress progress(command.quiet, count + 1);
     for (std::size_t t = 0; t < count; ++t) {
         const tables::SceneTable& table = result.plan.tables[t];
-        progress.set(static_cast<double>(t) / static_cast<double>(count), table.materials.front());
+        progress.begin(table.materials.front());
         try {
-            plan_table(scene, result, t, before, command);
+            plan_table(scene, result, t, before, command, progress);
         } catch (const std::exception& error) {  // of any type: affects only these materials
             tables::add_faults(result.faults, scene, table, error);
         }
     }
+    for (tables::SceneTable& table : result.plan.tables) table.making.progress = {};
+    progress.begin("losses");
     for (tables::Omission& omission : result.plan.omissions) {
         const auto m =
             std::ranges::find(scene.materials, omission.material, &schemas::SceneMaterial::name);
@@ -284,10 +291,9 @@ std::string explained(const schemas::Scene& scene, const PlannedScene& planned,
                       const std::string& name) {
     const auto material = std::ranges::find(scene.materials, name, &schemas::SceneMaterial::name);
     if (material == scene.materials.end()) {
-        std::vector<std::string> names;
+        std::vector<std::string_view> names;
         for (const schemas::SceneMaterial& m : scene.materials) names.push_back(m.name);
-        throw UsageError("--explain: unknown material '" + name + "'" +
-                         schemas::did_you_mean(name, names));
+        throw UsageError("--explain: " + not_one_of(names, name));
     }
     const tables::MaterialPlan& plan =
         *std::ranges::find(planned.plan.materials, name, &tables::MaterialPlan::name);
@@ -344,15 +350,41 @@ int report_faults(const schemas::Scene& scene, const tables::MaterialFaults& fau
     return kMaterialFailed;
 }
 
+/// Reads the scene; a material that colours clamp to its end values is noted or, if that is to be
+/// refused, at fault.
 schemas::Scene scene_of(const SceneCommand& command) {
     schemas::Scene scene = schemas::read_scene(command.scene);
-    for (const std::string& text : scene.notes) note(text, command.quiet);
+    Notes notes(command.quiet);
+    for (const std::string& text : scene.notes) notes(text);
+    const Sensitivity sensitivity(observer(scene.observer_deg), illuminant(scene.illuminant));
+    for (schemas::SceneMaterial& material : scene.materials) {
+        if (!material.faults.empty()) continue;
+        std::vector<std::string> clamped;
+        try {
+            report_held_ranges(material.document, sensitivity, command.strict,
+                               [&](const std::string& text) { clamped.push_back(text); });
+        } catch (const schemas::InputError& error) {
+            material.faults.push_back(schemas::fault_of(material, error));
+        }
+        for (const std::string& text : clamped)
+            notes(scene.file + ": material " + material.name + ": " + text);
+    }
     return scene;
 }
 
+/// The plan goes to standard output: the folder is one of an earlier bake, or not there yet.
+void require_folder(const std::string& folder) {
+    std::error_code ignored;
+    if (std::filesystem::exists(folder, ignored) && !std::filesystem::is_directory(folder, ignored))
+        throw UsageError("--output: must name a folder (got '" + folder +
+                         "'); the plan goes to standard output");
+}
+
 int run_plan(const SceneCommand& command) {
-    if (command.format != "text" && command.format != "json")
-        throw UsageError("--format: must be one of text, json (got '" + command.format + "')");
+    constexpr std::array<std::string_view, 2> formats{"text", "json"};
+    if (std::ranges::find(formats, command.format) == formats.end())
+        throw UsageError("--format: " + not_one_of(formats, command.format));
+    require_folder(command.place.folder);
     const schemas::Scene scene = scene_of(command);
     const PlannedScene result = planned(scene, command);
     for (const std::string& text : result.notes) note(text, command.quiet);
@@ -445,7 +477,8 @@ void add_common(CLI::App& command, SceneCommand& typed) {
         .add_option("SCENE", typed.scene, "scene file (.json; see irido validate --schema scene)")
         ->required();
     add_threads_option(command, typed.threads);
-    command.add_flag("--quiet", typed.quiet, "no notes on standard error");
+    add_strict_option(command, typed.strict);
+    command.add_flag("--quiet", typed.quiet, "no notes and no progress on standard error");
 }
 
 }  // namespace

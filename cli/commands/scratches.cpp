@@ -1,10 +1,15 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "cli/exit_status.hpp"
 #include "cli/options/command.hpp"
+#include "cli/options/picture_options.hpp"
 #include "cli/options/surface_options.hpp"
+#include "core/math/constants.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
@@ -54,8 +59,63 @@ tables::Records records_of(const std::vector<Scratch>& scratches) {
     return records;
 }
 
+/// The ends of a scratch's part in a rectangle; nothing if it lies outside.
+std::optional<std::array<tables::Point, 2>> part_within(const Scratch& scratch,
+                                                        const tables::GridExtent& extent) {
+    const std::array from{scratch.point.x_um, scratch.point.y_um},
+        along{std::cos(scratch.angle_deg * kDegree), std::sin(scratch.angle_deg * kDegree)},
+        low{extent.origin.x_um, extent.origin.y_um},
+        high{low[0] + extent.width_um, low[1] + extent.height_um};
+    double start = scratch.start_um, end = scratch.end_um;
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (along[i] == 0) {
+            if (from[i] < low[i] || from[i] > high[i]) return std::nullopt;
+            continue;
+        }
+        const auto [first, last] =
+            std::minmax({(low[i] - from[i]) / along[i], (high[i] - from[i]) / along[i]});
+        start = std::max(start, first);
+        end = std::min(end, last);
+    }
+    if (!(start < end)) return std::nullopt;
+    const auto at = [&](double s) {
+        return tables::Point{std::clamp(from[0] + s * along[0], low[0], high[0]),
+                             std::clamp(from[1] + s * along[1], low[1], high[1])};
+    };
+    return std::array{at(start), at(end)};
+}
+
+/// The scratches as lines in the rectangle, without those that only reach it by their width.
+tables::Figure figure_of(const std::vector<Scratch>& scratches, const tables::GridExtent& extent,
+                         const std::string& title) {
+    constexpr std::size_t kMostLines = 100000;
+    tables::Panel panel{.x = {.quantity = "x",
+                              .unit = "\u00b5m",
+                              .first = extent.origin.x_um,
+                              .last = extent.origin.x_um + extent.width_um},
+                        .y = {.quantity = "y",
+                              .unit = "\u00b5m",
+                              .first = extent.origin.y_um,
+                              .last = extent.origin.y_um + extent.height_um}};
+    for (const Scratch& scratch : scratches)
+        if (const auto part = part_within(scratch, extent))
+            panel.series.push_back({.points = {part->begin(), part->end()}});
+    const std::size_t lines = panel.series.size();
+    if (lines == 0) throw tables::PictureError("no scratch lies in the rectangle");
+    if (lines > kMostLines)
+        throw tables::PictureError("too many scratches for one picture: " + std::to_string(lines) +
+                                   ", at most " + std::to_string(kMostLines));
+    tables::Figure figure{.title = title};
+    figure.subtitle = std::to_string(lines) + (lines == 1 ? " scratch" : " scratches");
+    const double aspect = extent.height_um / extent.width_um;
+    figure.equal_units = aspect > 0.1 && aspect < 4;  // a narrow strip is stretched
+    figure.panels.push_back(std::move(panel));
+    return figure;
+}
+
 int run_scratches(const ScratchesCommand& command) {
-    resolved_record_format(command.output);
+    const tables::PictureFormat* const picture = asked_picture(command.output);
+    if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
     const auto extent_um = parse_two("--extent", command.extent, 1e-3);
     const auto origin_um = parse_two("--origin", command.origin, -kLargestExtent_um);
     const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
@@ -69,6 +129,12 @@ int run_scratches(const ScratchesCommand& command) {
     check_writable(command.output);
     try {
         const std::vector<Scratch> scratches = tables::scratches_within(*surface, extent);
+        if (command.grid.empty() && picture) {
+            const std::string title = title_of(document, command.surface);
+            write_picture([&] { return figure_of(scratches, extent, title); }, {}, *picture,
+                          command.output);
+            return 0;
+        }
         if (command.grid.empty()) {
             write_records(records_of(scratches), command.output);
             return 0;
@@ -132,13 +198,16 @@ void add_scratches_command(CLI::App& program, Run& run) {
         ->add_option("--check", *checked,
                      "verify grid files: sizes, checksum, order, and that no scratch is missing")
         ->type_name("FILE");
-    add_output_options(*command, options->output, record_formats_text());
+    add_output_options(*command, options->output,
+                       record_formats_text(RecordTarget::stream_or_picture));
+
     command->add_flag("--quiet", options->quiet, "no notes on standard error");
     set_examples(
         *command,
         {"irido scratches schemas/examples/surfaces/worn-spoon.json --extent 500,500",
          "irido scratches schemas/examples/surfaces/worn-spoon.json --extent 4000,4000 "
          "--grid spoon.bin",
+         "irido scratches schemas/examples/surfaces/worn-spoon.json -o spoon.svg",
          "irido scratches --check spoon.bin"},
         "Fields are endless: every extent sees the same scratches. The grid's buffers are\n"
         "little-endian: records (float32 x 8: place from the origin, tangent, start, end,\n"

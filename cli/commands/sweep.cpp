@@ -16,8 +16,8 @@
 #include "cli/sweep/scatter.hpp"
 #include "cli/sweep/summary.hpp"
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 #include "schemas/documents/canonical_stack.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/files/hash.hpp"
 #include "tables/resume/collected_rows.hpp"
@@ -213,7 +213,8 @@ std::unique_ptr<tables::RecordStream> open_picture(const SweepCommand& command,
                                                    const tables::PictureFormat& picture,
                                                    const SweepEngine& engine,
                                                    const SweepSpace& space, const Query& query,
-                                                   std::string title, Notes& notes) {
+                                                   const schemas::StackDocument& first,
+                                                   Notes& notes) {
     constexpr std::uint64_t most_rows = 20'000'000;
     if (engine.rows_per_unit() * engine.units() > most_rows)
         throw UsageError("--output: a picture of " +
@@ -222,6 +223,7 @@ std::unique_ptr<tables::RecordStream> open_picture(const SweepCommand& command,
     std::vector<std::string> varied;
     for (const SweptColumn& column : space.columns())
         if (!column.is_light()) varied.push_back(column.path);
+    const std::string title = title_of(first, command.stack, varied);
     const auto draw = [&command, &picture, &query, &notes, varied,
                        title](const tables::Records& rows) {
         const auto figure = [&] {
@@ -345,8 +347,7 @@ int run_sweep(const SweepCommand& command) {
                  ".part of an earlier run (use --resume to continue it)",
              command.quiet);
     const std::unique_ptr<tables::RecordStream> stream =
-        picture      ? open_picture(command, *picture, engine, space, *query,
-                                    title_of(stacks.first(), command.stack), notes)
+        picture      ? open_picture(command, *picture, engine, space, *query, stacks.first(), notes)
         : is_summary ? open_summary(command, engine, space, *query)
                      : open_stream(command, format, engine, identity);
     if (stream->is_complete()) return 0;

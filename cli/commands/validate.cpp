@@ -11,7 +11,6 @@
 #include "schemas/documents/surface_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/material_file.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "schemas/readers/text_file.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/lut/lut_metadata.hpp"
@@ -102,18 +101,15 @@ int run_validate(const std::vector<std::string>& files) {
     return status;
 }
 
-std::vector<std::string> schema_names() {
-    std::vector<std::string> names;
-    for (const SchemaText& schema : kSchemas) names.emplace_back(schema.name);
+std::vector<std::string_view> schema_names() {
+    std::vector<std::string_view> names;
+    for (const SchemaText& schema : kSchemas) names.push_back(schema.name);
     return names;
 }
 
 int print_schema(const std::string& name) {
     const auto found = std::ranges::find(kSchemas, name, &SchemaText::name);
-    if (found == kSchemas.end())
-        throw UsageError(
-            "--schema: must be one of stack, surface, design, scene, manifest, lut (got '" + name +
-            "')" + schemas::did_you_mean(name, schema_names()));
+    if (found == kSchemas.end()) throw UsageError("--schema: " + not_one_of(schema_names(), name));
     tables::write_stdout(found->text());
     return 0;
 }

@@ -23,7 +23,8 @@ struct ViewCommand {
 int run_view(const ViewCommand& command) {
     if (command.output.file.empty() && command.output.format.empty())
         throw UsageError("--output: must name a page, .html, or be given with --format");
-    if (const std::string format = resolved_format(command.output); format != "html")
+    const bool is_default = command.output.format.empty() && is_nameless(command.output);
+    if (const std::string format = resolved_format(command.output); format != "html" && !is_default)
         throw UsageError(
             (command.output.format.empty() ? "--output: the extension " : "--format: ") +
             std::string("must be html (got '") + format + "')");
@@ -38,7 +39,7 @@ int run_view(const ViewCommand& command) {
         typed.illuminant,
         Sensitivity(parse_observer(typed.observer), parse_illuminant(typed.illuminant)),
         rgb_space("srgb"), Adaptation::bradford);
-    report_held_ranges(document, illumination.tables.sensitivity(), false, say);
+    report_held_ranges(document, illumination.tables.sensitivity(), typed.strict, say);
     check_writable(command.output);
     tables::ViewRequest request;
     request.title = title_of(document, command.stack);
@@ -64,6 +65,7 @@ void add_view_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<ViewCommand>();
     add_stack_options(*command, options->stack);
     add_light_options(*command, options->light);
+    add_strict_option(*command, options->light.strict);
     add_output_options(*command, options->output, "html");
     add_threads_option(*command, options->threads);
     command->add_flag("--quiet", options->quiet, "no notes on standard error");

@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
+#include "core/nearest.hpp"
 #include "schemas/input_error.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "schemas/readers/points_csv.hpp"
 #include "schemas/readers/text_file.hpp"
 
@@ -27,9 +27,9 @@ public:
                 known.push_back(std::string(name) + channel);
         for (schemas::PointsColumn& column : columns) {
             if (std::ranges::find(known, column.path) == known.end())
-                throw schemas::InputError(file_, "",
-                                          "unknown column '" + column.path + "'" +
-                                              schemas::did_you_mean(column.path, known));
+                throw schemas::InputError(
+                    file_, "",
+                    "unknown column '" + column.path + "'" + did_you_mean(column.path, known));
             rows_ = std::max(column.numbers.size(), column.codes.size());
             const std::string name = column.path;
             columns_.emplace(name, std::move(column));

@@ -8,7 +8,6 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "schemas/input_error.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "schemas/readers/spectrum_csv.hpp"
 #include "schemas/readers/text_file.hpp"
 
@@ -98,8 +97,7 @@ ColorMethod parse_method(const std::string& text) {
     const auto method = std::ranges::find(kMethods, name, &NamedMethod::name);
     if (method == kMethods.end()) {
         const std::vector<std::string_view> names = color_method_names();
-        throw UsageError("--method: " + not_one_of(names, name) +
-                         schemas::did_you_mean(name, {names.begin(), names.end()}));
+        throw UsageError("--method: " + not_one_of(names, name));
     }
     if (slash == std::string::npos) return {method->kind, method->by_itself};
     if (method->most == 0)
@@ -220,6 +218,11 @@ void add_light_options(CLI::App& command, ColorOptions& options) {
         ->type_name("DEGREES");
     offer(command, "illuminant", illuminant_names, OfferedWords::Use::one_or_file);
     offer(command, "observer", "2 10");
+}
+
+void add_strict_option(CLI::App& command, bool& strict) {
+    command.add_flag("--strict", strict,
+                     "refuse materials whose data do not cover 360 to 830 nm in a colour");
 }
 
 void add_space_options(CLI::App& command, ColorOptions& options) {

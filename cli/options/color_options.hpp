@@ -26,7 +26,11 @@ struct ColorOptions {
     std::string harmonics;   ///< "" if not given
     std::string base_color;  ///< "" if not given
     std::string tolerance;   ///< "" for the default
+    bool strict = false;     ///< refuse materials that colours clamp
 };
+
+/// Adds --strict, to every command that may call report_held_ranges().
+void add_strict_option(CLI::App& command, bool& strict);
 
 /// Adds --side and -p; `sides` is the help text for --side.
 void add_side_options(CLI::App& command, ColorOptions& options, const std::string& sides);

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "schemas/readers/material_database.hpp"
 #include "schemas/readers/number.hpp"
+#include "schemas/readers/stack_expression.hpp"
 #include "tables/files/atomic_file.hpp"
 
 namespace irido::cli {
@@ -66,8 +67,20 @@ schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bo
     return document;
 }
 
-std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request) {
-    return document.name.empty() ? request.stack : document.name;
+std::string title_of(const schemas::StackRequest& request, const std::vector<std::string>& varied) {
+    if (request.stack.find('|') == std::string::npos) return request.stack;
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const std::string& text : request.set) {
+        const std::size_t equals = text.find('=');
+        values.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    for (const std::string& path : varied) values.emplace_back(path, "\u2026");
+    return schemas::expression_with(request.stack, values);
+}
+
+std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request,
+                     const std::vector<std::string>& varied) {
+    return document.name.empty() ? title_of(request, varied) : document.name;
 }
 
 namespace {
@@ -180,11 +193,15 @@ void set_examples(CLI::App& command, const std::vector<std::string>& examples,
     command.footer(text);
 }
 
+bool is_nameless(const OutputOptions& output) {
+    return output.file.empty() || output.file.starts_with("/dev/");
+}
+
 std::string resolved_format(const OutputOptions& output) {
     if (!output.format.empty()) return output.format == "hdf5" ? "h5" : output.format;
     const std::size_t slash = output.file.find_last_of('/');
     const std::size_t dot = output.file.find_last_of('.');
-    if (output.file.empty() || output.file.starts_with("/dev/")) return "csv";
+    if (is_nameless(output)) return "csv";
     if (dot == std::string::npos || (slash != std::string::npos && dot < slash))
         throw UsageError(
             "--output: must have an extension that names the format, or use --format "

@@ -59,8 +59,12 @@ void add_stack_options(CLI::App& command, schemas::StackRequest& request);
 /// Reads the stack and prints its notes. Throws InputError.
 schemas::StackDocument read_noted_stack(const schemas::StackRequest& request, bool quiet);
 
-/// The title of a stack in a picture: its name, or the command-line argument.
-std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request);
+/// The title of a stack in a picture: its name, or the file or expression as typed, with the values
+/// of --set and an ellipsis for the values at `varied` paths.
+std::string title_of(const schemas::StackDocument& document, const schemas::StackRequest& request,
+                     const std::vector<std::string>& varied = {});
+std::string title_of(const schemas::StackRequest& request,
+                     const std::vector<std::string>& varied = {});
 
 /// Adds -o and -f; `formats` for the help begins with their names, separated by commas or "or".
 void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
@@ -111,6 +115,9 @@ void set_help_pages(CLI::App& program);
 /// Sets the last lines of a help page, after `notes` if there are any.
 void set_examples(CLI::App& command, const std::vector<std::string>& examples,
                   const std::string& notes = "");
+
+/// Whether the output is standard output or a device, whose name says no format.
+bool is_nameless(const OutputOptions& output);
 
 /// The format given or implied by the file's extension, else "csv". Throws UsageError.
 std::string resolved_format(const OutputOptions& output);

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "cli/options/command.hpp"
-#include "schemas/readers/nearest.hpp"
+#include "core/nearest.hpp"
 
 namespace irido::cli {
 
@@ -135,8 +135,7 @@ private:
         std::vector<std::string> names;
         for (const CLI::Option* option : command_.get_options())
             for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-        const std::string guess =
-            typed.starts_with("--") ? schemas::did_you_mean(typed, names) : "";
+        const std::string guess = typed.starts_with("--") ? did_you_mean(typed, names) : "";
         // options added by --compute
         const CLI::Option* const compute = command_.get_option_no_throw("--compute");
         const bool is_computing = std::ranges::any_of(words_, [](std::string_view other) {
@@ -196,8 +195,8 @@ void check(const CLI::App& parent, const std::string& path, std::span<char* cons
     if (typed.starts_with('-'))
         throw UsageError("a command is required after " + path + ", before " + typed + " (see " +
                          help + ")");
-    throw UsageError("unknown command '" + typed + "'" + schemas::did_you_mean(typed, names) +
-                     " (see " + help + ")");
+    throw UsageError("unknown command '" + typed + "'" + did_you_mean(typed, names) + " (see " +
+                     help + ")");
 }
 
 /// The command given, below all groups of commands.

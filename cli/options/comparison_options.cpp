@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "core/error.hpp"
-#include "schemas/readers/nearest.hpp"
 
 namespace irido::cli {
 
@@ -29,7 +28,7 @@ ComparedEngine parse_engine(const std::string& name) {
     std::vector<std::string> names = engine_names();
     names.back() = "equal/N";
     const std::vector<std::string_view> views(names.begin(), names.end());
-    throw UsageError("--engine: " + not_one_of(views, name) + schemas::did_you_mean(name, names));
+    throw UsageError("--engine: " + not_one_of(views, name));
 }
 
 }  // namespace

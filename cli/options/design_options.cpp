@@ -109,6 +109,7 @@ void add_task_options(CLI::App& command, TaskOptions& options) {
         .add_option("--time", options.time,
                     "seconds after which a search ends with the best so far")
         ->type_name("S");
+    add_strict_option(command, options.strict);
 }
 
 void add_needle_options(CLI::App& command, TaskOptions& options) {
@@ -223,7 +224,7 @@ void check_report(const std::string& file) {
     resolved_record_format({file, ""});
 }
 
-void note_task(const schemas::DesignTask& task, bool quiet) {
+void note_task(const schemas::DesignTask& task, bool strict, bool quiet) {
     for (const std::string& text : task.notes) note(task.file + ": " + text, quiet);
     schemas::StackDocument document;
     document.stack = task.problem.stack;
@@ -234,7 +235,7 @@ void note_task(const schemas::DesignTask& task, bool quiet) {
         if (target.quantity != DesignQuantity::lab) continue;
         report_held_ranges(
             document, Sensitivity(observer(target.light.observer_deg), target.light.illuminant),
-            false, [&](const std::string& text) {
+            strict, [&](const std::string& text) {
                 if (said.insert(text).second) note(text, quiet);
             });
     }

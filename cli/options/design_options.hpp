@@ -17,6 +17,7 @@ struct TaskOptions {
     std::vector<std::string> free, targets;
     std::string method, merit, seed, time, evaluations;  ///< "" if not given
     std::string materials, max_layers, min_thickness;    ///< for needles; "" if not given
+    bool strict = false;                                 ///< as of ColorOptions
 };
 
 /// Adds TASK and the options common to design and fit.
@@ -38,7 +39,8 @@ schemas::DesignTask read_task(const TaskOptions& options);
 /// Checks the name of the file for a report, if there is one. Throws UsageError.
 void check_report(const std::string& file);
 
-/// Notes of the task, and materials that colours hold beyond their range.
-void note_task(const schemas::DesignTask& task, bool quiet);
+/// Notes of the task, and materials that colours hold beyond their range; with `strict` these are
+/// refused.
+void note_task(const schemas::DesignTask& task, bool strict, bool quiet);
 
 }  // namespace irido::cli

@@ -50,7 +50,8 @@ tables::GamutMapping parse_gamut(const PictureOptions& options) {
     if (options.gamut.empty()) return clip;
     for (const tables::GamutMapping mapping : {clip, compress})
         if (name_of(mapping) == options.gamut) return mapping;
-    throw UsageError("--gamut: must be clip or compress (got '" + options.gamut + "')");
+    constexpr std::array<std::string_view, 2> names{"clip", "compress"};
+    throw UsageError("--gamut: " + not_one_of(names, options.gamut));
 }
 
 std::string picture_bytes(const std::function<tables::Figure()>& figure,

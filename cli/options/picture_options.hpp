@@ -7,6 +7,9 @@
 
 namespace irido::cli {
 
+/// Exposures of pictures, EV, lie in [-kMostExposure, kMostExposure].
+inline constexpr double kMostExposure = 40;
+
 /// How to draw a picture of colours, as given on the command line; "" if not given.
 struct PictureOptions {
     std::string gamut;

@@ -134,7 +134,8 @@ LightIntegral parse_light_integral(const ScratchOptions& options) {
         return {LightIntegral::Kind::points,
                 static_cast<int>(parse_whole_number("--light-integral", text.substr(kGauss.size()),
                                                     1, kMostLightPoints))};
-    throw UsageError("--light-integral: must be one of exact, gauss/N, band (got '" + text + "')");
+    constexpr std::array<std::string_view, 3> names{"exact", "gauss/N", "band"};
+    throw UsageError("--light-integral: " + not_one_of(names, text));
 }
 
 }  // namespace irido::cli

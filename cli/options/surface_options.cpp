@@ -5,9 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/nearest.hpp"
 #include "core/rough/ggx.hpp"
 #include "schemas/input_error.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "schemas/readers/points_csv.hpp"
 #include "schemas/readers/text_file.hpp"
 
@@ -34,11 +34,10 @@ std::vector<Directions> directions_of_file(const std::string& path) {
     for (const schemas::PointsColumn& column : columns) {
         const auto place = std::ranges::find(kDirectionColumns, column.path);
         if (place == kDirectionColumns.end())
-            throw schemas::InputError(
-                file, "",
-                "unknown column " + column.path +
-                    schemas::did_you_mean(column.path,
-                                          {kDirectionColumns.begin(), kDirectionColumns.end()}));
+            throw schemas::InputError(file, "",
+                                      "unknown column " + column.path +
+                                          did_you_mean(column.path, {kDirectionColumns.begin(),
+                                                                     kDirectionColumns.end()}));
         const auto c = static_cast<std::size_t>(place - kDirectionColumns.begin());
         if (column.numbers.empty() && !column.codes.empty())
             throw schemas::InputError(file, "", column.path + " must be numbers");
@@ -116,7 +115,7 @@ std::string title_of(const schemas::SurfaceDocument& document, const SurfaceOpti
     if (options.source.stack == "-") return "";
     const bool is_file = options.source.stack.find('|') == std::string::npos;
     return is_file ? std::filesystem::path(options.source.stack).filename().string()
-                   : options.source.stack;
+                   : title_of(options.source);
 }
 
 void add_direction_options(CLI::App& command, DirectionOptions& options) {

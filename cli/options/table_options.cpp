@@ -85,7 +85,8 @@ tables::LutType parse_type(std::string_view text) {
     for (const tables::LutType type :
          {tables::LutType::f16, tables::LutType::f32, tables::LutType::f64})
         if (name_of(type) == text) return type;
-    throw UsageError("--dtype: must be one of f16, f32, f64 (got '" + std::string(text) + "')");
+    constexpr std::array<std::string_view, 3> names{"f16", "f32", "f64"};
+    throw UsageError("--dtype: " + not_one_of(names, text));
 }
 
 tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat* format,

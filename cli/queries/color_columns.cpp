@@ -8,7 +8,6 @@
 #include "core/colorimetry/color_terms.hpp"
 #include "core/colorimetry/difference.hpp"
 #include "core/error.hpp"
-#include "schemas/readers/nearest.hpp"
 
 namespace irido::cli {
 
@@ -42,8 +41,7 @@ bool is_difference(ColorColumn column) {
 ColorColumn color_column_of(std::string_view name) {
     const auto found = std::ranges::find(kColorNames, name);
     if (found != kColorNames.end()) return static_cast<ColorColumn>(found - kColorNames.begin());
-    throw UsageError("--columns: " + not_one_of(kColorNames, name) +
-                     schemas::did_you_mean(name, {kColorNames.begin(), kColorNames.end()}));
+    throw UsageError("--columns: " + not_one_of(kColorNames, name));
 }
 
 }  // namespace

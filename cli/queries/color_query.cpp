@@ -139,7 +139,7 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
       tolerance_(parse_tolerance(typed.color.tolerance)),
       space_(&parse_space(typed.color.space)),
       stats_(typed.stats),
-      strict_(typed.strict),
+      strict_(typed.color.strict),
       run_(run) {
     const Adaptation adaptation = parse_adaptation(typed.color.adaptation);
     request_.sides = parse_sides(typed.color.sides);
@@ -475,8 +475,7 @@ std::unique_ptr<QueryOptions> ColorQueryOptions::add(CLI::App& command) {
     command.add_flag("--stats", options->stats,
                      "add columns method,evaluations,error_estimate; the error of\n"
                      "approximate methods is measured against quadrature");
-    command.add_flag("--strict", options->strict,
-                     "refuse materials whose data do not cover 360 to 830 nm");
+    add_strict_option(command, options->color.strict);
     return options;
 }
 
@@ -503,7 +502,7 @@ nlohmann::json ColorQueryOptions::typed() const {
             {"target", target},
             {"compare", compare},
             {"stats", stats},
-            {"strict", strict}};
+            {"strict", color.strict}};
 }
 
 }  // namespace irido::cli

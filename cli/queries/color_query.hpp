@@ -22,7 +22,6 @@ struct ColorQueryOptions : QueryOptions {
     std::string target;
     bool compare = false;
     bool stats = false;
-    bool strict = false;
 
     static std::unique_ptr<QueryOptions> add(CLI::App& command);
     std::unique_ptr<const Query> parse(const QueryRun& run) const override;

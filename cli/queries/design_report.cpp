@@ -180,7 +180,7 @@ tables::Figure target_figure(const schemas::DesignTask& task, const tables::Reco
                              bool residuals) {
     tables::Figure figure{.title = task.name.empty() ? task.file : task.name};
     const auto& quantity = text_column(report, "quantity");
-    const auto& letter = text_column(report, "polarization");
+    const auto& letters = text_column(report, "polarization");
     const auto& angle = number_column(report, "angle_deg");
     const auto& wavelength = number_column(report, "wavelength_nm");
     const auto& value = number_column(report, residuals ? "difference" : "value");
@@ -201,9 +201,11 @@ tables::Figure target_figure(const schemas::DesignTask& task, const tables::Reco
             if (residuals) figure.panels.back().y.quantity += ", value - target";
         }
         tables::Panel& to = figure.panels[panel->second];
+        const std::string letter = letters[r] == "u" ? "" : letters[r];  // unpolarized
         const std::string name =
-            is_color ? (letter[r] == "u" ? "stack" : letter[r])
-                     : to_text(angle[r]) + " deg" + (letter[r].empty() ? "" : " " + letter[r]);
+            is_color && letter.empty() ? "stack"
+            : is_color                 ? letter
+                       : (letter.empty() ? "" : letter + ", ") + to_text(angle[r]) + "\u00b0";
         const auto [curve, is_new_curve] =
             curves[panel->second].try_emplace(name, curves[panel->second].size());
         if (is_new_curve) {

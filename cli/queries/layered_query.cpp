@@ -12,6 +12,7 @@
 #include "core/rough/layered/adding.hpp"
 #include "core/rough/layered/layered_color.hpp"
 #include "core/rough/layered/refracted_light.hpp"
+#include "schemas/documents/canonical_stack.hpp"
 #include "schemas/input_error.hpp"
 
 namespace irido::cli {
@@ -24,11 +25,39 @@ Paths parse_paths(const std::string& text) {
     throw UsageError("--paths: " + not_one_of(names, text));
 }
 
+Paths parse_closed_paths(const std::string& text) {
+    constexpr std::array<std::string_view, 2> names{"single", "all"};
+    if (text == names[0]) return Paths::single;
+    if (text == names[1]) return Paths::all;
+    throw UsageError("--paths: " + not_one_of(names, text));
+}
+
 Crossings parse_crossings(const std::string& text) {
     constexpr std::array<std::string_view, 2> names{"single", "multiple"};
     if (text == names[0]) return Crossings::single;
     if (text == names[1]) return Crossings::multiple;
     throw UsageError("--transmission: " + not_one_of(names, text));
+}
+
+nlohmann::json surface_facts(const LayeredSurface& surface, const SurfaceQuery& query) {
+    nlohmann::json layers = nlohmann::json::array();
+    for (const RoughLayer& layer : surface.layers)
+        layers.push_back(
+            {{"alpha", layer.alpha}, {"stack", schemas::canonical_stack(layer.stack)}});
+    nlohmann::json albedo;
+    if (const auto* table = std::get_if<Table>(&surface.base_albedo)) {
+        for (std::size_t k = 0; k < table->value.size(); ++k)
+            albedo.push_back({table->wavelength_nm[k], table->value[k]});
+    } else {
+        albedo = std::get<Constant>(surface.base_albedo).value;
+    }
+    return {{"request",
+             {{"layers", layers},
+              {"base", {{"albedo", albedo}}},
+              {"paths", query.paths},
+              {"transmission", query.transmission},
+              {"illuminant", query.color.illuminant},
+              {"observer", query.color.observer}}}};
 }
 
 void report_held_layers(const LayeredSurface& surface, const schemas::SurfaceDocument& document,
@@ -39,7 +68,7 @@ void report_held_layers(const LayeredSurface& surface, const schemas::SurfaceDoc
         layer.file = document.file;
         layer.material_pointers.assign(layer.stack.materials.size(),
                                        "/layers/" + std::to_string(l) + "/stack");
-        report_held_ranges(layer, sensitivity, false, query.note);
+        report_held_ranges(layer, sensitivity, query.color.strict, query.note);
     }
 }
 
@@ -145,7 +174,7 @@ SurfaceRows simulated_colors(const LayeredSurface& surface,
                              const schemas::SurfaceDocument& document, const SurfaceQuery& query) {
     constexpr std::size_t kWavelengths = 119;
     const Crossings crossings = parse_crossings(query.transmission);
-    const SimulationPlan plan = parse_simulation(query, crossings);
+    const SimulationPlan plan = parse_simulation(surface, query, crossings);
     if (query.color.method != "auto")
         throw UsageError("--method: requires --paths single or all (got '" + query.paths + "')");
     const ColorColumns columns(query.color);
@@ -179,14 +208,14 @@ SurfaceRows simulated_colors(const LayeredSurface& surface,
         keys.emplace_back("light_theta_deg", thetas);
         once = [&simulation, thetas] { return simulation.albedo(thetas); };
     }
-    const SimulatedValues simulated =
-        simulate(document, plan, simulation, once, keys, {"X", "Y", "Z"}, 1);
+    const std::vector<std::string> names{"X", "Y", "Z"};
+    const SimulatedValues simulated = simulate(document, plan, simulation, once, keys, names, 1);
     std::vector<Triple> xyz;
     for (std::size_t k = 0; k < simulated.values.mean.size(); k += 3)
         xyz.push_back(
             {simulated.values.mean[k], simulated.values.mean[k + 1], simulated.values.mean[k + 2]});
     SurfaceRows rows = columns.rows(std::move(keys), xyz);
-    add_simulated_columns(simulated, 3, rows);
+    add_simulated_columns(simulated, names, rows);
     return rows;
 }
 
@@ -261,7 +290,7 @@ public:
           paths_(parse_paths(query.paths)),
           scattering_(surface, parse_crossings(query.transmission), query.execution) {
         if (is_simulated(query))
-            simulation_ = parse_simulation(query, parse_crossings(query.transmission));
+            simulation_ = parse_simulation(surface, query, parse_crossings(query.transmission));
         else
             require_no_simulation(query);
     }
@@ -277,8 +306,7 @@ public:
         if (query_.quantity == "sampling") return sampling();
         constexpr std::array<std::string_view, 4> names{"brdf", "albedo", "transmissivity",
                                                         "sampling"};
-        throw UsageError("--quantity: " + not_one_of(names, query_.quantity) +
-                         " for a layered surface");
+        throw UsageError("--quantity of a layered surface: " + not_one_of(names, query_.quantity));
     }
 
 private:
@@ -359,7 +387,7 @@ private:
         const std::size_t key_count = keys.size();
         keys.emplace_back(name, found.values.mean);
         SurfaceRows rows = rows_of(std::move(keys), key_count);
-        add_simulated_columns(found, 1, rows);
+        add_simulated_columns(found, {name}, rows);
         return rows;
     }
 

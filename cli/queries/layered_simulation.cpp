@@ -9,6 +9,7 @@
 #include "schemas/input_error.hpp"
 #include "schemas/readers/points_csv.hpp"
 #include "schemas/readers/text_file.hpp"
+#include "tables/files/hash.hpp"
 
 namespace irido::cli {
 
@@ -17,7 +18,21 @@ namespace {
 /// Samples with which a simulation to a tolerance begins, and its most.
 constexpr std::uint64_t kFirstSamples = 4096, kMostTolerated = 1'000'000'000;
 
-constexpr const char *kFirstSample = "first_sample", *kSamples = "samples", *kStderr = "stderr";
+constexpr const char *kFirstSample = "first_sample", *kSamples = "samples",
+                     *kAllSamples = "all_samples", *kRequest = "request", *kStderr = "stderr";
+constexpr std::array<const char*, 3> kShardColors{"X", "Y", "Z"};
+
+/// Columns of a shard that hold the sums of a value, which follow its name.
+struct SumColumn {
+    const char* ending;
+    std::vector<LongSum> LayeredSimulation::Values::*sums;
+    double LongSum::*part;
+};
+constexpr std::array kSumColumns{
+    SumColumn{"_sum", &LayeredSimulation::Values::sum, &LongSum::high},
+    SumColumn{"_sum_low", &LayeredSimulation::Values::sum, &LongSum::low},
+    SumColumn{"_square", &LayeredSimulation::Values::square, &LongSum::high},
+    SumColumn{"_square_low", &LayeredSimulation::Values::square, &LongSum::low}};
 
 /// The largest standard error relative to max(floor, |value|).
 double worst_of(const LayeredSimulation::Values& values, double floor) {
@@ -45,7 +60,7 @@ LayeredSimulation::Values to_tolerance(const schemas::SurfaceDocument& document,
                                  ")");
         const auto more = static_cast<std::uint64_t>(whole) - done;
         simulation.set_paths(done, more);
-        values.add(static_cast<double>(done), once(), static_cast<double>(more));
+        values.add(once());
         done += more;
     }
 }
@@ -53,68 +68,119 @@ LayeredSimulation::Values to_tolerance(const schemas::SurfaceDocument& document,
 /// A shard as its file has it.
 struct ShardRows {
     std::string file;
-    std::uint64_t first = 0, samples = 0;
+    NumberColumns keys;
+    std::vector<std::string> names;  ///< of the values
+    double request = 0;
+    std::uint64_t first = 0, all_samples = 0;
     LayeredSimulation::Values values;
-};
+    std::vector<schemas::PointsColumn> columns;
 
-ShardRows read_shard(const std::string& path, const NumberColumns& keys,
-                     const std::vector<std::string>& names) {
-    ShardRows shard;
-    shard.file = schemas::shown_path(path);
-    const auto columns = schemas::read_points_csv(schemas::read_text(path), shard.file);
-    const std::size_t rows = keys.front().second.size();
-    const auto numbers_of = [&](const std::string& name) -> const std::vector<double>& {
+    [[noreturn]] void fail(const std::string& text) const {
+        throw schemas::InputError(file, "", text);
+    }
+    const std::vector<double>& numbers_of(const std::string& name) const {
         const auto found = std::ranges::find(columns, name, &schemas::PointsColumn::path);
-        if (found == columns.end() || found->numbers.size() != rows)
-            throw schemas::InputError(shard.file, "",
-                                      "must have the numbers " + name + " of " +
-                                          std::to_string(rows) + " rows, as --shard writes them");
+        if (found == columns.end() || found->numbers.empty())
+            fail("must have numbers in the column " + name + ", as --shard writes them");
         return found->numbers;
-    };
-    for (const auto& [name, numbers] : keys)
-        if (numbers_of(name) != numbers)
-            throw schemas::InputError(shard.file, "",
-                                      "is a shard of another request: " + name + " differs");
-    const std::vector<double>& errors = numbers_of(kStderr);
-    for (std::size_t r = 0; r < rows; ++r)
-        for (const std::string& name : names) {
-            shard.values.mean.push_back(numbers_of(name)[r]);
-            shard.values.error.push_back(errors[r]);
-        }
-    const auto one_of = [&](const char* name) {
+    }
+    /// Of a column that is the same in every row.
+    std::uint64_t number_of(const char* name) const {
         const std::vector<double>& numbers = numbers_of(name);
         if (std::ranges::any_of(numbers, [&](double x) { return x != numbers.front(); }) ||
             numbers.front() < 0 || numbers.front() != std::floor(numbers.front()))
-            throw schemas::InputError(shard.file, "",
-                                      std::string(name) + " must be one whole number");
+            fail(std::string(name) + " must be one whole number");
         return static_cast<std::uint64_t>(numbers.front());
+    }
+};
+
+ShardRows read_shard(const std::string& path) {
+    ShardRows shard;
+    shard.file = schemas::shown_path(path);
+    shard.columns = schemas::read_points_csv(schemas::read_text(path), shard.file);
+    const auto place_of = [&](const char* name) {
+        return std::ranges::find(shard.columns, name, &schemas::PointsColumn::path);
     };
-    shard.first = one_of(kFirstSample);
-    shard.samples = one_of(kSamples);
+    shard.numbers_of(kStderr);
+    const bool is_color = place_of(kShardColors[0]) != shard.columns.end();
+    auto value = is_color ? place_of(kShardColors[0]) : place_of(kStderr);
+    if (!is_color && value != shard.columns.begin()) --value;
+    if (is_color)
+        shard.names.assign(kShardColors.begin(), kShardColors.end());
+    else
+        shard.names = {value->path};
+    for (auto key = shard.columns.begin(); key != value; ++key)
+        shard.keys.emplace_back(key->path, shard.numbers_of(key->path));
+    shard.request = static_cast<double>(shard.number_of(kRequest));
+    shard.first = shard.number_of(kFirstSample);
+    shard.all_samples = shard.number_of(kAllSamples);
+    shard.values.samples = shard.number_of(kSamples);
+    const std::size_t rows = shard.numbers_of(kStderr).size(), size = shard.names.size();
+    shard.values.sum.resize(rows * size);
+    shard.values.square.resize(rows * size);
+    for (std::size_t n = 0; n < size; ++n)
+        for (const SumColumn& column : kSumColumns) {
+            const std::vector<double>& numbers = shard.numbers_of(shard.names[n] + column.ending);
+            for (std::size_t r = 0; r < rows; ++r)
+                (shard.values.*column.sums)[r * size + n].*column.part = numbers[r];
+        }
+    if (shard.values.samples < 2) shard.fail("must have 2 samples or more");
+    shard.values.set_means();
     return shard;
+}
+
+/// The shards of one request, by their samples, of which none is missing.
+std::vector<ShardRows> read_shards(const std::vector<std::string>& files) {
+    std::vector<ShardRows> shards;
+    for (const std::string& file : files) shards.push_back(read_shard(file));
+    std::ranges::sort(shards, {}, &ShardRows::first);
+    std::uint64_t done = 0;
+    for (const ShardRows& shard : shards) {
+        const ShardRows& one = shards.front();
+        if (shard.request != one.request || shard.keys != one.keys || shard.names != one.names ||
+            shard.all_samples != one.all_samples)
+            shard.fail("is a shard of another request than " + one.file);
+        if (shard.first != done)
+            shard.fail("begins with sample " + std::to_string(shard.first) +
+                       "; the shards before it end at " + std::to_string(done));
+        done += shard.values.samples;
+    }
+    if (done != shards.front().all_samples)
+        shards.back().fail("the shards end at sample " + std::to_string(done) + " of " +
+                           std::to_string(shards.front().all_samples));
+    return shards;
+}
+
+LayeredSimulation::Values sum_of(const std::vector<ShardRows>& shards) {
+    LayeredSimulation::Values all = shards.front().values;
+    for (std::size_t s = 1; s < shards.size(); ++s) all.add(shards[s].values);
+    return all;
+}
+
+/// A whole number that differs for different requests.
+double request_number(const SimulationPlan& plan, const NumberColumns& keys,
+                      const std::vector<std::string>& names) {
+    nlohmann::json facts = plan.facts;
+    for (const auto& [name, numbers] : keys) facts["keys"][name] = numbers;
+    facts["names"] = names;
+    constexpr std::size_t kDigits = 13;  // 52 bits
+    const std::string digits = tables::sha256_of(facts.dump()).substr(0, kDigits);
+    return static_cast<double>(std::stoull(digits, nullptr, 16));
 }
 
 LayeredSimulation::Values merged(const SimulationPlan& plan, const NumberColumns& keys,
                                  const std::vector<std::string>& names) {
-    std::vector<ShardRows> shards;
-    for (const std::string& file : plan.merge) shards.push_back(read_shard(file, keys, names));
-    std::ranges::sort(shards, {}, &ShardRows::first);
-    LayeredSimulation::Values all = shards.front().values;
-    std::uint64_t done = 0;
-    for (const ShardRows& shard : shards) {
-        if (shard.first != done)
-            throw schemas::InputError(shard.file, "",
-                                      "begins with sample " + std::to_string(shard.first) +
-                                          "; the shards before it end at " + std::to_string(done));
-        if (done > 0)
-            all.add(static_cast<double>(done), shard.values, static_cast<double>(shard.samples));
-        done += shard.samples;
-    }
-    if (done != plan.request.samples)
-        throw schemas::InputError(shards.back().file, "",
-                                  "the shards end at sample " + std::to_string(done) + " of " +
-                                      std::to_string(plan.request.samples));
-    return all;
+    const std::vector<ShardRows> shards = read_shards(plan.merge);
+    if (shards.front().request != request_number(plan, keys, names))
+        shards.front().fail("is a shard of another request than this one");
+    return sum_of(shards);
+}
+
+std::vector<Triple> colors_of(const LayeredSimulation::Values& values) {
+    std::vector<Triple> xyz;
+    for (std::size_t k = 0; k < values.mean.size(); k += 3)
+        xyz.push_back({values.mean[k], values.mean[k + 1], values.mean[k + 2]});
+    return xyz;
 }
 
 }  // namespace
@@ -123,7 +189,8 @@ bool is_simulated(const SurfaceQuery& query) {
     return query.paths.starts_with("simulation");
 }
 
-SimulationPlan parse_simulation(const SurfaceQuery& query, Crossings crossings) {
+SimulationPlan parse_simulation(const LayeredSurface& surface, const SurfaceQuery& query,
+                                Crossings crossings) {
     constexpr double kMostSamples = 1e12, kMostSeed = 9007199254740992;
     constexpr std::array<std::string_view, 2> choices{"sampled", "filter"};
     SimulationPlan plan;
@@ -150,6 +217,12 @@ SimulationPlan parse_simulation(const SurfaceQuery& query, Crossings crossings) 
             throw UsageError("--tolerance of a simulation excludes --samples, --shard and --merge");
         plan.tolerance = parse_tolerance(query.color.tolerance);
     }
+    if (!plan.shard && plan.merge.empty()) return plan;
+    plan.facts = surface_facts(surface, query);
+    plan.facts["quantity"] = query.quantity;
+    plan.facts["samples"] = request.samples;
+    plan.facts["seed"] = request.seed;
+    plan.facts["facets"] = choices[static_cast<std::size_t>(request.facets)];
     return plan;
 }
 
@@ -171,35 +244,69 @@ SimulatedValues simulate(const schemas::SurfaceDocument& document, const Simulat
                          const std::function<LayeredSimulation::Values()>& once,
                          const NumberColumns& keys, const std::vector<std::string>& names,
                          double floor) {
-    if (!plan.merge.empty()) return {merged(plan, keys, names), {}, {}};
+    if (!plan.merge.empty()) return {merged(plan, keys, names), {}};
     if (plan.tolerance)
-        return {to_tolerance(document, *plan.tolerance, simulation, once, floor), {}, {}};
-    if (!plan.shard) return {once(), {}, {}};
+        return {to_tolerance(document, *plan.tolerance, simulation, once, floor), {}};
+    if (!plan.shard) return {once(), {}};
     const auto begin_of = [&](std::uint64_t number) {
         const std::uint64_t each = plan.request.samples / plan.shard->of;
         return each * number + std::min(number, plan.request.samples % plan.shard->of);
     };
     const std::uint64_t first = begin_of(plan.shard->number - 1);
-    const std::uint64_t samples = begin_of(plan.shard->number) - first;
-    simulation.set_paths(first, samples);
-    return {once(), first, samples};
+    simulation.set_paths(first, begin_of(plan.shard->number) - first);
+    return {once(), ShardFacts{first, plan.request.samples, request_number(plan, keys, names)}};
 }
 
-void add_simulated_columns(const SimulatedValues& simulated, std::size_t values_per_row,
+void add_simulated_columns(const SimulatedValues& simulated, const std::vector<std::string>& names,
                            SurfaceRows& rows) {
-    const std::vector<double>& errors = simulated.values.error;
-    tables::Column::Numbers largest;
-    for (std::size_t k = 0; k < errors.size(); k += values_per_row)
-        largest.push_back(
-            *std::max_element(errors.begin() + static_cast<std::ptrdiff_t>(k),
-                              errors.begin() + static_cast<std::ptrdiff_t>(k + values_per_row)));
-    const std::size_t count = largest.size();
-    rows.records.columns.push_back({kStderr, std::move(largest)});
-    if (!simulated.samples) return;
-    for (const auto& [name, value] :
-         {std::pair(kFirstSample, *simulated.first), {kSamples, *simulated.samples}})
-        rows.records.columns.push_back(
-            {name, tables::Column::Numbers(count, static_cast<double>(value))});
+    const LayeredSimulation::Values& values = simulated.values;
+    const std::size_t size = names.size(), count = values.error.size() / size;
+    const auto add = [&](std::string name, const auto& number_of) {
+        tables::Column::Numbers numbers;
+        for (std::size_t row = 0; row < count; ++row) numbers.push_back(number_of(row));
+        rows.records.columns.push_back({std::move(name), std::move(numbers)});
+    };
+    add(kStderr, [&](std::size_t row) {
+        return std::ranges::max(std::span(values.error).subspan(row * size, size));
+    });
+    if (!simulated.shard) return;
+    for (const auto& [name, number] :
+         {std::pair(kFirstSample, static_cast<double>(simulated.shard->first)),
+          {kSamples, static_cast<double>(values.samples)},
+          {kAllSamples, static_cast<double>(simulated.shard->all_samples)},
+          {kRequest, simulated.shard->request}})
+        add(name, [number = number](std::size_t) { return number; });
+    for (std::size_t n = 0; n < size; ++n)
+        for (const SumColumn& column : kSumColumns)
+            add(names[n] + column.ending, [&](std::size_t row) {
+                return (values.*column.sums)[row * size + n].*column.part;
+            });
+}
+
+SurfaceRows rows_of_shards(const SurfaceQuery& query) {
+    std::vector<ShardRows> shards = read_shards(query.merge);
+    const ShardRows& first = shards.front();
+    const SimulatedValues all{sum_of(shards), {}};
+    NumberColumns keys = first.keys;
+    SurfaceRows rows;
+    if (first.names.size() > 1) {
+        const ColorColumns columns(query.color);
+        // the colours of the first shard tell whether the light and the space are those typed
+        for (const tables::Column& column :
+             columns.rows(keys, colors_of(first.values)).records.columns)
+            if (const auto* numbers = std::get_if<tables::Column::Numbers>(&column.values))
+                if (first.numbers_of(column.name) != *numbers)
+                    first.fail(
+                        "has colours in another --space, --illuminant, --observer or --adaptation: "
+                        "repeat the options of the shards");
+        rows = columns.rows(std::move(keys), colors_of(all.values));
+    } else {
+        const std::size_t count = keys.size();
+        keys.emplace_back(first.names.front(), all.values.mean);
+        rows = rows_of(std::move(keys), count);
+    }
+    add_simulated_columns(all, first.names, rows);
+    return rows;
 }
 
 }  // namespace irido::cli

@@ -18,26 +18,34 @@ struct SimulationPlan {
     std::optional<double> tolerance;  ///< instead of samples
     std::optional<Shard> shard;       ///< the part to compute
     std::vector<std::string> merge;   ///< files of parts, instead of a simulation
+    nlohmann::json facts;             ///< what parts have in common, if there are some
 };
 
 bool is_simulated(const SurfaceQuery& query);
 
 /// Throws UsageError.
-SimulationPlan parse_simulation(const SurfaceQuery& query, Crossings crossings);
+SimulationPlan parse_simulation(const LayeredSurface& surface, const SurfaceQuery& query,
+                                Crossings crossings);
 
 /// Throws UsageError if options of simulations were typed for none.
 void require_no_simulation(const SurfaceQuery& query);
 
+/// Where a shard belongs.
+struct ShardFacts {
+    std::uint64_t first = 0, all_samples = 0;
+    double request = 0;  ///< a whole number, the same for all shards of a request
+};
+
 /// Means and standard errors of a simulation, of all its samples or one shard, or of merged files.
 struct SimulatedValues {
     LayeredSimulation::Values values;
-    std::optional<std::uint64_t> first, samples;  ///< of a shard
+    std::optional<ShardFacts> shard;
 };
 
 /// Runs `once` for the simulation's paths. With a tolerance as often as it takes until every
 /// standard error is at most that part of max(floor, |value|); throws ToleranceError where more
-/// than 1e9 samples would be needed. Merged files must have the same keys, and their samples be
-/// those of the whole, each once; else throws InputError.
+/// than 1e9 samples would be needed. Merged files must be of this request, and their samples those
+/// of the whole, each once; else throws InputError.
 ///   keys   the rows' key columns
 ///   names  the columns of values, in their order in a row: one, or X, Y and Z
 SimulatedValues simulate(const schemas::SurfaceDocument& document, const SimulationPlan& plan,
@@ -47,7 +55,12 @@ SimulatedValues simulate(const schemas::SurfaceDocument& document, const Simulat
                          double floor);
 
 /// Appends stderr, the largest of each row's values, and what a shard needs to be merged.
-void add_simulated_columns(const SimulatedValues& simulated, std::size_t values_per_row,
+///   names  the columns of values
+void add_simulated_columns(const SimulatedValues& simulated, const std::vector<std::string>& names,
                            SurfaceRows& rows);
+
+/// The rows of the whole from the files of all of its shards alone, `query.merge`; colours in the
+/// light and space of the query, which must be those of the shards. Throws InputError.
+SurfaceRows rows_of_shards(const SurfaceQuery& query);
 
 }  // namespace irido::cli

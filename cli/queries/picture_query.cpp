@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/options/picture_options.hpp"
 #include "cli/queries/surface_query.hpp"
 #include "core/error.hpp"
 #include "core/rough/ggx.hpp"
@@ -19,7 +20,7 @@ namespace irido::cli {
 namespace {
 
 constexpr std::size_t kRoughSamples = 64;
-constexpr double kMostSide = 8192, kMostExposure = 40, kMostSeed = 1e15;
+constexpr double kMostSide = 8192, kMostSeed = 1e15;
 
 /// Parses W,H or one number for both.
 std::array<std::size_t, 2> parse_picture_size(const std::string& text) {
@@ -53,7 +54,8 @@ Triple parse_background(const std::string& text) {
     try {
         return rgb_of_hex(rgb_space("srgb"), text);
     } catch (const DomainError&) {
-        throw UsageError("--background: must be none, environment or #rrggbb (got '" + text + "')");
+        constexpr std::array<std::string_view, 3> names{"none", "environment", "#rrggbb"};
+        throw UsageError("--background: " + not_one_of(names, text));
     }
 }
 
@@ -63,13 +65,10 @@ bool is_exr(const std::string& text) {
 
 Environment parse_environment(const std::string& text, std::string& hash) {
     if (!is_exr(text)) {
-        const auto names = environment_names();
-        if (std::ranges::find(names, text) == names.end())
-            throw UsageError(
-                "--environment: must be one of studio, sky, white, none or an .exr file "
-                "(got '" +
-                text + "')");
-        return named_environment(text);
+        std::vector<std::string_view> names(environment_names().begin(), environment_names().end());
+        if (std::ranges::find(names, text) != names.end()) return named_environment(text);
+        names.emplace_back("an .exr file");
+        throw UsageError("--environment: " + not_one_of(names, text));
     }
     const std::string bytes = schemas::read_text(text, schemas::TextSource::regular_file);
     hash = tables::sha256_of(bytes);
@@ -167,6 +166,7 @@ void PictureQueryOptions::add(CLI::App& command) {
            "largest error of colours by a table, CIEDE2000, [0.001, 10] [0.1]", "E");
     command.add_flag("--exact", exact, "compute each pixel's colour, no table");
     add_light_options(command, light);
+    add_strict_option(command, light.strict);
     offer(command, "shape", "sphere bubble plane ring gem");
     offer(command, "camera", "orthographic perspective");
     offer(command, "background", "none environment");
@@ -180,9 +180,9 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
     : typed_(typed), execution_(execution) {
     const auto [width, height] =
         typed.size.empty() ? std::array{usual_size, usual_size} : parse_picture_size(typed.size);
-    if (typed.camera != "orthographic" && typed.camera != "perspective")
-        throw UsageError("--camera: must be orthographic or perspective (got '" + typed.camera +
-                         "')");
+    constexpr std::array<std::string_view, 2> cameras{"orthographic", "perspective"};
+    if (std::ranges::find(cameras, typed.camera) == cameras.end())
+        throw UsageError("--camera: " + not_one_of(cameras, typed.camera));
     scene_.camera = {width, height, typed.camera == "perspective"};
     const auto names = shape_names();
     if (std::ranges::find(names, typed.shape) == names.end())
@@ -210,15 +210,33 @@ PictureQuery::PictureQuery(const PictureQueryOptions& typed, const Execution& ex
         scene_.background = scene_.environment;
     else if (typed.background != "none")
         scene_.background = parse_background(typed.background);
-    paths_ = parse_paths(typed.paths);
+    paths_ = parse_closed_paths(typed.paths);
     crossings_ = parse_crossings(typed.transmission);
-    if (typed.paths.starts_with("simulation"))
-        throw UsageError("--paths: must be single or all (got " + typed.paths + ")");
     light_ = std::make_unique<Illumination>(
         typed.light.illuminant,
         Sensitivity(parse_observer(typed.light.observer), parse_illuminant(typed.light.illuminant)),
         rgb_space("srgb"), Adaptation::bradford);
     set_lights(typed);
+    require_seen_lamps(typed.shape);
+}
+
+/// Throws UsageError for a lamp all of whose light is kept by an opaque shape or by the floor.
+void PictureQuery::require_seen_lamps(const std::string& shape) const {
+    const auto body = make_shape(scene_.shape, scene_.tilt_deg, scene_.camera.elevation_deg);
+    const bool is_plane = scene_.shape == ShapeKind::plane;
+    for (std::size_t i = 0; i < scene_.lamps.size(); ++i) {
+        const Lamp& lamp = scene_.lamps[i].lamp;
+        const auto refuse = [&](const std::string& where) {
+            throw UsageError("--light: lamp " + std::to_string(i + 1) + " lies " + where +
+                             ", which lets no light out");
+        };
+        if (is_opaque(scene_.shape) &&
+            lamp.is_within([&](const Vector3& point) { return body->depth(point); }))
+            refuse((is_plane ? "behind the " : "inside the ") + shape);
+        if (scene_.floor &&
+            lamp.is_within([&](const Vector3& point) { return body->lowest() - point.y; }))
+            refuse("below the floor");
+    }
 }
 
 /// Lamps and the floor.

@@ -64,6 +64,7 @@ public:
 
 private:
     void set_lights(const PictureQueryOptions& typed);
+    void require_seen_lamps(const std::string& shape) const;
     DrawnPicture draw_stack(const Stack& stack, const std::function<void(double)>& progress,
                             std::optional<double> alpha) const;
     TracedRequest traced(const std::function<void(double)>& progress) const;

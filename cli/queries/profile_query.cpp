@@ -110,7 +110,7 @@ private:
             }
             return;
         }
-        for (const double z_nm : query_.depths_nm(first.faces_nm().back())) {
+        for (const double z_nm : query_.depths_nm(first.faces_nm())) {
             lead();
             FieldPoint point = first.at(z_nm);
             if (other) point = mean_of(point, other->at(z_nm));
@@ -134,6 +134,7 @@ ProfileQuery::ProfileQuery(const ProfileOptions& typed, const QueryRun& run)
       polarizations_(parse_polarizations(typed.polarization)),
       wavelengths_(typed.wavelengths, typed.unit, "550"),
       summary_(typed.summary),
+      faces_(typed.faces && !typed.summary),
       note_(run.note) {
     if (!typed.points.empty() && !typed.z.empty())
         throw UsageError("--points and --z are mutually exclusive");
@@ -144,20 +145,29 @@ ProfileQuery::ProfileQuery(const ProfileOptions& typed, const QueryRun& run)
     points_ = static_cast<std::size_t>(parse_whole_number("--points", points, 2, kMostPoints));
 }
 
-std::vector<double> ProfileQuery::depths_nm(double last_face_nm) const {
-    if (!z_nm_.empty()) return z_nm_;
-    const double beyond = std::ranges::max(wavelengths_.nm()) / 2;
-    const double first = -beyond, last = last_face_nm + beyond;
-    std::vector<double> depths(points_);
-    for (std::size_t i = 0; i < points_; ++i)
-        depths[i] =
-            first + (last - first) * static_cast<double>(i) / static_cast<double>(points_ - 1);
-    depths.back() = last;
+std::vector<double> ProfileQuery::depths_nm(const std::vector<double>& faces_nm) const {
+    std::vector<double> depths = z_nm_;
+    if (depths.empty()) {
+        const double beyond = std::ranges::max(wavelengths_.nm()) / 2;
+        const double first = -beyond, last = faces_nm.back() + beyond;
+        depths.resize(points_);
+        for (std::size_t i = 0; i < points_; ++i)
+            depths[i] =
+                first + (last - first) * static_cast<double>(i) / static_cast<double>(points_ - 1);
+        depths.back() = last;
+    }
+    if (!faces_) return depths;
+    const auto [first, last] = std::ranges::minmax(depths);
+    for (const double face : faces_nm) {
+        if (!(face > first && face < last)) continue;
+        depths.push_back(std::nextafter(face, -std::numeric_limits<double>::infinity()));
+        depths.push_back(face);
+    }
     return depths;
 }
 
 std::size_t ProfileQuery::rows_per_angle() const {
-    if (summary_) return 0;
+    if (summary_ || faces_) return 0;
     const std::size_t points = z_nm_.empty() ? points_ : z_nm_.size();
     return polarizations_.size() * wavelengths_.nm().size() * points;
 }

@@ -17,6 +17,7 @@ struct ProfileOptions : QueryOptions {
     std::string points;  ///< "" if not given
     std::string z;       ///< "" if not given
     bool summary = false;
+    bool faces = false;  ///< of pictures: depths on both sides of every face as well
 
     static std::unique_ptr<QueryOptions> add(CLI::App& command);
     std::unique_ptr<const Query> parse(const QueryRun& run) const override;
@@ -38,8 +39,8 @@ public:
                    std::optional<double> wavelength_nm) const override;
 
     bool is_summary() const { return summary_; }
-    /// The depths of the rows, nm, for a stack whose substrate begins at `last_face_nm`.
-    std::vector<double> depths_nm(double last_face_nm) const;
+    /// The depths of the rows, nm, for a stack with these faces, the first at 0.
+    std::vector<double> depths_nm(const std::vector<double>& faces_nm) const;
 
 private:
     friend class ProfileResult;
@@ -49,7 +50,7 @@ private:
     TypedWavelengths wavelengths_;
     std::vector<double> z_nm_;  ///< if empty, `points_` depths are chosen
     std::size_t points_ = 0;
-    bool summary_;
+    bool summary_, faces_;
     std::function<void(const std::string&)> note_;
 };
 

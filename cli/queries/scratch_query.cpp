@@ -43,8 +43,8 @@ public:
           scattering_(surface, sight_of(query.scratch), sum_, query.execution) {
         constexpr std::array<std::string_view, 2> quantities{"brdf", "density"};
         if (std::ranges::find(quantities, query.quantity) == quantities.end())
-            throw UsageError("--quantity: " + not_one_of(quantities, query.quantity) +
-                             " for a scratched surface");
+            throw UsageError("--quantity of a scratched surface: " +
+                             not_one_of(quantities, query.quantity));
         if (query.paths != "single" || query.transmission != "single")
             throw UsageError("--paths and --transmission apply to layered surfaces only");
         if (!query.samples.empty() || !query.facets.empty() || query.scatterogram)

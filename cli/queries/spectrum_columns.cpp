@@ -6,7 +6,6 @@
 
 #include "cli/options/list.hpp"
 #include "core/error.hpp"
-#include "schemas/readers/nearest.hpp"
 
 namespace irido::cli {
 
@@ -38,8 +37,7 @@ std::string name_of(SpectrumColumn column) {
 SpectrumColumn column_of(std::string_view name) {
     const auto found = std::ranges::find(kNames, name);
     if (found != kNames.end()) return static_cast<SpectrumColumn>(found - kNames.begin());
-    throw UsageError("--columns: " + not_one_of(kNames, name) +
-                     schemas::did_you_mean(name, {kNames.begin(), kNames.end()}));
+    throw UsageError("--columns: " + not_one_of(kNames, name));
 }
 
 /// Appends the values of rows to a column, in order.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,7 +44,11 @@ struct SurfaceRows {
 
 // Parsers of option values; each throws UsageError.
 Paths parse_paths(const std::string& text);
+Paths parse_closed_paths(const std::string& text);  ///< single or all, without simulations
 Crossings parse_crossings(const std::string& text);
+
+/// A layered surface and the query as metadata has them.
+nlohmann::json surface_facts(const LayeredSurface& surface, const SurfaceQuery& query);
 
 /// Notes materials of the layers that colours clamp to their end values; see report_held_ranges().
 /// surface      the surface

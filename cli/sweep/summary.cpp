@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "cli/options/list.hpp"
-#include "schemas/readers/nearest.hpp"
+#include "core/nearest.hpp"
 #include "schemas/readers/number.hpp"
 #include "tables/records/packed_rows.hpp"
 
@@ -184,7 +184,7 @@ private:
             if (field.type != FieldType::text) names.push_back(field.name);
         if (std::ranges::find(names, limit.column) == names.end())
             throw UsageError("--limit: unknown column '" + limit.column + "'" +
-                             schemas::did_you_mean(limit.column, names));
+                             did_you_mean(limit.column, names));
     }
 
     /// Determines from the first rows which columns distinguish rows and which are quantities.

@@ -152,6 +152,20 @@ Vector3 Lamp::draw(const Vector3& from, double u, double v) const {
     return dot(to, to) > 0 ? normalized(to) : normal_;
 }
 
+bool Lamp::is_within(const std::function<double(const Vector3&)>& depth) const {
+    if (std::holds_alternative<FarLamp>(shape_)) return false;
+    if (const auto* const ball = std::get_if<BallLamp>(&shape_))
+        return depth(ball->center) >= ball->radius;
+    const auto& points = std::get<FlatLamp>(shape_).vertices;
+    Vector3 sum;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vector3& next = points[(i + 1) % points.size()];
+        if (depth(points[i]) < 0 || depth(0.5 * (points[i] + next)) < 0) return false;
+        sum = sum + points[i];
+    }
+    return depth(1 / static_cast<double>(points.size()) * sum) >= 0;
+}
+
 double Lamp::density(const Vector3& from, const Vector3& direction) const {
     const std::optional<double> at = distance(from, direction);
     if (!at) return 0;

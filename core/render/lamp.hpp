@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -47,6 +48,10 @@ public:
     Vector3 draw(const Vector3& from, double u, double v) const;
     /// Probability of draw() per steradian.
     double density(const Vector3& from, const Vector3& direction) const;
+    /// Whether the whole lamp lies inside a body. Of a polygon the corners, the middles of the
+    /// edges and the centre are looked at, which decides for convex bodies.
+    ///   depth  how far a point is from the body's surface, negative outside
+    bool is_within(const std::function<double(const Vector3&)>& depth) const;
 
 private:
     struct Cone {

@@ -28,6 +28,7 @@ public:
         return Hit{distance, point, normalized(point)};
     }
     double lowest() const override { return -1; }
+    double depth(const Vector3& point) const override { return 1 - std::sqrt(dot(point, point)); }
 };
 
 class Plane : public Shape {
@@ -43,6 +44,7 @@ public:
         return Hit{distance, ray.origin + distance * ray.direction, normal_};
     }
     double lowest() const override { return 0; }
+    double depth(const Vector3& point) const override { return -dot(point, normal_); }
 
 private:
     Vector3 normal_;
@@ -72,6 +74,10 @@ public:
         return -kMinor - kMajor * std::abs(turn_.to_world({0, 0, 1}).y);
     }
 
+    double depth(const Vector3& point) const override {
+        return depth_in_body(turn_.to_body(point));
+    }
+
     std::optional<Hit> first_hit(const Ray& ray) const override {
         constexpr double kNear = 1e-11;
         constexpr int kMostSteps = 2000;
@@ -84,9 +90,9 @@ public:
         // no face is nearer than the distance from it, which is known in closed form
         for (int i = 0; i < kMostSteps && at < end; ++i) {
             const Vector3 point = o + at * d;
-            const double across = std::hypot(point.x, point.z);
-            const double off = std::hypot(across - kMajor, point.y) - kMinor;
+            const double off = -depth_in_body(point);
             if (off < kNear) {
+                const double across = std::hypot(point.x, point.z);
                 const Vector3 spine{kMajor * point.x / across, 0, kMajor * point.z / across};
                 const Vector3 normal = normalized(point - spine);
                 if (dot(normal, d) >= 0) {  // leaves it
@@ -101,6 +107,10 @@ public:
     }
 
 private:
+    static double depth_in_body(const Vector3& point) {
+        return kMinor - std::hypot(std::hypot(point.x, point.z) - kMajor, point.y);
+    }
+
     static constexpr double kMajor = 0.7, kMinor = 0.28;
     Turn turn_;
 };
@@ -156,6 +166,13 @@ public:
         const double distance = is_outside ? enter : leave;
         if (!face || !(distance > ray.from)) return std::nullopt;
         return Hit{distance, ray.origin + distance * ray.direction, face->normal};
+    }
+
+    double depth(const Vector3& point) const override {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Face& face : faces_)
+            least = std::min(least, face.offset - dot(point, face.normal));
+        return least;
     }
 
     /// The lowest corner: where three faces meet and no other cuts it off.

@@ -24,6 +24,9 @@ public:
     virtual std::optional<Hit> first_hit(const Ray& ray) const = 0;
     /// The height of the floor on which it stands; of an endless plane that of its centre.
     virtual double lowest() const = 0;
+    /// How far a point is from the surface: positive inside, negative outside. Of a gem the least
+    /// distance from the planes of its faces.
+    virtual double depth(const Vector3& point) const = 0;
 };
 
 /// The unit sphere.

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/nearest.hpp"
 #include "schemas/input_error.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "schemas/readers/number.hpp"
 #include "schemas/readers/stack_expression.hpp"
 #include "schemas/readers/text_file.hpp"

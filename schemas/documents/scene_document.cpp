@@ -37,11 +37,21 @@ ValueRange range_of(const json& value) {
     return {value[0].get<double>(), value[1].get<double>()};
 }
 
-/// Schema violations or, if there are none, duplicate names.
+std::string out_of_order(const ValueRange& range) {
+    return "must ascend (got [" + to_text(range.first) + ", " + to_text(range.last) + "])";
+}
+
+/// Schema violations or, if there are none, duplicate names and ranges of lights that descend.
 std::vector<Problem> broken_rules(const json& document) {
     static const Schema schema(json::parse(scene_schema_text()));
     std::vector<Problem> problems = check(schema, document);
     if (!problems.empty()) return problems;
+    for (std::size_t i = 0; document.contains("lights") && i < document["lights"].size(); ++i) {
+        const ValueRange range = range_of(document["lights"][i]["diameter_deg"]);
+        if (range.first > range.last)
+            problems.push_back(
+                {"/lights/" + std::to_string(i) + "/diameter_deg", out_of_order(range)});
+    }
     std::set<std::string> names;
     for (std::size_t i = 0; i < document["materials"].size(); ++i) {
         const std::string name = document["materials"][i]["name"].get<std::string>();
@@ -60,6 +70,35 @@ public:
     Scene read() {
         for (const Problem& problem : broken_rules(document_))
             throw InputError(file_, problem.pointer, problem.message);
+        read_settings();
+        for (std::size_t i = 0; i < document_["materials"].size(); ++i)
+            scene_.materials.push_back(
+                material(document_["materials"][i], "/materials/" + std::to_string(i)));
+        return std::move(scene_);
+    }
+
+    /// The materials that break no rule, in the default light, with the stacks and surfaces of the
+    /// others among the faults.
+    Scene read_rest(const std::vector<Problem>& problems) {
+        scene_.file = file_;
+        const auto materials = document_.find("materials");
+        if (materials == document_.end() || !materials->is_array()) return std::move(scene_);
+        for (std::size_t i = 0; i < materials->size(); ++i) {
+            const json& object = (*materials)[i];
+            const std::string pointer = "/materials/" + std::to_string(i);
+            const bool is_broken = std::ranges::any_of(problems, [&](const Problem& problem) {
+                return (problem.pointer + "/").starts_with(pointer + "/");
+            });
+            if (!is_broken)
+                scene_.materials.push_back(material(object, pointer));
+            else if (object.is_object())
+                scene_.materials.push_back(inside_of(object, pointer));
+        }
+        return std::move(scene_);
+    }
+
+private:
+    void read_settings() {
         scene_.file = file_;
         scene_.name = document_.value("name", "");
         scene_.space = document_.value("space", scene_.space);
@@ -74,22 +113,33 @@ public:
         }
         if (document_.contains("lights"))
             for (std::size_t i = 0; i < document_["lights"].size(); ++i)
-                scene_.lights.push_back(
-                    light(document_["lights"][i], "/lights/" + std::to_string(i)));
-        for (std::size_t i = 0; i < document_["materials"].size(); ++i)
-            scene_.materials.push_back(
-                material(document_["materials"][i], "/materials/" + std::to_string(i)));
-        return std::move(scene_);
+                scene_.lights.push_back({document_["lights"][i].value("name", ""),
+                                         range_of(document_["lights"][i]["diameter_deg"])});
     }
 
-private:
-    SceneLight light(const json& object, const std::string& pointer) const {
-        const ValueRange range = range_of(object["diameter_deg"]);
-        if (range.first > range.last)
-            throw InputError(
-                file_, pointer + "/diameter_deg",
-                "must ascend (got [" + to_text(range.first) + ", " + to_text(range.last) + "])");
-        return {object.value("name", ""), range};
+    /// The faults in the stack and the surface of a material that breaks rules itself.
+    SceneMaterial inside_of(const json& object, const std::string& pointer) const {
+        SceneMaterial result;
+        result.pointer = pointer;
+        const auto name = object.find("name");
+        const bool has_name = name != object.end() && name->is_string();
+        result.name = has_name ? name->get<std::string>() : "without a name";
+        for (const char* const key : {"stack", "surface"}) {
+            const auto inner = object.find(key);
+            if (inner == object.end() || !(inner->is_string() || inner->is_object())) continue;
+            const std::string place = pointer + "/" + key;
+            try {
+                const StackSource source = inner_stack(*inner, place, folder_);
+                for (const std::string& line :
+                     key == std::string_view("stack")
+                         ? stack_problems(source.document, source.file, source.folder)
+                         : surface_problems(source.document, source.file, source.folder))
+                    result.faults.push_back(fault_of_line(place, line));
+            } catch (const std::exception& error) {
+                result.faults.push_back(fault_of(result, error));
+            }
+        }
+        return result;
     }
 
     SceneMaterial material(const json& object, const std::string& pointer) {
@@ -246,9 +296,7 @@ private:
 
     static ValueRange ascending(SceneMaterial& material, ValueRange range,
                                 const std::string& pointer) {
-        if (range.first > range.last)
-            material.faults.push_back({pointer, "must ascend (got [" + to_text(range.first) + ", " +
-                                                    to_text(range.last) + "])"});
+        if (range.first > range.last) material.faults.push_back({pointer, out_of_order(range)});
         return range;
     }
 
@@ -270,11 +318,14 @@ const char* scene_schema_text() {
         ;
 }
 
-std::vector<std::string> scene_problems(const json& document, const std::string& file) {
-    std::vector<std::string> lines;
-    for (const Problem& problem : broken_rules(document))
-        lines.emplace_back(InputError(file, problem.pointer, problem.message).what());
-    return lines;
+Scene readable_scene(const json& document, const std::string& file, const std::string& folder,
+                     std::vector<std::string>& problems) {
+    const std::vector<Problem> broken = broken_rules(document);
+    SceneReader reader(document, file, folder);
+    if (broken.empty()) return reader.read();
+    for (const Problem& problem : broken)
+        problems.emplace_back(InputError(file, problem.pointer, problem.message).what());
+    return reader.read_rest(broken);
 }
 
 Scene read_scene(const json& document, const std::string& file, const std::string& folder) {

@@ -98,8 +98,15 @@ Scene read_scene(const std::string& path);
 Scene read_scene(const nlohmann::json& document, const std::string& file,
                  const std::string& folder);
 
-/// The problems for which read_scene() throws, one line each.
-std::vector<std::string> scene_problems(const nlohmann::json& document, const std::string& file);
+/// Reads what can be read of a scene, for reports of all its problems: if the scene breaks rules of
+/// its own, the settings are the defaults, and a material that breaks them has only the faults of
+/// its stack or surface.
+/// document  the scene
+/// file      its name in messages
+/// folder    base of its relative paths
+/// problems  receives those for which read_scene() throws, one line each
+Scene readable_scene(const nlohmann::json& document, const std::string& file,
+                     const std::string& folder, std::vector<std::string>& problems);
 
 /// Converts an error from reading or computing a material; for errors inside an inline stack the
 /// pointer is relative to the scene.

@@ -14,7 +14,7 @@
 #include <valijson/validator.hpp>
 
 #include "core/error.hpp"
-#include "schemas/readers/nearest.hpp"
+#include "core/nearest.hpp"
 
 // valijson decides whether and where a document is invalid. Its own messages only serve to tell the
 // kinds of errors apart. The messages for users come from two keywords registered in addition to
@@ -205,13 +205,30 @@ const json& follow(const Place& place, const json& document, std::string& pointe
     return *value;
 }
 
-/// "must be in [...]" also states the type if the value has a different one.
+/// The names of "must be one of a, b, c"; none of other rules.
+std::vector<std::string> names_of_rule(std::string_view words) {
+    constexpr std::string_view kOneOf = "must be one of ", kSeparator = ", ";
+    std::vector<std::string> names;
+    if (!words.starts_with(kOneOf)) return names;
+    words.remove_prefix(kOneOf.size());
+    for (std::size_t end = 0; end != std::string_view::npos;) {
+        end = words.find(kSeparator);
+        names.emplace_back(words.substr(0, end));
+        if (end != std::string_view::npos) words.remove_prefix(end + kSeparator.size());
+    }
+    return names;
+}
+
+/// "must be in [...]" also states the type if the value has a different one; "must be one of ..."
+/// the name that was probably meant.
 std::string with_value(std::string words, const json& value) {
     constexpr std::string_view kRange = "must be in [";
+    const std::string meant =
+        value.is_string() ? did_you_mean(value.get<std::string>(), names_of_rule(words)) : "";
     if (words.starts_with(kRange) && !value.is_number()) {
         words.replace(0, kRange.size(), "must be a number in [");
     }
-    return words + " (got " + short_text(value) + ")";
+    return words + " (got " + short_text(value) + ")" + meant;
 }
 
 }  // namespace

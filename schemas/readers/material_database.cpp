@@ -9,9 +9,9 @@
 #include <optional>
 #include <set>
 
+#include "core/nearest.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/column_text.hpp"
-#include "schemas/readers/nearest.hpp"
 #include "schemas/readers/number.hpp"
 #include "schemas/readers/text_file.hpp"
 #include "schemas/readers/utf8.hpp"

@@ -79,28 +79,45 @@ json complex_index(double n, double k) {
     return {{"n", n}, {"k", k}};
 }
 
+/// Where the text says a value of the document.
+struct TypedValue {
+    std::string path;
+    std::size_t begin, end;
+};
+
+std::string path_of_layer(const std::string& list, std::size_t number) {
+    return list + "." + std::to_string(number);
+}
+
 class Parser {
 public:
     explicit Parser(std::string_view text) : text_(text) {}
 
     json stack() {
-        json document{{"incident", medium("the incident medium")}, {"layers", json::array()}};
+        json document{{"incident", medium("the incident medium", "incident")},
+                      {"layers", json::array()}};
+        json& layers = document["layers"];
         expect('|');
         while (true) {
+            const std::string path = path_of_layer("layers", layers.size());
             if (peek() == '(') {
-                document["layers"].push_back(group(1));
+                layers.push_back(group(1, path));
             } else {
-                json material = medium("a layer or the substrate");
+                json material = medium("a layer or the substrate", path + ".material");
                 if (peek() == '\0') {
+                    typed_.back().path = "substrate";
                     document["substrate"] = std::move(material);
                     return document;
                 }
-                document["layers"].push_back(layer(std::move(material)));
+                layers.push_back(layer(std::move(material), path));
             }
             if (peek() == '\0') fail("\"|\" and the substrate");
             expect('|');
         }
     }
+
+    /// Of the last stack(), in the order of the text.
+    const std::vector<TypedValue>& typed() const { return typed_; }
 
 private:
     /// The next character that is not a space, '\0' at the end.
@@ -135,10 +152,16 @@ private:
         return std::string(word.empty() ? text_.substr(at_, 1) : word);
     }
 
-    json medium(const std::string& expected) {
+    /// Steps over a value of the document.
+    void pass(std::string path, std::size_t length) {
+        typed_.push_back({std::move(path), at_, at_ + length});
+        at_ += length;
+    }
+
+    json medium(const std::string& expected, std::string path) {
         const char first = peek();
         if (first == '\0' || kMarks.find(first) != std::string_view::npos) fail(expected);
-        if (first == '"') return quoted_name();
+        if (first == '"') return quoted_name(std::move(path));
         const std::string word = next_word();
         json material = parse_index(word);
         if (material.is_null()) {
@@ -150,30 +173,30 @@ private:
             }
             material = word;
         }
-        at_ += word.size();
+        pass(std::move(path), word.size());
         return material;
     }
 
     /// A name in double quotes, which may contain any mark.
-    json quoted_name() {
+    json quoted_name(std::string path) {
         const std::size_t end = text_.find('"', at_ + 1);
         if (end == text_.npos) fail("a closing \" after the name");
         if (end == at_ + 1) refuse("a name must not be empty");
         std::string name(text_.substr(at_ + 1, end - at_ - 1));
-        at_ = end + 1;
+        pass(std::move(path), end + 1 - at_);
         return name;
     }
 
-    double repeat() {
+    double repeat(const std::string& path) {
         const std::string word = next_word();
         std::string_view rest = word;
         const std::optional<double> value = take_number(rest);
         if (!value || !rest.empty()) fail("the number of repetitions");
-        at_ += word.size();
+        pass(path + ".repeat", word.size());
         return *value;
     }
 
-    json layer(json material) {
+    json layer(json material, const std::string& path) {
         if (peek() != '@') fail("\"@\" and the thickness of the layer");
         ++at_;
         const std::string word = next_word();
@@ -187,7 +210,7 @@ private:
             fail(take_number(rest) ? "a thickness such as 100, 100nm, 0.1um, 1mm or 1Q"
                                    : "a thickness in nm");
         }
-        at_ += word.size();
+        pass(path + (result.contains("qwot") ? ".qwot" : ".thickness_nm"), word.size());
         if (peek() == '!') {
             ++at_;
             result["coherent"] = false;
@@ -195,25 +218,35 @@ private:
         return result;
     }
 
-    json group(int depth) {
+    json group(int depth, const std::string& path) {
         if (depth > kDeepest) refuse("groups must nest at most 30 deep");
         json layers = json::array();
         do {
             ++at_;  // the preceding "(" or "|"
-            layers.push_back(peek() == '(' ? group(depth + 1) : layer(medium("a layer")));
+            const std::string inner = path_of_layer(path + ".layers", layers.size());
+            layers.push_back(peek() == '(' ? group(depth + 1, inner)
+                                           : layer(medium("a layer", inner + ".material"), inner));
         } while (peek() == '|');
         expect(')');
         json result{{"repeat", 1}, {"layers", std::move(layers)}};
         if (peek() == '^') {
             ++at_;
-            result["repeat"] = repeat();
+            result["repeat"] = repeat(path);
         }
         return result;
     }
 
     std::string_view text_;
     std::size_t at_ = 0;
+    std::vector<TypedValue> typed_;
 };
+
+/// Whether one of two dotted paths leads to the other's value or to a part of it.
+bool overlap(std::string_view a, std::string_view b) {
+    const std::size_t shorter = std::min(a.size(), b.size());
+    if (a.substr(0, shorter) != b.substr(0, shorter)) return false;
+    return a.size() == b.size() || (a.size() > shorter ? a : b)[shorter] == '.';
+}
 
 }  // namespace
 
@@ -233,6 +266,23 @@ json parse_index(std::string_view text) {
 
 json parse_stack_expression(std::string_view text) {
     return Parser(text).stack();
+}
+
+std::string expression_with(std::string_view text,
+                            const std::vector<std::pair<std::string, std::string>>& values) {
+    Parser parser(text);
+    parser.stack();
+    std::string changed;
+    std::size_t at = 0;
+    for (const TypedValue& typed : parser.typed()) {
+        changed += text.substr(at, typed.begin - at);
+        std::string value(text.substr(typed.begin, typed.end - typed.begin));
+        for (const auto& [path, other] : values)
+            if (overlap(path, typed.path)) value = path == typed.path ? other : "\u2026";
+        changed += value;
+        at = typed.end;
+    }
+    return changed.append(text.substr(at));
 }
 
 std::string medium_text(const Material& material, std::vector<std::string>& losses) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/stack/stack.hpp"
@@ -19,6 +20,14 @@ namespace irido::schemas {
 /// A name is that of a material or a material file, in double quotes if it contains any of |@()^!.
 /// Throws InputError("EXPRESSION" in quotes, "column N", expected and found tokens).
 nlohmann::json parse_stack_expression(std::string_view text);
+
+/// An expression with other values, as of a title; throws as parse_stack_expression() does.
+/// text    the expression
+/// values  a dotted path of its document and the text to be written in the place of what is typed
+///         there; paths without a place are ignored, and of a path to a part, or to more than one
+///         value, an ellipsis is written
+std::string expression_with(std::string_view text,
+                            const std::vector<std::pair<std::string, std::string>>& values);
 
 /// The material denoted by "1.5", "1.9+1.5i", "1.9+1.5j" or "2i"; null for any other text.
 nlohmann::json parse_index(std::string_view text);

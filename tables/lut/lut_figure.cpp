@@ -42,15 +42,21 @@ private:
     RgbTransform transform_;
 };
 
+Triple scaled(Triple color, double gain) {
+    for (double& part : color) part *= gain;
+    return color;
+}
+
 bool has_colors(const Lut& lut) {
     const std::vector<std::string> rgb{"R", "G", "B"}, xyz{"X", "Y", "Z"};
     return lut.channels == rgb ||
-           (lut.channels == xyz && (lut.kind == "color" || lut.kind == "albedo"));
+           (lut.channels == xyz &&
+            (lut.kind == "color" || lut.kind == "albedo" || lut.kind == "brdf"));
 }
 
 }  // namespace
 
-Figure lut_figure(const Lut& lut, const std::string& title, GamutMapping gamut) {
+Figure lut_figure(const Lut& lut, const std::string& title, GamutMapping gamut, double gain) {
     RowPlot plot{.title = title};
     Records records;
     const std::size_t channels = lut.channels.size(), rows = lut.values.size() / channels;
@@ -68,7 +74,7 @@ Figure lut_figure(const Lut& lut, const std::string& title, GamutMapping gamut) 
         const TableColors colors(lut);
         InkMixer mixer(gamut);
         for (std::size_t row = 0; row < rows; ++row)
-            plot.inks.push_back(mixer(colors(&lut.values[row * channels])));
+            plot.inks.push_back(mixer(scaled(colors(&lut.values[row * channels]), gain)));
         if (const std::string note = mixer.note(); !note.empty()) plot.notes.push_back(note);
     } else {
         for (std::size_t c = 0; c < channels; ++c) {
@@ -76,7 +82,7 @@ Figure lut_figure(const Lut& lut, const std::string& title, GamutMapping gamut) 
             for (std::size_t row = 0; row < rows; ++row)
                 numbers[row] = lut.values[row * channels + c];
             records.columns.push_back({lut.channels[c], std::move(numbers)});
-            plot.values.push_back({lut.channels[c], {.quantity = lut.channels[c]}});
+            plot.values.push_back({lut.channels[c], axis_of_column(lut.channels[c])});
         }
     }
     Figure figure = figure_of(records, plot);

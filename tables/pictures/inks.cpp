@@ -19,9 +19,20 @@ Triple luminance_weights() {
     return weights;
 }
 
-Triple compressed(const Triple& rgb) {
+double luminance(const Triple& rgb) {
     const Triple weight = luminance_weights();
-    const double y = weight[0] * rgb[0] + weight[1] * rgb[1] + weight[2] * rgb[2];
+    return weight[0] * rgb[0] + weight[1] * rgb[1] + weight[2] * rgb[2];
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g",
+                  100 * static_cast<double>(part) / static_cast<double>(whole));
+    return std::string(text.data()) + " %";
+}
+
+Triple compressed(const Triple& rgb) {
+    const double y = luminance(rgb);
     if (y >= 1) return {1, 1, 1};
     if (y <= 0) return {0, 0, 0};
     double part = 1;  // fraction of the colour; the rest is grey
@@ -64,19 +75,24 @@ Ink InkMixer::operator()(const Triple& linear_srgb) {
     const auto [least, most] = std::ranges::minmax(linear_srgb);
     ++colors_;
     if (least >= -kGamutSlack && most <= 1 + kGamutSlack) return clipped_ink(linear_srgb);
-    ++outside_;
+    // a shorter exposure brings the one into sRGB, nothing the other
+    const bool is_bright = least >= -kGamutSlack && luminance(linear_srgb) > 1 + kGamutSlack;
+    ++(is_bright ? bright_ : outside_);
     return clipped_ink(mapping_ == GamutMapping::clip ? linear_srgb : compressed(linear_srgb));
 }
 
 std::string InkMixer::note() const {
-    if (outside_ == 0) return "";
-    std::array<char, 32> share{};
-    std::snprintf(share.data(), share.size(), "%.3g",
-                  100 * static_cast<double>(outside_) / static_cast<double>(colors_));
-    return std::string(share.data()) + " % of the colours lie outside sRGB and are " +
-           (mapping_ == GamutMapping::clip
-                ? "clipped"
-                : "mixed with the grey of their luminance until they fit");
+    if (outside_ + bright_ == 0) return "";
+    const bool is_clipped = mapping_ == GamutMapping::clip;
+    const std::string to_grey = "mixed with the grey of their luminance until they fit";
+    const std::string outside = percent(outside_, colors_) + " of the colours lie outside sRGB",
+                      bright = percent(bright_, colors_);
+    if (bright_ == 0) return outside + " and are " + (is_clipped ? "clipped" : to_grey);
+    if (outside_ == 0)
+        return bright + " of the colours are brighter than white and are " +
+               (is_clipped ? "clipped" : "drawn white");
+    return outside + ", " + bright + " are brighter than white: " +
+           (is_clipped ? "both are clipped" : "the former are " + to_grey + ", the latter white");
 }
 
 Ink value_ink(double part) {

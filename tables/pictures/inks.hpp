@@ -24,12 +24,13 @@ public:
     explicit InkMixer(GamutMapping mapping = GamutMapping::clip) : mapping_(mapping) {}
 
     Ink operator()(const Triple& linear_srgb);
-    /// "12 % of the colours lie outside of sRGB, clipped to it"; "" if none do.
+    /// "12 % of the colours lie outside sRGB, 3 % are brighter than white: both are clipped"; ""
+    /// if none do. Brighter than white are colours of sRGB's hues with a luminance above 1.
     std::string note() const;
 
 private:
     GamutMapping mapping_;
-    std::size_t colors_ = 0, outside_ = 0;
+    std::size_t colors_ = 0, outside_ = 0, bright_ = 0;
 };
 
 /// The ink of linear sRGB with each component clamped to [0, 1].

@@ -399,6 +399,27 @@ const std::vector<KnownColumn>& known_columns() {
         {"C", {.quantity = "coefficient C_m"}},
         {"short_nm", {.quantity = "short-wavelength edge", .unit = "nm"}},
         {"long_nm", {.quantity = "long-wavelength edge", .unit = "nm"}},
+        {"light_theta_deg", {.quantity = "angle of the light", .unit = "\u00b0"}},
+        {"light_phi_deg", {.quantity = "azimuth of the light", .unit = "\u00b0"}},
+        {"view_theta_deg", {.quantity = "angle of the view", .unit = "\u00b0"}},
+        {"view_phi_deg", {.quantity = "azimuth of the view", .unit = "\u00b0"}},
+        {"brdf_per_sr", {.quantity = "BRDF", .unit = "1/sr", .from_zero = true}},
+        {"radiance_ratio", {.quantity = "radiance over that of the light", .from_zero = true}},
+        {"ft_cos", {.quantity = "light that passes straight", .from_zero = true}},
+        {"p_trans", {.quantity = "probability of passing", .from_zero = true}},
+        {"probability", {.quantity = "probability of sampling", .from_zero = true}},
+        {"albedo", {.quantity = "albedo", .from_zero = true}},
+        {"density", {.quantity = "density of scratches", .from_zero = true}},
+        {"layer", {.quantity = "layer", .step = 1}},
+        {"theta_i_deg", {.quantity = "angle of incidence", .unit = "\u00b0"}},
+        {"theta_d_deg", {.quantity = "difference angle \u03b8d", .unit = "\u00b0"}},
+        {"theta_h_deg", {.quantity = "half angle \u03b8h", .unit = "\u00b0"}},
+        {"phi_d_deg", {.quantity = "difference azimuth \u03c6d", .unit = "\u00b0"}},
+        {"alpha", {.quantity = "roughness \u03b1"}},
+        {"opd_nm", {.quantity = "optical path difference", .unit = "nm"}},
+        {"opd_sigma_nm", {.quantity = "\u03c3 of the optical path difference", .unit = "nm"}},
+        {"thickness_sigma_nm", {.quantity = "\u03c3 of the thickness", .unit = "nm"}},
+        {"F", {.quantity = "transmission filter F", .unit = "1/rad", .from_zero = true}},
     };
     return known;
 }
@@ -432,7 +453,10 @@ FigureAxis axis_of_column(const std::string& name) {
     if (name.starts_with("A_"))
         return {.quantity = "A of layer " + name.substr(2), .from_zero = true};
     FigureAxis axis{.quantity = name};
-    for (const auto& [ending, unit] : {std::pair{"_nm", "nm"}, {"_deg", "\u00b0"}}) {
+    for (const auto& [ending, unit] : {std::pair{"_nm", "nm"},
+                                       {"_per_um", "1/\u00b5m"},
+                                       {"_um", "\u00b5m"},
+                                       {"_deg", "\u00b0"}}) {
         if (!name.ends_with(ending)) continue;
         axis.quantity.resize(name.size() - std::string_view(ending).size());
         axis.unit = unit;

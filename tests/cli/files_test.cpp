@@ -190,6 +190,62 @@ TEST_CASE("links to files, devices, pipes and files without a name are written t
         expected);
 }
 
+TEST_CASE("output that cannot be written is refused by every command", "[cli][files]") {
+    const InputFolder folder;
+    const std::string examples = IRIDO_SOURCE_DIR "/schemas/examples/";
+    const std::string stack = " '" + kWithMetal + "' ",
+                      spoon = examples + "surfaces/worn-spoon.json";
+    write_text(folder / "plain.json", R"({"materials": [
+        {"name": "a", "stack": "1 | 1.5@200 | 2", "shading": "color"}]})");
+    const std::vector<std::string> with_output{
+        "spectrum" + stack + "-w 550",
+        "color" + stack,
+        "cm '1 | 1.42@400 | 1.87'",
+        "bands '1 | (1@200 | 1.5@180)^10 | 1'",
+        "profile" + stack + "-w 550",
+        "brdf" + stack + "--alpha 0.1 -w 550",
+        "scratches " + spoon,
+        "compare list",
+        "sweep" + stack + "--vary layers.0.thickness_nm=1,2 --compute spectrum -w 550",
+        "lut color" + stack + "--vary layers.0.thickness_nm=0:100/4 --cos 0:1/4",
+        "lut list",
+        "render" + stack + "--size 8 -f png",
+        "view" + stack,
+        "materials list",
+        "materials show Au -w 500 --quiet",
+        "convert" + stack,
+        "bench stability --regime thick --count 1"};
+    const std::vector<std::string> without_output{"plan plain.json --quiet", "validate plain.json",
+                                                  "validate --schema",       "lut shader color",
+                                                  "manual spectrum",         "completion bash"};
+    const auto refused = [&](const std::string& command, const std::string& said) {
+        const Outcome outcome = folder.shell("\"$IRIDO\" " + command);
+        INFO(command);
+        check_refused(outcome, said);
+    };
+    for (const std::string& command : with_output) {
+        refused(command + " -o /dev/full", "/dev/full: cannot be written: No space left");
+        const std::string null = command + (command.starts_with("view") ? " -f html" : "");
+        refused(null + " > /dev/full", "standard output: cannot be written: No space left");
+    }
+    for (const std::string& command : without_output)
+        refused(command + " > /dev/full", "standard output: cannot be written: No space left");
+    for (const auto* commands : {&with_output, &without_output})
+        for (std::string command : *commands) {  // nobody reads: quiet
+            if (command.starts_with("view")) command += " -f html";
+            INFO(command);
+            const Outcome outcome = folder.shell("{ \"$IRIDO\" " + command +
+                                                 "; echo $? > status; } | true; cat status");
+            CHECK(outcome.out == "0\n");
+            CHECK(outcome.err.empty());
+        }
+    fs::remove(folder / "status");
+    refused("plan plain.json -o /dev/full", "--output: must name a folder (got '/dev/full')");
+    refused("plan plain.json -o plain.json", "the plan goes to standard output");
+    refused("bake plain.json -o /dev/full", "/dev/full: cannot be created");
+    refused("bands '1 | (1@200 | 1.5@180)^10 | 1' --plot /dev/full", "--plot: must end in");
+}
+
 TEST_CASE("inputs that never end are refused", "[cli][files][slow]") {
     const InputFolder folder;
     const std::string stack = " '" + kWithMetal + "' ";

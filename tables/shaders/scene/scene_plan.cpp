@@ -31,7 +31,6 @@ using Kind = Omission::Kind;
 
 constexpr double kMiddle_nm = kShaderIndices_nm;
 constexpr std::size_t kRangeSize = 16;  ///< initial size of a range sized by the tolerance
-constexpr double kOpaque_k = 1e-6;      ///< of a base from which no light returns
 constexpr double kRed_nm = 700;         ///< fringes at longer wavelengths are hardly visible
 
 std::vector<double> samples_of(const schemas::ValueRange& range) {
@@ -290,11 +289,6 @@ private:
 
     // --- colours ----------------------------------------------------------------------------
 
-    bool is_opaque(const schemas::SceneMaterial& material) const {
-        const Stack held = held_stack(material.document.stack, *sensitivity_);
-        return index_at(held.materials[held.substrate], kMiddle_nm).imag() > kOpaque_k;
-    }
-
     void plan_color(const schemas::SceneMaterial& material, MaterialPlan& plan) {
         LutRequest request = color_request(material);
         if (material.angles_deg.last == 0) {
@@ -310,7 +304,7 @@ private:
             omit_transmission(material, "facets is for reflected light only");
         } else if (!material.transmission) {
             omit_transmission(material, "");
-        } else if (is_opaque(material)) {
+        } else if (is_opaque(material.document.stack, *sensitivity_)) {
             omit(material, "transmission", "the base absorbs all that enters it");
         } else {
             request.color.sides = {Side::transmitted};
@@ -478,8 +472,14 @@ private:
     // --- rough surfaces -----------------------------------------------------------------------
 
     void plan_rough_layers(const schemas::SceneMaterial& material, MaterialPlan& plan) {
-        plan.snippets = {"transmissivity"};
         omit_transmission(material, "rough-layers is for reflected light only");
+        if (is_opaque(material.document.stack, *sensitivity_)) {
+            plan.constants = {{"ft_cos", 0}};
+            omit(material, "transmissivity",
+                 "the substrate keeps what passes: a path is always reflected, ft_cos = 0");
+            return;
+        }
+        plan.snippets = {"transmissivity"};
         const std::vector<double> angles = samples_of(
             {material.angles_deg.first, std::min(material.angles_deg.last, kGrazing_deg)});
         if (material.alpha.is_one()) {

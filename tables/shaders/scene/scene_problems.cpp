@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/color/held_stack.hpp"
 #include "core/stack/index_table.hpp"
 #include "schemas/documents/scene_document.hpp"
 #include "tables/shaders/scene/scene_plan.hpp"
@@ -26,12 +27,17 @@ std::string mirror_fault(const Stack& stack) {
     return "";
 }
 
+bool is_opaque(const Stack& stack, const Sensitivity& sensitivity) {
+    constexpr double kOpaque_k = 1e-6;
+    const Stack held = held_stack(stack, sensitivity);
+    return index_at(held.materials[held.substrate], kShaderIndices_nm).imag() > kOpaque_k;
+}
+
 std::vector<std::string> problems_of_scene(const nlohmann::json& document, const std::string& file,
                                            const std::string& folder, const Execution& execution) {
-    if (auto lines = schemas::scene_problems(document, file); !lines.empty()) return lines;
-    const schemas::Scene scene = schemas::read_scene(document, file, folder);
-    ScenePlan plan = plan_scene(scene, execution);
     std::vector<std::string> lines;
+    const schemas::Scene scene = schemas::readable_scene(document, file, folder, lines);
+    ScenePlan plan = plan_scene(scene, execution);
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         MaterialPlan& material = plan.materials[m];
         try {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/colorimetry/sensitivity.hpp"
 #include "core/math/simd_level.hpp"
 #include "core/stack/stack.hpp"
 
@@ -11,6 +12,9 @@ namespace irido::tables {
 
 /// What a stack lacks for the mirror of the snippet bragg, in words; "" if nothing.
 std::string mirror_fault(const Stack& stack);
+
+/// Whether no light returns from the substrate of a stack, as it absorbs at kShaderIndices_nm.
+bool is_opaque(const Stack& stack, const Sensitivity& sensitivity);
 
 /// All problems of a scene that are known before its tables are computed, one line each:
 /// "FILE: POINTER: material NAME: reason".

@@ -74,6 +74,57 @@ TEST_CASE("pictures say what they show", "[cli][pictures]") {
                Contains("<metadata>{&quot;axes&quot;") && Contains("cosine of the angle"));
 }
 
+TEST_CASE("plots have words for the columns of every command", "[cli][pictures]") {
+    const TemporaryFolder folder;
+    const auto drawn = [&](const Words& words, bool has_output = true) {
+        CAPTURE(words);
+        const Outcome outcome = run_irido(words + (has_output ? Words{"-f", "svg"} : Words{}));
+        CHECK(outcome.status == 0);
+        const std::string svg = has_output ? outcome.out : read_file(folder / "x.svg");
+        CHECK_THAT(svg, !Contains("_deg") && !Contains("_nm") && !Contains("_um") &&
+                            !Contains("_per_") && !Contains(" deg"));
+        return svg;
+    };
+    const std::string spoon = "schemas/examples/surfaces/worn-spoon.json";
+    CHECK_THAT(drawn({"brdf", kFilm, "--alpha", "0.1", "--view-theta", "0:60:10", "-w", "450,550"}),
+               Contains(">angle of the view, \u00b0</text>") && Contains(">BRDF, 1/sr</text>"));
+    drawn({"brdf", kFilm, "--alpha", "0.1", "--quantity", "albedo", "--light-theta", "0:60:20"});
+    drawn({"brdf", kFilm, "--alpha", "0.1", "--light-theta", "0:60:20", "--color"});
+    CHECK_THAT(drawn({"brdf", kMirror, "--alpha", "0.1", "--quantity", "transmissivity",
+                      "--light-theta", "0:60:20", "-w", "550"}),
+               Contains(">probability of passing</text>"));
+    drawn({"brdf", spoon, "--area-light", R"({"center_mm": [0, 0, 900], "radius_mm": 90})",
+           "--view-theta", "0:20:10", "-w", "550"});
+    CHECK_THAT(drawn({"scratches", spoon, "--extent", "900,600"}),
+               Contains(">x, \u00b5m</text>") && Contains(" scratches</text>"));
+    CHECK_THAT(drawn({"design", kFilm, "--free", "layers.0.thickness_nm=50:150", "--target",
+                      "R 500,550,600 @0,45 = 0", "--evaluations", "5", "--quiet", "--plot",
+                      folder / "x.svg"},
+                     false),
+               Contains(">45\u00b0</text>") && Contains(">target</text>"));
+    drawn({"lut", "falpha", "--alpha", "0.1", "--theta-i", "0:80:20", "--theta-d", "0:80:20"});
+}
+
+TEST_CASE("a title says which values vary, and those that are set", "[cli][pictures]") {
+    const auto title = [](const Words& words) {
+        const std::string svg = run_irido(words + Words{"-f", "svg"}).out;
+        const std::size_t at = svg.find("<title>") + 7;
+        return svg.substr(at, svg.find("</title>") - at);
+    };
+    const std::string film = "air | MgF2 @ 100nm | (H@1Q | 1.46@94)^2 | BK7";
+    const Words spectrum{"-w", "500,600", "--material", "H=2.3", "--reference", "550"};
+    const Words sweep{"sweep", film, "--compute", "spectrum"};
+    CHECK(title(sweep + spectrum + Words{"--vary", "layers.0.thickness_nm=90:110:10"}) ==
+          "air | MgF2 @ \u2026 | (H@1Q | 1.46@94)^2 | BK7");
+    CHECK(title(sweep + spectrum +
+                Words{"--vary", "layers.1.repeat=2,3", "--set", "layers.1.layers.1.material=1.5",
+                      "--set", "substrate=Si"}) ==
+          "air | MgF2 @ 100nm | (H@1Q | 1.5@94)^\u2026 | Si");
+    CHECK(title(Words{"spectrum", film, "--set", "layers.1.layers.0.qwot=2"} + spectrum) ==
+          "air | MgF2 @ 100nm | (H@2 | 1.46@94)^2 | BK7");
+    CHECK(title({"color", kFilm, "--set", "name=mine"}) == "mine");
+}
+
 TEST_CASE("a name of any characters is drawn well formed", "[cli][pictures]") {
     const std::string svg = run_irido({"spectrum", kFilm, "-w", "400:500:50", "--set",
                                        "name=\"<&]]>\u6f22\u0431\"", "-f", "svg"})
@@ -90,6 +141,14 @@ TEST_CASE("colours outside of sRGB are counted", "[cli][pictures]") {
     const Outcome compressed = run_irido(green + Words{"--gamut", "compress"});
     CHECK_THAT(compressed.err, Contains("mixed with the grey of their luminance"));
     CHECK_THAT(compressed.out, !Contains("fill=\"#00570f\""));
+}
+
+TEST_CASE("colours that are only too bright are counted on their own", "[cli][pictures]") {
+    const Outcome bright = run_irido({"brdf", "1 | 1@100 | 0.05+9i", "--alpha", "0.1", "--color",
+                                      "--light-theta", "0:10:5", "-f", "svg"});
+    CHECK_THAT(bright.err,
+               Contains("100 % of the colours are brighter than white and are clipped"));
+    CHECK_THAT(bright.err, !Contains("outside"));
 }
 
 TEST_CASE("sixteen bits", "[cli][pictures]") {
@@ -116,10 +175,11 @@ TEST_CASE("what cannot be drawn leaves nothing behind", "[cli][pictures][refused
             "--output: the extension must be one of csv, json, npy, pdf, png, svg");
     refused({"color", kFilm, "-o", file, "--bits", "16"}, "--bits: requires a picture as .png");
     refused({"color", kFilm, "-o", png, "--bits", "12"}, "--bits: must be 8 or 16 (got '12')");
-    refused({"color", kFilm, "-o", png, "--gamut", "x"}, "--gamut: must be clip or compress");
+    refused({"color", kFilm, "-o", png, "--gamut", "x"}, "--gamut: must be one of clip, compress");
     refused({"color", kFilm, "--gamut", "clip"}, "--gamut: requires a picture");
     refused({"color", kFilm, "--plot", "chromaticity"}, "--plot: requires a picture");
-    refused({"color", kFilm, "--plot", "x", "-o", file}, "--plot: must be strip or chromaticity");
+    refused({"color", kFilm, "--plot", "x", "-o", file},
+            "--plot: must be one of strip, chromaticity");
     const Words sweep{"sweep", kFilm, "--vary", "layers.0.thickness_nm=0:100:1", "-o", file};
     refused(sweep + Words{"--compute", "color", "--resume"}, "--resume: a picture is drawn in one");
     refused(sweep + Words{"--compute", "color", "--shard", "1/2"}, "--shard: a picture needs all");

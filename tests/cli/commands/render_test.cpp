@@ -167,8 +167,8 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--shape", "bubble"}, "a bubble has the same medium inside as outside");
     refused({"--environment", "cave"}, "--environment: must be one of studio, sky, white");
     refused({"--environment", folder / "none.exr"}, "none.exr");
-    refused({"--camera", "fisheye"}, "--camera: must be orthographic or perspective");
-    refused({"--background", "red"}, "--background: must be none, environment or #rrggbb");
+    refused({"--camera", "fisheye"}, "--camera: must be one of orthographic, perspective");
+    refused({"--background", "red"}, "--background: must be one of none, environment, #rrggbb");
     refused({"--background", "#12345g"}, "--background");
     refused({"--thickness-noise", "800:100,3,1"}, "--thickness-noise: must be FIRST:LAST");
     refused({"--thickness-noise", "1:2,3,4,5"}, "--thickness-noise: must be LO:HI,SCALE,SEED");
@@ -182,7 +182,7 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--floor", "#12"}, "--floor: must be an albedo or #rrggbb");
     refused({"--floor", "1", "--shape", "plane"}, "--floor: a plane fills the picture");
     refused({"--floor", "1", "--exact"}, "--exact: light that is scattered, lamps and floors");
-    refused({"--paths", "simulation"}, "--paths: must be single or all (got simulation)");
+    refused({"--paths", "simulation"}, "--paths: must be one of single, all (got 'simulation')");
     refused({"--light", "{"}, "light: 1:2");
     refused({"--light", "{}"}, "center");
     refused({"--light", folder / "none.json"}, "none.json");
@@ -191,6 +191,17 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--light", R"({"center": [0, 0, 3], "radius": -1})"}, "/radius: must be in");
     refused({"--light", R"({"vertices": [[0, 0, 1], [1, 0, 1], [2, 0, 1]]})"}, "one line");
     refused({"--light", R"({"direction": [0, 0, 1], "illuminant": "D66"})"}, "D66");
+    const std::string inside = R"({"center": [0.1, 0, 0], "radius": 0.5})",
+                      below = R"({"center": [0, -3, 0], "radius": 1})",
+                      behind = R"({"vertices": [[0, 0, -1], [1, 0, -1], [0, 1, -1]]})",
+                      tube = R"({"center": [0.7, 0, 0], "radius": 0.2})";
+    const std::string bright = R"({"direction": [0, 0, 1]})";
+    refused({"--light", bright, "--light", inside},
+            "--light: lamp 2 lies inside the sphere, which");
+    refused({"--light", tube, "--shape", "ring"}, "--light: lamp 1 lies inside the ring, which");
+    refused({"--light", behind, "--shape", "plane"},
+            "--light: lamp 1 lies behind the plane, which");
+    refused({"--light", below, "--floor", "1"}, "--light: lamp 1 lies below the floor, which");
     refused({"--show", "beetle"}, "--show: takes a scene");
     refused({"--exposure", "nan"}, "--exposure");
     refused({"--tolerance", "0"}, "--tolerance: must be in [0.001, 10]");
@@ -281,6 +292,60 @@ TEST_CASE("a scratched surface is drawn, and says what it left out", "[cli][rend
                                 Contains("balance heuristic"));
 }
 
+TEST_CASE("lamps inside a clear shape, around an opaque one or half inside are drawn",
+          "[cli][render]") {
+    TemporaryFolder folder;
+    const auto seen = [&](const std::vector<std::string>& more, const std::string& stack) {
+        std::vector<std::string> all{"--size", "8", "--samples", "4", "-o", folder / "x.exr"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = render(all, stack);
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        return exr(folder / "x.exr").rgb;
+    };
+    const std::string inside = R"({"center": [0, 0, 0], "radius": 0.5, "radiance": 9})";
+    const std::string bubble = "1 | 1.33@300 | 1";
+    CHECK(
+        seen({"--shape", "bubble", "--light", inside}, bubble) !=
+        seen({"--shape", "bubble", "--light", R"({"center": [0, 0, -9], "radius": 0.5})"}, bubble));
+    const std::string half = R"({"center": [0, 0, 1], "radius": 0.5})",
+                      around = R"({"center": [0, 0, 0], "radius": 5})",
+                      hole = R"({"center": [0, 0, 0], "radius": 0.2})";
+    seen({"--light", half}, "1 | 2");
+    seen({"--light", around}, "1 | 2");
+    seen({"--light", hole, "--shape", "ring"}, "1 | 2");
+}
+
+TEST_CASE("a sheet leaves out the materials that cannot be drawn", "[cli][render]") {
+    TemporaryFolder folder;
+    write_text(folder / "scene.json", R"({"materials": [
+        {"name": "film", "stack": "air | 1.33@300 | 1.5", "shading": "color"},
+        {"name": "blade", "surface": {"scratches": [
+            {"width_um": 3, "depth_um": 0.2, "angle_deg": 10, "point_um": [5, 3]}]}},
+        {"name": "broken", "stack": "air | Xx@300 | 1.5", "shading": "color"}]})");
+    const std::string scene = folder / "scene.json";
+    const Outcome some = render({"--size", "16", "-o", folder / "x.png"}, scene);
+    CHECK(some.status == 1);
+    CHECK_THAT(some.err,
+               Contains("scene.json: /materials/1/surface: material blade: scratches are drawn") &&
+                   Contains("material broken: unknown material") &&
+                   Contains("scene.json: 2 of 3 materials left out\n"));
+    write_text(folder / "film.json", R"({"materials": [
+        {"name": "film", "stack": "air | 1.33@300 | 1.5", "shading": "color"},
+        {"name": "film2", "stack": "air | 1.33@300 | 1.5", "shading": "color"}]})");
+    CHECK(render({"--size", "16", "-o", folder / "y.png"}, folder / "film.json").status == 0);
+    const auto width = [](const std::string& png) {
+        return static_cast<unsigned char>(png[18]) * 256 + static_cast<unsigned char>(png[19]);
+    };
+    CHECK(width(read_file(folder / "x.png")) == 8 + 24);      // one picture
+    CHECK(width(read_file(folder / "y.png")) == 8 + 2 * 24);  // two
+    check_refused(render({"--size", "16", "--show", "blade", "-o", folder / "z.png"}, scene),
+                  "/materials/1/surface: material blade: scratches are drawn as fields");
+    CHECK_FALSE(std::filesystem::exists(folder / "z.png"));
+    check_refused(render({"--size", "16", "--shape", "bubble", "-o", folder / "z.png"}, scene),
+                  "material broken");
+}
+
 TEST_CASE("scenes make a sheet of their materials, or a picture of one", "[cli][render]") {
     TemporaryFolder folder;
     write_text(folder / "scene.json", R"({"materials": [
@@ -294,7 +359,7 @@ TEST_CASE("scenes make a sheet of their materials, or a picture of one", "[cli][
             0);
     CHECK(exr(folder / "two.exr").rgb == exr(folder / "same.exr").rgb);
     check_refused(render({"--show", "three", "-o", folder / "x.png"}, scene),
-                  "--show: the scene has no material three, it has one, two");
+                  "--show: must be one of one, two (got 'three')");
     check_refused(render({"-o", folder / "x.exr"}, scene), "makes a contact sheet, .png");
 }
 

@@ -47,6 +47,64 @@ TEST_CASE("the first wrong word of a command line is named", "[cli][refused]") {
     for (const auto& [words, error] : cases) check_refused(run_irido(words), error);
 }
 
+TEST_CASE("a misspelt value of an option is told from what it may be", "[cli][refused]") {
+    const std::string spoon = "schemas/examples/surfaces/worn-spoon.json",
+                      pale = "schemas/examples/surfaces/green-on-pale.json";
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+        {{"render", kFilm, "-o", "x.png", "--shape", "spher"}, "sphere"},
+        {{"render", kFilm, "-o", "x.png", "--environment", "stuido"}, "studio"},
+        {{"render", kFilm, "-o", "x.png", "--camera", "perspectiv"}, "perspective"},
+        {{"render", kFilm, "-o", "x.png", "--background", "environmnt"}, "environment"},
+        {{"render", kFilm, "-o", "x.png", "--paths", "sinlge"}, "single"},
+        {{"render", kFilm, "-o", "x.jpng"}, "png"},
+        {{"brdf", pale, "--quantity", "albdo"}, "albedo"},
+        {{"brdf", spoon, "--quantity", "denstiy"}, "density"},
+        {{"brdf", pale, "--paths", "simulaton"}, "simulation"},
+        {{"brdf", pale, "--transmission", "multple"}, "multiple"},
+        {{"brdf", pale, "--paths", "simulation", "--facets", "fitler"}, "filter"},
+        {{"brdf", spoon, "--area-light", "{\"center_mm\": [0, 0, 9], \"radius_mm\": 1}",
+          "--light-integral", "exakt"},
+         "exact"},
+        {{"brdf", spoon, "--energy", "blnd"}, "blend"},
+        {{"lut", "shader", "falpah"}, "falpha"},
+        {{"lut", "shader", "color", "--language", "glls"}, "glsl"},
+        {{"lut", "falpha", "--dtype", "f61"}, "f16"},
+        {{"lut", "brdf", pale, "--paths", "al", "-o", "x.csv"}, "all"},
+        {{"lut", "brdf", pale, "-o", "x.kxt2"}, "ktx2"},
+        {{"color", kFilm, "--space", "sRBG"}, "srgb"},
+        {{"color", kFilm, "--illuminant", "d65"}, "D65"},
+        {{"color", kFilm, "--adaptation", "bradfrod"}, "bradford"},
+        {{"color", kFilm, "--method", "quadratur"}, "quadrature"},
+        {{"color", kFilm, "--plot", "stripe", "-o", "x.svg"}, "strip"},
+        {{"color", kFilm, "-o", "x.svg", "--gamut", "compres"}, "compress"},
+        {{"color", kFilm, "--columns", "whitenes_cie"}, "whiteness_cie"},
+        {{"spectrum", kFilm, "--columns", "psi_dge"}, "psi_deg"},
+        {{"spectrum", kFilm, "--unit", "cm1"}, "cm-1"},
+        {{"spectrum", kFilm, "--average", "photpic"}, "photopic"},
+        {{"spectrum", kFilm, "-f", "jsn"}, "json"},
+        {{"sweep", kFilm, "--vary", "layers.0.thickness_nm=1,2", "--compute", "spectrm"},
+         "spectrum"},
+        {{"compare", kFilm, "--engine", "babylonn"}, "babylon"},
+        {{"compare", kFilm, "--engine", "gltf", "--white", "comon"}, "common"},
+        {{"compare", "--random", "3", "--engine", "gltf", "--base", "dielectic"}, "dielectric"},
+        {{"convert", kFilm, "-f", "zmax"}, "zemax"},
+        {{"completion", "bsh"}, "bash"},
+        {{"plan", "schemas/examples/scenes/beetle.json", "-f", "jsno"}, "json"},
+        {{"render", "schemas/examples/scenes/beetle.json", "--show", "gren", "-o", "x.png"},
+         "green"},
+        {{"design", kFilm, "--free", "layers.0.thickness_nm=1:2", "--target", "R 500 = 0",
+          "--method", "globl"},
+         "global"},
+        {{"bench", "speed", "--cases", "flim"}, "film"}};
+    for (const auto& [words, meant] : cases) {
+        const Outcome outcome = run_irido(words, "", IRIDO_SOURCE_DIR);
+        INFO(words[0] << ": " << outcome.err);
+        check_refused(outcome, "(did you mean \"" + meant + "\"?)");
+    }
+    const Outcome far = run_irido({"render", kFilm, "-o", "x.png", "--shape", "cube"});
+    CHECK_THAT(far.err, !Contains("did you mean"));
+}
+
 TEST_CASE("help is shown whatever else is typed", "[cli]") {
     CHECK_THAT(run_irido({"spectrum", "--foo", "--help"}).out, Contains("--wavelengths"));
     CHECK(run_irido({"--help"}).status == 0);
@@ -75,6 +133,52 @@ TEST_CASE("every command takes -j and --quiet", "[cli]") {
     }
     check_refused(run_irido({"materials", "list", "-j", "0"}),
                   "--threads: must be in [1, 4096] (got 0)");
+}
+
+TEST_CASE("every command that clamps materials in colours refuses to with --strict", "[cli]") {
+    const TemporaryFolder folder;
+    write_text(folder / "m.csv", "nm,n\n400,1.5\n700,1.5\n");
+    write_text(folder / "surface.json",
+               R"({"layers": [{"stack": "1 | m.csv@90 | 1", "alpha": 0.3}]})");
+    write_text(
+        folder / "scene.json",
+        R"({"materials": [{"name": "a", "stack": "1 | m.csv@90 | 2", "shading": "color"}]})");
+    const std::string stack = "1 | m.csv@90 | 2";
+    const std::vector<std::vector<std::string>> commands{
+        {"color", stack},
+        {"sweep", stack, "--compute", "color", "--vary", "layers.0.thickness_nm=90"},
+        {"lut", "color", stack, "--vary", "layers.0.thickness_nm=0:90/2", "--cos", "0,1"},
+        {"lut", "brdf", "surface.json", "--size", "2", "-o", "t.csv"},
+        {"lut", "layered", "surface.json", "-o", "l.bin"},
+        {"brdf", "surface.json", "--color"},
+        {"render", stack, "--size", "8", "-o", "x.png"},
+        {"view", stack, "-o", "x.html"},
+        {"compare", stack, "--engine", "gltf"},
+        {"design", stack, "--free", "layers.0.thickness_nm=80:90", "--target", "lab = 50,0,0",
+         "--evaluations", "3"}};
+    for (std::vector<std::string> command : commands) {
+        CAPTURE(command);
+        const Outcome noted = run_irido(command, "", folder.path());
+        CHECK(noted.status == 0);
+        CHECK_THAT(noted.err, Contains("irido: note: ") && Contains("; clamped to its end values"));
+        command.emplace_back("--quiet");
+        CHECK_THAT(run_irido(command, "", folder.path()).err, !Contains("note"));
+        command.emplace_back("--strict");
+        const Outcome strict = run_irido(command, "", folder.path());
+        CHECK(strict.status == 2);
+        CHECK_THAT(strict.err, StartsWith("irido: error: ") && Contains("m.csv"));
+    }
+    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+             {"plan", "scene.json"}, {"bake", "scene.json", "-o", "tables"}}) {
+        std::vector<std::string> strict = command;
+        strict.emplace_back("--strict");
+        const Outcome refused = run_irido(strict, "", folder.path());
+        CHECK(refused.status == 1);  // the other materials are made
+        CHECK_THAT(refused.err, Contains("material a: ") && Contains("clamped to its end values"));
+        const Outcome noted = run_irido(command, "", folder.path());
+        CHECK(noted.status == 0);
+        CHECK_THAT(noted.err, Contains("material a: ") && Contains("clamped to its end values"));
+    }
 }
 
 TEST_CASE("more threads than there can be are fewer, with a note", "[cli]") {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/nearest.hpp"
 #include "schemas/documents/plain_stack.hpp"
 #include "schemas/documents/stack_document.hpp"
-#include "schemas/readers/nearest.hpp"
 
 using irido::schemas::check;
 using irido::schemas::is_plain_stack;
@@ -240,15 +240,15 @@ TEST_CASE("Keys and values keep a message on one short line") {
 TEST_CASE("nearest finds misspellings and nothing far-fetched") {
     const std::vector<std::string> keys{
         "material", "thickness_nm", "thickness_sigma_nm", "coherent", "n", "k"};
-    CHECK(irido::schemas::nearest("thicknes", keys) == "thickness_nm");
-    CHECK(irido::schemas::nearest("thickness", keys) == "thickness_nm");
-    CHECK(irido::schemas::nearest("Material", keys) == "material");
-    CHECK(irido::schemas::nearest("matreial", keys) == "material");
-    CHECK(irido::schemas::nearest("nn", keys) == "n");
-    CHECK(irido::schemas::nearest("x", keys).empty());
-    CHECK(irido::schemas::nearest("colour", keys).empty());
-    CHECK(irido::schemas::nearest("", keys).empty());
-    CHECK(irido::schemas::nearest(std::string(1000000, 'm'), keys).empty());
+    CHECK(irido::nearest("thicknes", keys) == "thickness_nm");
+    CHECK(irido::nearest("thickness", keys) == "thickness_nm");
+    CHECK(irido::nearest("Material", keys) == "material");
+    CHECK(irido::nearest("matreial", keys) == "material");
+    CHECK(irido::nearest("nn", keys) == "n");
+    CHECK(irido::nearest("x", keys).empty());
+    CHECK(irido::nearest("colour", keys).empty());
+    CHECK(irido::nearest("", keys).empty());
+    CHECK(irido::nearest(std::string(1000000, 'm'), keys).empty());
 }
 
 TEST_CASE("A plain document has no problems, whatever stands in its fields") {

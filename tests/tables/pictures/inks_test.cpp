@@ -9,6 +9,7 @@
 using namespace irido;
 using namespace irido::tables;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using Catch::Matchers::WithinAbs;
 
 namespace {
@@ -40,6 +41,25 @@ TEST_CASE("inks of colours inside sRGB are their encoding", "[pictures]") {
         CHECK(mixer({1, 1, 1}) == ink(0xffffff));
         CHECK(mixer({1 + 1e-12, 0, -1e-12}) == ink(0xff0000));  // rounding
         CHECK(mixer.note().empty());
+    }
+}
+
+TEST_CASE("colours brighter than white are not taken for colours outside sRGB", "[pictures]") {
+    for (const GamutMapping mapping : {GamutMapping::clip, GamutMapping::compress}) {
+        InkMixer bright(mapping), both(mapping);
+        for (InkMixer* mixer : {&bright, &both}) {
+            (*mixer)({0.5, 0.5, 0.5});
+            (*mixer)({3, 2, 1});
+            (*mixer)({1, 1, 1.001});
+            (*mixer)({9, 0, 0});
+        }
+        CHECK_THAT(bright.note(), StartsWith("75 % of the colours are brighter than white"));
+        both({1.1, 0.5, 0.5});  // not as bright as white
+        both({2, 2, -0.1});     // brighter, but yellower than sRGB's yellow
+        both({0.2, 0.1, -0.1});
+        both({0, 0, 0});
+        CHECK_THAT(both.note(), StartsWith("37.5 % of the colours lie outside sRGB, 37.5 % are "
+                                           "brighter than white: "));
     }
 }
 

@@ -237,6 +237,11 @@ TEST_CASE("plan: a closed form in the shader needs no table", "[scene][plan]") {
     const Planned one = planned(rough + "0.2}");
     CHECK(one.reason("falpha").empty());
     CHECK(one.roles() == std::vector<std::string>{"falpha", "transmissivity"});
+    // grazing light into a metal has no table of a reasonable size, and nobody sees it
+    const Planned opaque = planned(R"({"stack": "1 | 1.46@100 | Al", "shading": "rough-layers",
+                                       "roughness": 0.1})");
+    CHECK(opaque.reason("transmissivity").starts_with("the substrate keeps what passes"));
+    CHECK(opaque.roles().empty());
 }
 
 TEST_CASE("plan: mip levels only where a spread of a thickness is given", "[scene][plan]") {

@@ -1,4 +1,4 @@
-#include "schemas/readers/nearest.hpp"
+#include "core/nearest.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace irido::schemas {
+namespace irido {
 namespace {
 
 bool same_letter(char a, char b) {
@@ -59,4 +59,4 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     return best.empty() ? "" : " (did you mean \"" + best + "\"?)";
 }
 
-}  // namespace irido::schemas
+}  // namespace irido
