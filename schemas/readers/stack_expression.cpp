@@ -277,8 +277,11 @@ std::string expression_with(std::string_view text,
     for (const TypedValue& typed : parser.typed()) {
         changed += text.substr(at, typed.begin - at);
         std::string value(text.substr(typed.begin, typed.end - typed.begin));
-        for (const auto& [path, other] : values)
-            if (overlap(path, typed.path)) value = path == typed.path ? other : "\u2026";
+        for (const auto& [path, other] : values) {
+            if (!overlap(path, typed.path)) continue;
+            const bool is_number = path.ends_with(".qwot") && !other.ends_with("\u2026");
+            value = path != typed.path ? "\u2026" : is_number ? other + "Q" : other;
+        }
         changed += value;
         at = typed.end;
     }

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "tests/support/program.hpp"
 
@@ -102,7 +103,31 @@ TEST_CASE("a profile's picture has its layers", "[cli][profile]") {
     CHECK(picture.out.find("Ag") != std::string::npos);
 }
 
-TEST_CASE("layers that no light reaches have no field", "[cli][profile]") {
+TEST_CASE("a field that jumps at a face is drawn as a jump", "[cli][profile]") {
+    // few depths, none of them near the faces at 0 and 50 nm
+    const std::string svg = run_irido({"profile", "BK7 | Ag@50 | air", "-w", "633", "-a", "42.82",
+                                       "-p", "p", "--z", "-300,-20,25,70,300", "-f", "svg"})
+                                .out;
+    const std::size_t at = svg.find("<path d=\"M", svg.find("<g class=\"series\""));
+    REQUIRE(at != std::string::npos);
+    std::string path = svg.substr(at + 10, svg.find('"', at + 10) - at - 10);
+    for (char& c : path)
+        if (c == 'L') c = ' ';
+    std::istringstream numbers(path);
+    std::vector<std::pair<double, double>> points;
+    for (double x = 0, y = 0; numbers >> x >> y;) points.emplace_back(x, y);
+    REQUIRE(points.size() == 5 + 2 * 2);
+    std::size_t jumps = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+        if (points[i].first == points[i - 1].first &&
+            std::abs(points[i].second - points[i - 1].second) > 1)
+            ++jumps;
+    CHECK(jumps >= 1);
+    // rows are those asked for
+    CHECK(profile({"BK7 | Ag@50 | air", "-w", "633", "--z", "-20,25"}).size() == 2);
+}
+
+TEST_CASE("layers that no light reaches have no field "[cli][profile]") {
     const Outcome outcome =
         run_irido({"profile", "1.6 | (1.83@178.8 | 1.07+1.6i@147.9)^500 | 2.7+0.01i@71.5 | 2.66",
                    "-w", "427.8", "-a", "35", "-p", "s", "--summary"});
@@ -111,13 +136,13 @@ TEST_CASE("layers that no light reaches have no field", "[cli][profile]") {
     REQUIRE(table.size() == 1 + 1002);
     double begin = 0;
     for (std::size_t i = 1; i < table.size(); ++i) {
-        // std::stod rejects subnormal numbers
-        const double largest = std::strtod(table[i][6].c_str(), nullptr);
-        const double at = std::strtod(table[i][7].c_str(), nullptr);
-        const double thickness = i > 1001 ? 0 : i == 1001 ? 71.5 : i % 2 == 1 ? 178.8 : 147.9;
-        CAPTURE(i);
-        CHECK((largest >= 0 && largest < 4));
-        CHECK((at > begin - 1e-6 && at < begin + thickness + 1e-6));
-        begin += thickness;
+    // std::stod rejects subnormal numbers
+    const double largest = std::strtod(table[i][6].c_str(), nullptr);
+    const double at = std::strtod(table[i][7].c_str(), nullptr);
+    const double thickness = i > 1001 ? 0 : i == 1001 ? 71.5 : i % 2 == 1 ? 178.8 : 147.9;
+    CAPTURE(i);
+    CHECK((largest >= 0 && largest < 4));
+    CHECK((at > begin - 1e-6 && at < begin + thickness + 1e-6));
+    begin += thickness;
     }
 }
