@@ -3,7 +3,8 @@
 
 #include "tests/support/program.hpp"
 
-namespace irido::test {
+using namespace irido::test;
+
 namespace {
 
 using Catch::Matchers::Contains;
@@ -480,5 +481,3 @@ TEST_CASE("memory does not grow with the rows of a spectrum", "[cli][files][slow
     CHECK(of_many < of_few + 60);
 #endif
 }
-
-}  // namespace irido::test

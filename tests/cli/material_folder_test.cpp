@@ -5,7 +5,8 @@
 #include "core/error.hpp"
 #include "tests/support/program.hpp"
 
-namespace irido::test {
+using namespace irido::test;
+
 namespace {
 
 using Catch::Matchers::Contains;
@@ -141,5 +142,3 @@ TEST_CASE("a folder of material files as people have them", "[cli][materials]") 
                       file.said);
     }
 }
-
-}  // namespace irido::test

@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-namespace irido::schemas {
+using namespace irido::schemas;
+
 namespace {
 
 const std::string kReplaced = "\xEF\xBF\xBD";
@@ -47,5 +48,3 @@ TEST_CASE("what no text may hold is replaced, all else stays", "[schemas][utf8]"
     CHECK(well_formed("\xC0\x80") == kReplaced + kReplaced);                  // NUL in two bytes
     CHECK(well_formed("\xED\xA0\x80") == kReplaced + kReplaced + kReplaced);  // a surrogate
 }
-
-}  // namespace irido::schemas
