@@ -328,8 +328,10 @@ void add_structures(const LayeredBench& bench, std::vector<LayeredRow>& rows) {
         row.evaluations = 1;
         rows.push_back(std::move(row));
     };
-    for (const auto& [name, surface] :
+    for (const auto& structure :
          {std::pair("adding-coated", surface_of({"", 1.35, 250, 0.1})), {"adding-two", two}}) {
+        const auto& name = structure.first;
+        const auto& surface = structure.second;
         add(name, "brdf", [&] {
             const LayeredScattering scattering(surface, Crossings::single, bench.one);
             Adding(scattering, 1e-3, bench.one).brdf_rest(pairs, nm);

@@ -142,7 +142,7 @@ using Clock = std::chrono::steady_clock;
 /// Fused multiply-adds of doubles per second on this machine.
 double machine_limit(SimdLevel level, unsigned threads) {
     constexpr std::uint64_t kCount = 4'000'000;
-    volatile double sink = 0;
+    [[maybe_unused]] volatile double sink = 0;
     const double seconds = best_seconds(0.02, [&] {
         parallel_for(threads, threads, [&](std::size_t) {
             const double result = multiply_adds(kCount, level);
@@ -339,7 +339,7 @@ SpeedRow landmarks_row(bool by_newton, double budget) {
         mirrors.at(static_cast<std::size_t>(i)) = {100 + 300 * std::fmod(0.618 * i, 1),
                                                    100 + 300 * std::fmod(0.382 * i, 1),
                                                    1.2 + std::fmod(0.7548 * i, 1)};
-    volatile double sink = 0;
+    [[maybe_unused]] volatile double sink = 0;
     const double seconds = best_seconds(budget, [&] {
         for (const BraggPeriod& mirror : mirrors) {
             double above = 0;

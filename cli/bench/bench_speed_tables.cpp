@@ -84,7 +84,7 @@ private:
     /// row_of(theta_i) gives F at all theta_d; slow methods get fewer theta_i.
     template <class RowOf>
     SpeedRow measured(std::string method, const RowOf& row_of) const {
-        volatile double sink = 0;
+        [[maybe_unused]] volatile double sink = 0;
         const double one_row = seconds_of([&] { sink = row_of(kAngles / 2).front(); });
         const auto affordable = static_cast<std::size_t>(std::max(1.0, budget_ / one_row));
         const std::size_t rows = std::min(affordable, kAngles);

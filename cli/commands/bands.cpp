@@ -34,8 +34,8 @@ tables::Figure diagram_of(const BandsQuery& query, const BraggMirror& mirror,
     tables::BandDiagram diagram{
         title, query.first_nm(), query.last_nm(), {angles.begin(), angles.end()}, {}};
     std::ranges::sort(diagram.angles_deg);
-    const auto repeated = std::ranges::unique(diagram.angles_deg);
-    diagram.angles_deg.erase(repeated.begin(), repeated.end());
+    diagram.angles_deg.erase(std::unique(diagram.angles_deg.begin(), diagram.angles_deg.end()),
+                             diagram.angles_deg.end());
     constexpr std::array kBoth{Polarization::s, Polarization::p};
     std::map<double, tables::BandDiagram::Gap> gaps;
     for (const double angle_deg : diagram.angles_deg)

@@ -34,8 +34,7 @@ struct EngineGrid {
         std::iota(order.begin(), order.end(), 0U);
         std::ranges::stable_sort(order, {}, [&](std::size_t a) { return angles[a]; });
         const auto same = [&](std::size_t a, std::size_t b) { return angles[a] == angles[b]; };
-        const auto repeated = std::ranges::unique(order, same);
-        order.erase(repeated.begin(), repeated.end());
+        order.erase(std::unique(order.begin(), order.end(), same), order.end());
     }
 
     static Triple at(const std::array<std::vector<double>, 3>& colors, std::size_t row) {

@@ -1,7 +1,6 @@
 #include "cli/options/words.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <sstream>
 
 namespace irido::cli {
@@ -32,9 +31,11 @@ void offer(const CLI::App& command, std::string_view option, const char* words,
 }
 
 const OfferedWords* words_offered(const CLI::App& command, std::string_view option) {
-    for (const OfferedWords& words : all_words() | std::views::reverse)
-        if (words.command == &command && words.option == option) return &words;
-    return nullptr;
+    const auto& words = all_words();
+    const auto last = std::find_if(words.rbegin(), words.rend(), [&](const OfferedWords& w) {
+        return w.command == &command && w.option == option;
+    });
+    return last == words.rend() ? nullptr : &*last;
 }
 
 }  // namespace irido::cli

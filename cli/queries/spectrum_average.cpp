@@ -74,8 +74,7 @@ std::vector<double> panel_ends(const Stack& stack, const IndexTable& first, Wave
         ends.push_back(1 /
                        (1 / range.first_nm + i / parts * (1 / range.last_nm - 1 / range.first_nm)));
     std::ranges::sort(ends);
-    const auto repeated = std::ranges::unique(ends);
-    ends.erase(repeated.begin(), repeated.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     return ends;
 }
 

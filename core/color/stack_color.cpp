@@ -147,7 +147,7 @@ std::unique_ptr<ColorAlgorithm> automatic_color(const ColorTables& tables, const
     std::unique_ptr<ColorAlgorithm> special;
     if (is_for_series(stack, request)) {
         special = film_color(tables, stack, {ColorMethod::Kind::fourier}, request);
-    } else if (const double fringes = fringes_for_bloch(tables, stack, request)) {
+    } else if (const double fringes = fringes_for_bloch(tables, stack, request); fringes > 0) {
         special =
             bloch_color(tables, stack, {ColorMethod::Kind::bloch}, bloch_request(request, fringes));
     } else {

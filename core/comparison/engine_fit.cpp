@@ -212,7 +212,7 @@ class FitProblem {
 public:
     FitProblem(const ComparedEngine& engine, const EngineForm& form,
                const EngineDifference& difference, const FitTarget& target)
-        : engine_(engine), form_(form), difference_(difference), target_(target) {
+        : engine_(engine), form_(form), difference_(difference) {
         double sum = 0;
         for (const double weight : target.weights) sum += weight;
         for (std::size_t a = 0; a < target.angles_deg.size(); ++a) {
@@ -299,7 +299,6 @@ private:
     const ComparedEngine& engine_;
     const EngineForm& form_;
     const EngineDifference& difference_;
-    const FitTarget& target_;
     std::vector<double> cosines_, weights_;
     std::vector<Triple> exact_lab_;
     EngineSetting plain_;

@@ -55,7 +55,8 @@ struct GradedHalfStep {
 
     /// Number `half` of the 2 steps half steps, counted from the top.
     GradedHalfStep(std::size_t half, std::size_t steps) {
-        const double middle = static_cast<double>(half / 2) + 0.5, reach = std::sqrt(3.0) / 6;
+        const std::size_t step = half / 2;
+        const double middle = static_cast<double>(step) + 0.5, reach = std::sqrt(3.0) / 6;
         const double sign = half % 2 == 0 ? -1 : 1;
         nearer = (middle + sign * reach) / static_cast<double>(steps);
         other = (middle - sign * reach) / static_cast<double>(steps);

@@ -17,16 +17,18 @@ ColorNodes nodes_of(const Sensitivity& sensitivity, WavelengthRange range,
     ColorNodes nodes;
     nodes.panels = panels;
     nodes.degree = degree;
-    const auto [first, last] = range;
     const std::array rows{to_srgb({1, 0, 0}), to_srgb({0, 1, 0}), to_srgb({0, 0, 1})};
     const auto end = [&](std::size_t i) {
         const double part = static_cast<double>(i) / static_cast<double>(panels);
-        return i == 0 ? first : i == panels ? last : 1 / std::lerp(1 / first, 1 / last, part);
+        if (i == 0) return range.first_nm;
+        if (i == panels) return range.last_nm;
+        return 1 / std::lerp(1 / range.first_nm, 1 / range.last_nm, part);
     };
     for (std::size_t i = 0; i < panels; ++i) {
         const PanelRule rule = panel_rule(sensitivity, {end(i), end(i + 1)}, degree);
         for (std::size_t k = 0; k < rule.wavelength_nm.size(); ++k) {
-            nodes.wavelength_nm.push_back(std::clamp(rule.wavelength_nm[k], first, last));
+            nodes.wavelength_nm.push_back(
+                std::clamp(rule.wavelength_nm[k], range.first_nm, range.last_nm));
             for (std::size_t c = 0; c < 3; ++c)
                 nodes.weight[c].push_back(rows[0][c] * rule.weight[0][k] +
                                           rows[1][c] * rule.weight[1][k] +

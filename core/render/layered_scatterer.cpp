@@ -56,7 +56,7 @@ ColorNodes layered_nodes(const LayeredScattering& scattering, const Sensitivity&
                          const RgbTransform& to_srgb) {
     constexpr std::array<double, 3> kMiddles_deg{0, 35, 60};
     constexpr std::size_t kFacets = 9;
-    constexpr double kNodesTolerance = 0.1;
+    constexpr double kDrawnTolerance = 0.1;
     ColorNodes nodes = enough_nodes(
         sensitivity, to_srgb,
         [&](const ColorNodes& some) {
@@ -102,7 +102,7 @@ ColorNodes layered_nodes(const LayeredScattering& scattering, const Sensitivity&
                 }
             return colors;
         },
-        kNodesTolerance);
+        kDrawnTolerance);
     if (!nodes.are_enough)
         throw DomainError("the fringes of the surface are too fine for " +
                           std::to_string(nodes.wavelength_nm.size()) + " wavelengths");

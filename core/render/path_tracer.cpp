@@ -52,7 +52,7 @@ struct PathTracer::Frame {
 ColorNodes smooth_nodes(const SurfaceStack& stack, const ShownRange& range,
                         const Sensitivity& sensitivity, const RgbTransform& to_srgb,
                         SimdLevel simd) {
-    constexpr double kNodesTolerance = 0.03;
+    constexpr double kDrawnTolerance = 0.03;
     ColorNodes nodes = enough_nodes(
         sensitivity, to_srgb,
         [&](const ColorNodes& some) {
@@ -77,7 +77,7 @@ ColorNodes smooth_nodes(const SurfaceStack& stack, const ShownRange& range,
                 }
             return colors;
         },
-        kNodesTolerance);
+        kDrawnTolerance);
     if (!nodes.are_enough)
         throw DomainError("the fringes of the stack are too fine for " +
                           std::to_string(nodes.wavelength_nm.size()) + " wavelengths");

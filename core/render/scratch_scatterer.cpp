@@ -74,7 +74,7 @@ struct FieldSums {
 
 ColorNodes scratched_nodes(const ScratchedSurface& surface, const Sensitivity& sensitivity,
                            const RgbTransform& to_srgb, SimdLevel simd) {
-    constexpr double kNodesTolerance = 0.03;
+    constexpr double kDrawnTolerance = 0.03;
     std::vector<FieldSums> fields;
     for (const ScratchField& field : surface.fields) fields.emplace_back(field);
     ColorNodes nodes = enough_nodes(
@@ -107,7 +107,7 @@ ColorNodes scratched_nodes(const ScratchedSurface& surface, const Sensitivity& s
                     }
             return colors;
         },
-        kNodesTolerance);
+        kDrawnTolerance);
     if (!nodes.are_enough)
         throw DomainError("the interference of the scratches is too fine for " +
                           std::to_string(nodes.wavelength_nm.size()) + " wavelengths");

@@ -148,7 +148,7 @@ std::vector<Arc> LightSlices::at(double tau) const {
 /// on it. Places beyond the light do no harm but cost a panel.
 void LightSlices::set_breaks(const LightCone& cone, std::array<double, 2> tangent) {
     constexpr double kSlack = 1e-9;
-    const auto [tx, ty] = tangent;
+    const double tx = tangent[0], ty = tangent[1];
     std::vector<HalfSpace> all(cone.half_spaces().begin(), cone.half_spaces().end());
     all.push_back({{0, 0, 1}, 0});
     const auto is_inside = [&](const Place& w) {

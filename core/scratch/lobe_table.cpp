@@ -151,8 +151,10 @@ LobeTable::LobeTable(const VisibleScratch& scratch, double first, double last, d
 void LobeTable::add_series() {
     const Places places = scratch_.places();
     using End = double VisibleScratch::Place::*;
-    for (const auto& [end, sign] : {std::pair<End, double>(&VisibleScratch::Place::end, 1),
-                                    std::pair<End, double>(&VisibleScratch::Place::start, -1)}) {
+    for (const auto& signed_end : {std::pair<End, double>(&VisibleScratch::Place::end, 1),
+                                   std::pair<End, double>(&VisibleScratch::Place::start, -1)}) {
+        const End end = signed_end.first;
+        const double sign = signed_end.second;
         const auto slopes = derivatives<kTerms>(places, [&](const auto& one) { return one.*end; });
         at_zero_[0] += sign * weight_up_to(places, end);
         double scale = sign;

@@ -277,11 +277,11 @@ Triple PointColors::operator()(const PointLobe& lobe) const {
 }
 
 Triple PointColors::by_transform(const PointLobe& lobe) const {
-    constexpr double kLongest_nm = 4e5, kAccuracy = 1e-13;
+    constexpr double kLongestPath_nm = 4e5, kAccuracy = 1e-13;
     require_in_range("blur_um", lobe.blur_um, 0, 0);
     if (lobe.xi2 == 0) throw DomainError("xi2 must not be 0");
     const SensitivityTransform& h = transform_.get(lock_, [&] {
-        return std::make_unique<SensitivityTransform>(sensitivity_, kLongest_nm, kAccuracy);
+        return std::make_unique<SensitivityTransform>(sensitivity_, kLongestPath_nm, kAccuracy);
     });
     const double u = kNmPerUm * std::abs(lobe.width_um * lobe.xi2), v = kNmPerUm * lobe.path_um;
     const ComplexTriple at_u = h(u), at_v = h(v), sum = h(u + v), difference = h(std::abs(u - v));

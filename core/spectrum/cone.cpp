@@ -67,8 +67,7 @@ std::vector<double> ConeLight::smooth_ends(std::span<const Complex> index, doubl
         if (critical > ends_.front() && critical < ends_.back()) ends.push_back(critical);
     }
     std::ranges::sort(ends);
-    const auto repeated = std::ranges::unique(ends);
-    ends.erase(repeated.begin(), repeated.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     return ends;
 }
 

@@ -130,7 +130,7 @@ double FieldProfile::absorbed_in(std::size_t number) const {
 
 LayerProfile FieldProfile::layer(std::size_t number, const FieldProfile* other) const {
     if (number > layers()) return part(layers_.size() + 1, other);
-    const auto [first, last] = std::ranges::equal_range(listed_, number - 1);
+    const auto [first, last] = std::equal_range(listed_.begin(), listed_.end(), number - 1);
     const auto begin = static_cast<std::size_t>(first - listed_.begin()) + 1;
     const auto end = static_cast<std::size_t>(last - listed_.begin()) + 1;
     LayerProfile whole = part(begin, other);

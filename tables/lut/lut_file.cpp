@@ -53,7 +53,8 @@ Lut read_lut(const std::string& file) {
 void write_lut(const Lut& lut, const std::string& file, const LutFormat& format,
                const LutLayout& layout) {
     std::vector<LutFile> files = format.write(lut, layout);
-    std::ranges::stable_partition(files, [](const LutFile& f) { return !f.suffix.empty(); });
+    std::stable_partition(files.begin(), files.end(),
+                          [](const LutFile& f) { return !f.suffix.empty(); });
     if (file.starts_with("/dev/"))  // a device has no companion
         std::erase_if(files, [](const LutFile& f) { return !f.suffix.empty(); });
     std::vector<std::string> paths, added;

@@ -36,7 +36,7 @@ void add_diagram(Panel& panel, const Observer& eye, const Triple& white, Place p
     panel.series.push_back(std::move(locus));
     Series triangle{.name = "sRGB", .style = 1, .form = Series::Form::guide};
     const auto& primaries = rgb_space("srgb").primaries;
-    for (const std::size_t i : {0, 1, 2, 0}) {
+    for (const std::size_t i : {0U, 1U, 2U, 0U}) {
         const Chromaticity& at = primaries[i];
         triangle.points.push_back(place({at.x, at.y, 1 - at.x - at.y}));
     }

@@ -271,8 +271,7 @@ std::vector<Point> thinned(const std::vector<Point>& line) {
         }
         std::vector<std::size_t> kept{begin, low, high, end - 1};
         std::ranges::sort(kept);
-        const auto repeated = std::ranges::unique(kept);
-        kept.erase(repeated.begin(), repeated.end());
+        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
         for (const std::size_t i : kept) out.push_back(line[i]);
         begin = end;
     }

@@ -53,8 +53,8 @@ VariedKey varied_key(const Records& records, const RowKey& key) {
         const std::vector<double> numbers = column_numbers(records, key.column);
         result.numbers = numbers;
         std::ranges::sort(result.numbers);
-        const auto repeated = std::ranges::unique(result.numbers);
-        result.numbers.erase(repeated.begin(), repeated.end());
+        result.numbers.erase(std::unique(result.numbers.begin(), result.numbers.end()),
+                             result.numbers.end());
         for (std::size_t i = 0; i < rows; ++i)
             result.of_row[i] = static_cast<std::uint32_t>(
                 std::ranges::lower_bound(result.numbers, numbers[i]) - result.numbers.begin());

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -163,9 +162,11 @@ bool FileStream::take_finished(const JournalContent& found) {
 std::optional<Checkpoint> FileStream::last_fitting(const JournalContent& found) const {
     const bool is_all_there = found.boot == boot_id();
     const std::uint64_t bytes = part_bytes();
-    for (const Checkpoint& point : std::views::reverse(found.checkpoints))
-        if (point.bytes <= bytes && (point.is_safe || is_all_there)) return point;
-    return std::nullopt;
+    const auto last = std::find_if(
+        found.checkpoints.rbegin(), found.checkpoints.rend(), [&](const Checkpoint& point) {
+            return point.bytes <= bytes && (point.is_safe || is_all_there);
+        });
+    return last == found.checkpoints.rend() ? std::nullopt : std::optional(*last);
 }
 
 bool FileStream::resume() {

@@ -33,9 +33,10 @@ double LeftOutFringes::path_nm(const Point& from, const Point& to) {
 
 double LeftOutFringes::error(Side side, const ColorTables& tables, bool only_edges) {
     std::ranges::sort(points_, {}, &Point::wavelength_nm);
-    const auto again = std::ranges::unique(
-        points_, [](double a, double b) { return b - a < kSame * a; }, &Point::wavelength_nm);
-    points_.erase(again.begin(), again.end());
+    const auto same = [](const Point& a, const Point& b) {
+        return b.wavelength_nm - a.wavelength_nm < kSame * a.wavelength_nm;
+    };
+    points_.erase(std::unique(points_.begin(), points_.end(), same), points_.end());
     for (std::size_t i = 1; i < points_.size(); ++i)
         points_[i].turned =
             points_[i - 1].turned + std::abs(points_[i].phase - points_[i - 1].phase);

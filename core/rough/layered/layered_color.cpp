@@ -44,8 +44,7 @@ std::vector<double> pieces_of(const LayeredSurface& surface, WavelengthRange sup
         for (const double nm : table->wavelength_nm)
             if (nm > support.first_nm && nm < support.last_nm) ends.push_back(nm);
     std::ranges::sort(ends);
-    const auto repeated = std::ranges::unique(ends);
-    ends.erase(repeated.begin(), repeated.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     return ends;
 }
 
@@ -138,8 +137,7 @@ void LayeredColor::add_first_layer(std::span<const ScatterPair> pairs,
         angles.push_back(facets.back().theta_d_deg);
     }
     std::ranges::sort(angles);
-    const auto repeated = std::ranges::unique(angles);
-    angles.erase(repeated.begin(), repeated.end());
+    angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
     ColorRequest request;
     request.tolerance = std::max(kSmallestTolerance, tolerance_ / 2);
     request.colors = angles.size();
