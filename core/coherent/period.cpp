@@ -14,13 +14,15 @@ constexpr double kLargestLogTrace = 40;
 /// Beyond this N Im K, the smaller diagonal entry of M^N is computed separately.
 constexpr double kAttenuated = 1;
 
-/// (sign cos(z) - 1) exp(-log_scale); cos_z is cos(z) exp(-Im z), log_scale >= Im z.
-Complex without_identity(double sign, Complex z, Complex cos_z, double log_scale) {
+/// (sign cos(z) - 1) exp(-log_scale) with log_scale = Im z + rest, rest >= 0; cos_z is cos(z)
+/// exp(-Im z). The rest is given because a large Im z would leave few digits of the difference.
+Complex without_identity(double sign, Complex z, Complex cos_z, double rest) {
+    const double identity = std::exp(-z.imag() - rest);
     if (sign > 0 && z.imag() < 1) {
         const Complex half = std::sin(z / 2.0);
-        return -2.0 * half * half * std::exp(-log_scale);
+        return -2.0 * half * half * identity;
     }
-    return sign * cos_z * std::exp(z.imag() - log_scale) - std::exp(-log_scale);
+    return sign * cos_z * std::exp(-rest) - identity;
 }
 
 /// The traceless part [[t, b], [c, -t]] of a period: without cos(K) I.
@@ -136,13 +138,15 @@ Slab with_matrix(const Slab& slab, const Matrix& matrix) {
     return result;
 }
 
-double log_size(const Matrix& m) {
-    return std::log(std::abs(m.a) + std::abs(m.b) + std::abs(m.c) + std::abs(m.d)) + m.log_scale;
+double size_of(const Matrix& m) {
+    return std::abs(m.a) + std::abs(m.b) + std::abs(m.c) + std::abs(m.d);
 }
 
 /// An absorbing group: its absorption is summed by repeated doubling, in which all terms have one
 /// sign. While light still gets through, the intermediate matrices are closed-form powers; beyond
-/// that only the doubled matrices balance the doubled absorption to the last digit.
+/// that only the doubled matrices balance the doubled absorption to the last digit. They lose digits
+/// of the fields' ratio where a period's trace cancels, and doubling doubles the error of their
+/// logarithm; the closed form does neither, and gives both in the end.
 Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
                 Polarization polarization) {
     const Slab period = slab_of(group.elements, media, k0, polarization);
@@ -159,9 +163,12 @@ Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
         if (group.repeat & step) total = of_periods(doubled * total, below += step);
         if (2 * step <= group.repeat) doubled = of_periods(doubled * doubled, 2 * step);
     }
-    if (!closed)  // doubling doubles the error of the logarithm; the closed form does not
-        total.matrix.log_scale +=
-            log_size(power(period.matrix, bloch, group.repeat)) - log_size(total.matrix);
+    if (closed) return total;
+    Matrix exact = power(period.matrix, bloch, group.repeat);
+    const double factor = size_of(total.matrix) / size_of(exact);
+    for (Complex* entry : {&exact.a, &exact.b, &exact.c, &exact.d}) *entry *= factor;
+    exact.log_scale -= std::log(factor);
+    total.matrix = exact;
     return total;
 }
 
@@ -210,8 +217,9 @@ Matrix power(const Matrix& m, const BlochPhase& bloch, std::uint64_t repeat) {
     // cos(N K) I grows as exp(N Im K), ratio (M - x I) as exp((N - 1) Im K + m.log_scale)
     const double sign = flip && repeat % 2 == 1 ? -1 : 1;
     const Complex f = (flip ? -sign : sign) * ratio * std::exp(std::min(0.0, ahead));
-    Matrix result{f * of.t, f * of.b, f * of.c, -f * of.t, n * k.imag() + std::max(0.0, ahead)};
-    const Complex diagonal = without_identity(sign, n * k, all.cos, result.log_scale);
+    const double rest_ahead = std::max(0.0, ahead);
+    Matrix result{f * of.t, f * of.b, f * of.c, -f * of.t, n * k.imag() + rest_ahead};
+    const Complex diagonal = without_identity(sign, n * k, all.cos, rest_ahead);
     result.a += diagonal;
     result.d += diagonal;
     if (n * k.imag() > kAttenuated) {

@@ -31,11 +31,12 @@ constexpr double kShort_nm = 400;
 /// which on spectra with their closed forms are quicker.
 constexpr double kForNine = 0.67, kForAny = 12;
 
-/// Round trips whose fringes are to be resolved, and intervals that the Gaussian takes itself.
-constexpr double kRoundTrips = 4, kOfGaussian = 10;
+/// Round trips whose fringes are to be resolved, of one spread layer and of two, of which either
+/// blurs the fringes of the other, and intervals that the Gaussian takes itself.
+constexpr double kRoundTrips = 4, kRoundTripsOfTwo = 2, kOfGaussian = 10;
 
-/// Colours for one.
-constexpr std::size_t kMostNodes = 1500;
+/// Colours for one: the finest rules of two layers.
+constexpr std::size_t kMostNodes = 129 * 129;
 
 constexpr std::size_t kMostLayers = 2;
 
@@ -244,7 +245,8 @@ private:
         const double wide = reach_ * layer.thickness_sigma_nm +
                             std::min(layer.thickness_nm, reach_ * layer.thickness_sigma_nm);
         // equal steps need two a wave, Clenshaw and Curtis's pi
-        const double waves = kRoundTrips * turn_per_nm_[spread] * wide / (2 * std::numbers::pi);
+        const double trips = places_.size() > 1 ? kRoundTripsOfTwo : kRoundTrips;
+        const double waves = trips * turn_per_nm_[spread] * wide / (2 * std::numbers::pi);
         const double least = kOfGaussian + (is_cut(layer) ? std::numbers::pi : 2) * waves;
         std::size_t level = kGaussLevels;
         while (level < kLevels && static_cast<double>(kIntervals.at(level - kGaussLevels)) < least)

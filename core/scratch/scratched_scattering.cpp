@@ -9,6 +9,7 @@
 #include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/parallel.hpp"
+#include "core/math/transform.hpp"
 #include "core/math/vector_math.hpp"
 #include "core/scratch/light_points.hpp"
 #include "core/scratch/rough_base.hpp"
@@ -46,6 +47,45 @@ Triple weighted(const std::array<std::vector<double>, 3>& weight, std::span<cons
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < values.size(); ++i) sum[c] += weight[c][i] * values[i];
     return sum;
+}
+
+/// Values of a smooth function of 1/lambda: from the polynomial through Chebyshev points whose last
+/// coefficients are rounding, if these are fewer than the wavelengths, else each by itself.
+template <class F>
+std::vector<double> smooth_values(const F& at, const std::vector<double>& wavelength_nm) {
+    constexpr double kNothing = 1e-14;
+    constexpr std::size_t kFewest = 32;
+    const std::size_t count = wavelength_nm.size();
+    std::vector<double> values(count);
+    const auto [shortest, longest] = std::ranges::minmax(wavelength_nm);
+    const double middle = (1 / shortest + 1 / longest) / 2, half = (1 / shortest - 1 / longest) / 2;
+    for (std::size_t degree = kFewest; 4 * degree < count; degree *= 2) {
+        std::vector<double> points(degree + 1), coefficients(degree + 1);
+        for (std::size_t j = 0; j <= degree; ++j)
+            points[j] = at(1 / (middle + half * std::cos(kPi * static_cast<double>(j) /
+                                                         static_cast<double>(degree))));
+        chebyshev_transform(degree)(points, coefficients);
+        double last = 0, largest = 0;
+        for (std::size_t k = 0; k <= degree; ++k) {
+            const double size = std::abs(coefficients[k]);
+            largest = std::max(largest, size);
+            if (4 * k > 3 * degree) last = std::max(last, size);
+        }
+        if (last > kNothing * largest) continue;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = (1 / wavelength_nm[i] - middle) / half;
+            double b = 0, next = 0;  // Clenshaw's recurrence
+            for (std::size_t k = degree; k > 0; --k) {
+                const double one = coefficients[k] + 2 * x * b - next;
+                next = b;
+                b = one;
+            }
+            values[i] = coefficients[0] + x * b - next;
+        }
+        return values;
+    }
+    for (std::size_t i = 0; i < count; ++i) values[i] = at(wavelength_nm[i]);
+    return values;
 }
 
 }  // namespace
@@ -216,14 +256,19 @@ std::vector<double> ScratchedScattering::pair_brdf(const SkyPair& pair,
             base_reflectance(*surface_.base, wavelength_nm, std::span(&cosine, 1), execution_);
     }
     const double rough = surface_.alpha ? facet_brdf(*surface_.alpha, pair.light, pair.view) : 0;
-    std::vector<double> values = sum_.kind == ScratchSum::Kind::separate
-                                     ? separate(pair, wavelength_nm)
-                                     : std::vector<double>(wavelength_nm.size(), 0.0);
+    std::vector<double> values;
+    if (sum_.kind == ScratchSum::Kind::separate) {
+        values = separate(pair, wavelength_nm);
+    } else if (sum_.kind == ScratchSum::Kind::ensemble) {
+        values = smooth_values([&](double nm) { return ensemble(pair, nm / kNanometres); },
+                               wavelength_nm);
+    } else {
+        values.resize(wavelength_nm.size());
+    }
     const std::vector<ScratchBalance> shares = balances(pair.view[2], wavelength_nm);
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double wavelength_um = wavelength_nm[i] / kNanometres;
         if (sum_.kind == ScratchSum::Kind::coherent) values[i] = coherent(pair, wavelength_um);
-        if (sum_.kind == ScratchSum::Kind::ensemble) values[i] = ensemble(pair, wavelength_um);
         if (!surface_.base) continue;
         values[i] = reflectance[i] * (shares[i].scratches * values[i] + shares[i].base * rough);
     }

@@ -96,6 +96,33 @@ TEST_CASE("two spread layers are a mean over both", "[color]") {
     }
 }
 
+TEST_CASE("two wide spreads between metals are a mean of colours", "[color]") {
+    StackBuilder b;
+    const std::size_t silver = b.material(find_material("Ag")->material);
+    b.add(StackBuilder::layer_of(silver, 20));
+    b.add(b.layer(1.5, 420));
+    b.add(b.layer(2.2, 200));
+    Stack stack = b.over_material(silver);
+    constexpr double kSigma_nm = 60;
+    layer_of(stack, 1).thickness_sigma_nm = layer_of(stack, 2).thickness_sigma_nm = kSigma_nm;
+    const StackColor both = color(stack, 30);
+    CHECK(both.error <= 1e-6);
+    CHECK(both.method == ColorMethod::Kind::quadrature);
+    CHECK(both.evaluations > 100000);  // of colours, not of spectra that are means
+    Triple mean{};
+    double weights = 0;
+    layer_of(stack, 1).thickness_sigma_nm = 0;
+    for (int j = -84; j <= 84; ++j) {  // equal steps
+        const double x = j / 12.0, weight = std::exp(-x * x / 2);
+        layer_of(stack, 1).thickness_nm = 420 + kSigma_nm * x;
+        const Triple xyz = color(stack, 30).xyz;
+        for (std::size_t c = 0; c < 3; ++c) mean[c] += weight * xyz[c];
+        weights += weight;
+    }
+    for (double& value : mean) value /= weights;
+    CHECK(largest_difference(both.xyz, mean) < 2e-6);
+}
+
 TEST_CASE("repetitions of a group share the deviation of a layer", "[color]") {
     StackBuilder b;
     b.add(StackBuilder::group(4, {b.layer(2.2, 60), b.layer(1.45, 95)}));

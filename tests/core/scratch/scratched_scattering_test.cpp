@@ -319,3 +319,27 @@ TEST_CASE("the mean over places of a field is its ensemble", "[scratch]") {
     CHECK(relative(density, mean.density()) < 0.05);
     CHECK(relative(sum, expected) < 0.3);
 }
+
+TEST_CASE("spectra of an ensemble are those of its wavelengths one by one", "[scratch]") {
+    Random random(62);
+    for (int i = 0; i < 6; ++i) {
+        ScratchedSurface surface;
+        surface.optics = {random.log_uniform(5, 100), DepthPhase::slanted};
+        const double angle = random.uniform(-90, 60);
+        surface.fields = {
+            {60, {2000, 2000}, {0.8, random.uniform(1, 20)}, {0.1, 2}, {angle, angle + 30}}};
+        const double tilt = random.one_in(2) ? 0 : random.uniform(0, 0.5);
+        const SkyPair pair{{-kPair.view[0] + tilt, -kPair.view[1], kPair.light[2]}, kPair.view};
+        const ScratchedScattering mean =
+            seen_from(surface, SurfacePoint{}, {ScratchSum::Kind::ensemble});
+        std::vector<double> many;
+        for (double nm = 360; nm <= 830; nm += 0.5) many.push_back(nm);
+        const std::vector<double> together = mean.brdf(std::array{pair}, many);
+        const double largest = std::ranges::max(together);
+        for (std::size_t j = 0; j < many.size(); j += 94) {
+            const double alone = mean.brdf(std::array{pair}, {many[j]})[0];
+            CAPTURE(i, tilt, many[j]);
+            CHECK(std::abs(together[j] - alone) < 1e-12 * largest);
+        }
+    }
+}

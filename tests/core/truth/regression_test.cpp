@@ -309,3 +309,16 @@ TEST_CASE("pairs keep their Bloch phase where a cosine of a half layer is nearly
                   1.4476534970918882),
           973.53564268703587, 21.290061853949652);
 }
+
+TEST_CASE("attenuating periods of attenuating periods keep the ratio of their fields",
+          "[regression]") {
+    // a period's trace cancels, which costs repeated doubling a digit, and the exponent of all
+    // periods was subtracted from itself
+    StackBuilder b;
+    const Element inner = StackBuilder::group(
+        699, {b.layer({2.6627174038472017, 2.275951094563915e-06}, 242.83004593422362),
+              b.layer({1.8771204501018648, 5.445101210603346e-08}, 246.20595669374768)});
+    b.add(StackBuilder::group(
+        10000, {inner, b.layer({1.74359008112872, 4.038991813680988e-09}, 37.65015748635543)}));
+    check(b.over(1.8887361678926375), 435.6739187498322, 21.911456144953362);
+}
