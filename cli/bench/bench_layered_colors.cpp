@@ -123,11 +123,12 @@ void add_refracted(const LayeredBench& bench, const std::string& name, const Sta
 
 /// BB17's methods: the spectral reference at irido's own tolerance, its series with exact
 /// transforms up to all orders and to 3 and 1, and with Gaussians.
-constexpr std::array kFilmWays{NamedWay{"spectral", {}},
-                               NamedWay{"fourier", {ColorMethod::Kind::fourier}},
-                               NamedWay{"fourier/3", {ColorMethod::Kind::fourier, 3}},
-                               NamedWay{"fourier/1", {ColorMethod::Kind::fourier, 1}},
-                               NamedWay{"gaussian/3", {ColorMethod::Kind::gaussian, 3}}};
+std::vector<NamedWay> film_ways() {
+    return {NamedWay{"spectral", {}}, NamedWay{"fourier", color_method("fourier")},
+            NamedWay{"fourier/3", color_method("fourier", 3)},
+            NamedWay{"fourier/1", color_method("fourier", 1)},
+            NamedWay{"gaussian/3", color_method("gaussian", 3)}};
+}
 
 /// Spreads of the path that have a table.
 constexpr std::array kSpreadLevels_nm{0.0, 50.0, 100.0, 200.0};
@@ -208,22 +209,21 @@ void set_color_errors(const std::vector<Triple>& colors, const std::vector<Tripl
 void add_film_dielectric(const LayeredBench& bench, std::vector<LayeredRow>& rows) {
     const Stack stack = bench_film(1.5, 525, 1.09);
     constexpr double kAlpha = 0.2;
-    add_reflected(bench, "film-dielectric", ReflectedLobe(stack, kAlpha), kFilmWays, rows);
-    add_refracted(bench, "film-dielectric", stack, kAlpha, kFilmWays, rows);
+    add_reflected(bench, "film-dielectric", ReflectedLobe(stack, kAlpha), film_ways(), rows);
+    add_refracted(bench, "film-dielectric", stack, kAlpha, film_ways(), rows);
 }
 
 // 550 nm of 1.33 on 1.9 + 1.5i, BB17's preview
 void add_film_conductor(const LayeredBench& bench, std::vector<LayeredRow>& rows) {
     const ReflectedLobe lobe(bench_film(1.33, 550, {1.9, 1.5}), 0.2);
-    add_reflected(bench, "film-conductor", lobe, kFilmWays, rows);
+    add_reflected(bench, "film-conductor", lobe, film_ways(), rows);
 }
 
 // 666 nm of 1.4 on copper and on glass, BB17's figure 8
 void add_film_dispersive(const LayeredBench& bench, std::vector<LayeredRow>& rows) {
-    constexpr std::array ways{
-        NamedWay{"spectral", {}}, NamedWay{"fourier", {ColorMethod::Kind::fourier}},
-        NamedWay{"fourier-constant/3", {ColorMethod::Kind::fourier_constant, 3}},
-        NamedWay{"gaussian/3", {ColorMethod::Kind::gaussian, 3}}};
+    const std::array ways{NamedWay{"spectral", {}}, NamedWay{"fourier", color_method("fourier")},
+                          NamedWay{"fourier-constant/3", color_method("fourier-constant", 3)},
+                          NamedWay{"gaussian/3", color_method("gaussian", 3)}};
     constexpr double kAlpha = 0.1;
     for (const char* base : {"Cu", "BK7"}) {
         StackBuilder builder{Complex(1)};
@@ -246,10 +246,7 @@ void add_film_spread(const LayeredBench& bench, std::vector<LayeredRow>& rows) {
         const std::vector<Triple> exact = lobe({}, kExactTolerance);
         add_way(
             bench, name, "fourier/3", exact,
-            [&] {
-                return lobe({ColorMethod::Kind::fourier, 3}, kDefaultTolerance);
-            },
-            rows);
+            [&] { return lobe(color_method("fourier", 3), kDefaultTolerance); }, rows);
         add_way(
             bench, name, "levels", exact,
             [&] { return by_levels(lobe, kFilm_n, kThickness_nm, base, sigma); }, rows);
@@ -271,10 +268,10 @@ void add_film_remapped(const LayeredBench& bench, std::vector<LayeredRow>& rows)
 
 // FPB24's figure 8: ten periods of 500 nm
 void add_landmarks(const LayeredBench& bench, std::vector<LayeredRow>& rows) {
-    constexpr std::array ways{NamedWay{"spectral", {}},
-                              NamedWay{"landmarks", {ColorMethod::Kind::landmarks, 1}},
-                              NamedWay{"landmarks/3", {ColorMethod::Kind::landmarks, 3}},
-                              NamedWay{"landmarks/6", {ColorMethod::Kind::landmarks, 6}}};
+    const std::array ways{NamedWay{"spectral", {}},
+                          NamedWay{"landmarks", color_method("landmarks", 1)},
+                          NamedWay{"landmarks/3", color_method("landmarks", 3)},
+                          NamedWay{"landmarks/6", color_method("landmarks", 6)}};
     StackBuilder builder{Complex(1)};
     const Element first = builder.layer(Complex(1), 250);
     const Element second = builder.layer(Complex(1.5), 250);

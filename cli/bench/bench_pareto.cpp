@@ -15,9 +15,6 @@ namespace {
 
 constexpr double kMostStacks = 1e5;
 
-/// Tolerance for integrating the average of Bloch waves: its own error is larger.
-constexpr double kAverageTolerance = 1e-4;
-
 struct ParetoOptions {
     std::string cases = "all";
     std::string count = "50";
@@ -28,37 +25,20 @@ struct ParetoOptions {
     bool quiet = false;
 };
 
-/// One method with tolerances 10^-2 to 10^-last_power, or with counts of something.
-struct Candidate {
-    ColorMethod::Kind kind;
-    int last_power;  ///< 0 if it has no tolerances
-    std::vector<std::size_t> counts;
-    bool is_exact;  ///< meets any tolerance: compared with equally spaced wavelengths
-
-    std::string name() const { return name_of(ColorMethod{kind}); }
-};
-
-const std::vector<Candidate>& candidates() {
-    using enum ColorMethod::Kind;
-    static const std::vector<Candidate> all{
-        {quadrature, 10, {}, true},
-        {fourier, 8, {1, 2, 3}, true},
-        {fourier_constant, 8, {}, false},
-        {bloch, 8, {1}, true},
-        {automatic, 10, {}, true},
-        {equal, 0, {8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096}, false},
-        {naive, 0, {0}, false},
-        {gaussian, 0, {0}, false},
-        {gltf, 0, {0}, false},
-        {smits, 0, {0}, false},
-        {landmarks, 0, {1, 2, 3, 4, 5}, false},
-    };
+/// All methods in the order of their trials.
+const std::vector<const ColorMethodKind*>& candidates() {
+    static const auto all = [] {
+        std::vector<const ColorMethodKind*> methods(color_methods().begin(), color_methods().end());
+        std::ranges::sort(methods, {},
+                          [](const ColorMethodKind* method) { return method->trials.place; });
+        return methods;
+    }();
     return all;
 }
 
 struct ParetoRow {
     std::string_view of;  ///< the case
-    std::size_t candidate = 0;
+    const ColorMethodKind* method = nullptr;
     double parameter = 0, tolerance = 0;
     MethodReport report;
     EqualMatch equal;
@@ -67,27 +47,28 @@ struct ParetoRow {
 std::vector<ParetoRow> rows_of(const ColorCase& one, ColorComparison comparison,
                                StepProgress& progress) {
     std::vector<ParetoRow> rows;
-    const auto add = [&](std::size_t index, std::size_t count, double tolerance) {
-        const Candidate& candidate = candidates()[index];
-        const auto report = comparison.measure({candidate.kind, count}, tolerance);
-        if (!report) return;
-        const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch && count > 0;
-        ParetoRow row{one.name, index,   static_cast<double>(is_bloch ? count - 1 : count),
-                      0,        *report, {}};
-        if (count == 0 && candidate.last_power > 0) {
-            row.tolerance = tolerance;
-            if (candidate.is_exact) row.equal = comparison.equal_match(report->max_error);
-        }
-        rows.push_back(std::move(row));
-    };
-    for (std::size_t index = 0; index < candidates().size(); ++index) {
-        const Candidate& candidate = candidates()[index];
-        progress.begin(std::string(one.name) + ", " + candidate.name());
-        for (int power = 2; power <= candidate.last_power; ++power)
-            add(index, 0, std::stod("1e-" + std::to_string(power)));
-        const bool is_bloch = candidate.kind == ColorMethod::Kind::bloch;
-        for (const std::size_t count : candidate.counts)
-            add(index, count, is_bloch ? kAverageTolerance : 1e-6);
+    for (const ColorMethodKind* const method : candidates()) {
+        progress.begin(std::string(one.name) + ", " + std::string(method->name));
+        const auto add = [&](std::size_t count, double tolerance) {
+            const auto report = comparison.measure({method, count}, tolerance);
+            if (!report) return;
+            ParetoRow row{one.name,
+                          method,
+                          static_cast<double>(count > 0 ? count - method->number.offset : 0),
+                          0,
+                          *report,
+                          {}};
+            if (count == 0 && method->trials.last_power > 0) {
+                row.tolerance = tolerance;
+                if (method->use == MethodUse::exact)
+                    row.equal = comparison.equal_match(report->max_error);
+            }
+            rows.push_back(std::move(row));
+        };
+        for (int power = 2; power <= method->trials.last_power; ++power)
+            add(0, std::stod("1e-" + std::to_string(power)));
+        for (const std::size_t count : method->trials.counts)
+            add(count, method->trials.tolerance_of_counts);
     }
     return rows;
 }
@@ -96,7 +77,7 @@ tables::Records to_records(const std::vector<ParetoRow>& rows) {
     tables::Column::Texts cases, methods, stacks, hexes, exact;
     for (const ParetoRow& row : rows) {
         cases.emplace_back(row.of);
-        methods.push_back(candidates()[row.candidate].name());
+        methods.emplace_back(row.method->name);
         stacks.push_back(row.report.worst_stack);
         hexes.push_back(row.report.worst_hex);
         exact.push_back(row.report.exact_hex);
@@ -152,7 +133,7 @@ tables::Panel panel_of(const std::vector<ParetoRow>& rows, std::vector<std::stri
     panel.series.push_back({"best for its time", 0, front(rows), highlight, {}});
     std::string last;
     for (const ParetoRow& row : rows) {
-        const std::string name = candidates()[row.candidate].name();
+        const std::string name(row.method->name);
         const auto known = std::ranges::find(names, name);
         const auto style = static_cast<std::size_t>(known - names.begin());
         if (known == names.end()) names.push_back(name);
@@ -191,6 +172,33 @@ tables::Figure picture(const std::vector<std::vector<ParetoRow>>& cases) {
     figure.panel_height = 170;
     figure.shared_x = figure.shared_y = true;
     return figure;
+}
+
+/// The methods, with what `parameter` is, for --help.
+std::string methods_text() {
+    std::vector<std::string> with_tolerance, at_counts;
+    for (const ColorMethodKind* const method : candidates()) {
+        const MethodTrials& trials = method->trials;
+        if (trials.last_power == 0) continue;
+        with_tolerance.emplace_back(method->name);
+        if (!trials.counts.empty())
+            at_counts.push_back(std::string(method->name) + " also " + std::string(trials.what));
+    }
+    const std::string last = with_tolerance.back();
+    with_tolerance.pop_back();
+    std::string text = joined(with_tolerance, ", ") + " and " + last + " at their tolerances (" +
+                       joined(at_counts, ", ") + ", at tolerance 0);\n";
+    std::vector<std::string> others;
+    for (const ColorMethodKind* const method : color_methods_for_help()) {
+        if (method->trials.last_power > 0) continue;
+        const bool has_parameter = method->trials.counts.size() > 1;
+        others.push_back(std::string(method->name) + ": " + std::string(method->trials.what) +
+                         (has_parameter ? ";\n" : "; "));
+    }
+    text += joined(others, "");
+    text.erase(text.find_last_not_of("; \n") + 1);
+    return wrapped(text + ". A method that cannot compute the stacks of a case has no rows there.",
+                   kHelpNotesWidth);
 }
 
 int run_pareto(const ParetoOptions& options) {
@@ -251,23 +259,18 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
         *command,
         {"irido bench pareto -o pareto.csv --plot pareto.svg",
          "irido bench pareto --cases dielectric,conductor --count 2000 -f json"},
-        "Reflected unpolarized light, D65, 2 degrees, one thread; white Y = 1. Methods:\n"
-        "quadrature, fourier, fourier-constant, bloch and auto at their tolerances (fourier\n"
-        "also truncated at the order `parameter`, bloch also the mean alone, at tolerance 0);\n"
-        "landmarks: FPB24's boxes, subdivided by `parameter`;\n"
-        "equal: `parameter` equally spaced wavelengths;\n"
-        "naive: 650, 510, 475 nm; gaussian: Belcour and Barla's Gaussians; gltf: the\n"
-        "formulas of KHR_materials_iridescence; smits: two beams. A method that cannot\n"
-        "compute the stacks of a case has no rows there.\n"
-        "Columns: parameter and tolerance, 0 where there is none; evaluations: wavelengths\n"
-        "per colour; ns_per_color: processor time of the fastest run, including each stack's\n"
-        "preparation in the random sets; max_dXYZ: largest error of X, Y, Z against\n"
-        "quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours: mean, 95th percentile\n"
-        "and maximum over the case's `colors`. For methods with a tolerance:\n"
-        "equal_wavelengths: number of equally spaced wavelengths with the same max_dXYZ, and\n"
-        "their equal_ns_per_color and times_faster; 0 for other methods, and if more than\n"
-        "65536 are needed. worst_stack, worst_angle_deg: where dE2000 is largest; there\n"
-        "the method gives worst_hex instead of exact_hex.");
+        "Reflected unpolarized light, D65, 2 degrees, one thread; white Y = 1. Methods:\n" +
+            methods_text() +
+            "\n"
+            "Columns: parameter and tolerance, 0 where there is none; evaluations: wavelengths\n"
+            "per colour; ns_per_color: processor time of the fastest run, including each stack's\n"
+            "preparation in the random sets; max_dXYZ: largest error of X, Y, Z against\n"
+            "quadrature at 1e-11; dE2000: CIEDE2000 to the exact colours: mean, 95th percentile\n"
+            "and maximum over the case's `colors`. For methods with a tolerance:\n"
+            "equal_wavelengths: number of equally spaced wavelengths with the same max_dXYZ, and\n"
+            "their equal_ns_per_color and times_faster; 0 for other methods, and if more than\n"
+            "65536 are needed. worst_stack, worst_angle_deg: where dE2000 is largest; there\n"
+            "the method gives worst_hex instead of exact_hex.");
     command->callback([options, &run] { run = [options] { return run_pareto(*options); }; });
 }
 

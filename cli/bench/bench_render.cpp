@@ -133,15 +133,14 @@ void measure_case(const PictureCase& of, std::size_t size, const Execution& exec
         bool exact;
         ColorMethod method;
     };
-    using enum ColorMethod::Kind;
     const std::array methods{Method{"exact", true, {}}, Method{"irido", false, {}},
-                             Method{"41 wavelengths", true, {equal, 41}},
-                             Method{"9 wavelengths", true, {equal, 9}},
-                             Method{"3 wavelengths", true, {naive}}};
+                             Method{"41 wavelengths", true, color_method("equal", 41)},
+                             Method{"9 wavelengths", true, color_method("equal", 9)},
+                             Method{"3 wavelengths", true, color_method("naive")}};
     const BenchPicture bench(of, size, execution);
     Picture exact, picture;
     for (const Method& method : methods) {
-        if (!bench.has_other_methods() && method.method.kind != automatic) continue;
+        if (!bench.has_other_methods() && !method.method.is("auto")) continue;
         if (of.alpha > 0 && method.exact) continue;  // millions of colours
         MeasuredPicture row{of.name, method.name};
         row.seconds = bench.draw(method.exact, method.method, picture);

@@ -31,8 +31,7 @@ ColorComparison::ColorComparison(const ColorTables& tables, std::vector<ColorFam
       seconds_(seconds),
       simd_(simd) {
     for (const ColorFamily& family : families_) count_ += colors_of(family);
-    const Algorithms exact =
-        algorithms({ColorMethod::Kind::quadrature}, request(kReferenceTolerance));
+    const Algorithms exact = algorithms(color_method("quadrature"), request(kReferenceTolerance));
     for (const StackColor& color : colors(exact)) exact_.push_back(color.xyz);
 }
 
@@ -132,8 +131,7 @@ std::optional<MethodReport> ColorComparison::measure(const ColorMethod& method,
 double ColorComparison::equal_error(std::size_t count) {
     const auto [known, is_new] = equal_errors_.try_emplace(count, 0);
     if (is_new)
-        known->second =
-            max_error(colors(algorithms({ColorMethod::Kind::equal, count}, request(1))));
+        known->second = max_error(colors(algorithms(color_method("equal", count), request(1))));
     return known->second;
 }
 
@@ -149,7 +147,7 @@ EqualMatch ColorComparison::equal_match(double max_error) {
         (equal_error(middle) > max_error ? few : enough) = middle;
     }
     const auto [known, is_new] = equal_ns_.try_emplace(enough, 0);
-    if (is_new) known->second = run({ColorMethod::Kind::equal, enough}, 1).ns_per_color;
+    if (is_new) known->second = run(color_method("equal", enough), 1).ns_per_color;
     return {static_cast<double>(enough), known->second};
 }
 

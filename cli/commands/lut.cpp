@@ -8,7 +8,6 @@
 #include "cli/options/long_work.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/table_options.hpp"
-#include "cli/progress.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "schemas/documents/json_document.hpp"
@@ -178,25 +177,14 @@ int run_lut(const tables::LutKind& kind, const LutCommand& command) {
     making.threads = command.threads;
     if (!is_slow(kind, request))
         note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
-    Progress progress(command.quiet);
-    making.progress = [&progress](double done, const std::string& what) {
-        progress.set(done, what);
-    };
-    tables::Lut lut;
-    try {
-        lut = tables::make_lut(kind, std::move(plan), making);
-    } catch (const ToleranceError& error) {
-        progress.clear();
-        print_error(error.what());
-        return kCheckFailed;
-    }
-    progress.clear();
-    for (const auto& text : lut.facts["notes"]) note(text.get<std::string>(), command.quiet);
+    const std::optional<tables::Lut> lut =
+        lut_with_progress(kind, std::move(plan), std::move(making), command.quiet);
+    if (!lut) return kCheckFailed;
     if (picture) {
-        draw_lut(command, kind, request, *picture, lut);
+        draw_lut(command, kind, request, *picture, *lut);
         return 0;
     }
-    write_table(lut, *format, command.table.layout, command.output, command.quiet);
+    write_table(*lut, *format, command.table.layout, command.output, command.quiet);
     return 0;
 }
 

@@ -241,29 +241,18 @@ int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
     making.threads = command.threads;
     const auto say = [&](const std::string& text) { note(text, command.quiet); };
     note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
-    Progress progress(command.quiet);
-    making.progress = [&progress](double done, const std::string& what) {
-        progress.set(done, what);
-    };
     static const tables::LutKind kind{
         .name = "brdf", .summary = kLutBrdfSummary, .axes = kLutBrdfAxes};
-    tables::Lut lut;
-    try {
-        lut = tables::make_lut(kind, std::move(plan), making);
-    } catch (const ToleranceError& error) {
-        progress.clear();
-        print_error(error.what());
-        return kCheckFailed;
-    }
-    progress.clear();
-    for (const auto& text : lut.facts["notes"]) say(text.get<std::string>());
+    const std::optional<tables::Lut> lut =
+        lut_with_progress(kind, std::move(plan), std::move(making), command.quiet);
+    if (!lut) return kCheckFailed;
     if (!picture) {
-        write_table(lut, *format, command.table.layout, command.output, command.quiet);
+        write_table(*lut, *format, command.table.layout, command.output, command.quiet);
         return 0;
     }
     const auto figure = [&] {
         // pi times the BRDF, as of brdf --color: a white diffuser is white
-        tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture),
+        tables::Figure drawn = tables::lut_figure(*lut, title, parse_gamut(command.picture),
                                                   kPi * std::exp2(exposure_of(command)));
         for (const std::string& text : drawn.notes) say(text);
         return drawn;

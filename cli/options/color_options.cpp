@@ -15,32 +15,6 @@ namespace irido::cli {
 
 namespace {
 
-struct NamedMethod {
-    std::string_view name;
-    ColorMethod::Kind kind;
-    double fewest, most;    ///< range of the number after a slash; 0, 0: takes no number
-    std::size_t by_itself;  ///< the count if no number is given
-    std::size_t more = 0;   ///< what to add to the number for the count
-};
-
-constexpr double kMostHarmonics = 1000, kMostSubdivisions = 1000;
-
-using enum ColorMethod::Kind;
-
-constexpr std::array kMethods{
-    NamedMethod{"auto", automatic, 0, 0, 0},
-    NamedMethod{"quadrature", quadrature, 0, 0, 0},
-    NamedMethod{"fourier", fourier, 1, 1000, 0},
-    NamedMethod{"fourier-constant", fourier_constant, 1, 1000, 0},
-    NamedMethod{"bloch", bloch, 0, kMostHarmonics, 0, 1},
-    NamedMethod{"naive", naive, 0, 0, 0},
-    NamedMethod{"equal", equal, 2, 1e6, 32},
-    NamedMethod{"gaussian", gaussian, 0, 0, 0},
-    NamedMethod{"gltf", gltf, 0, 0, 0},
-    NamedMethod{"smits", smits, 0, 0, 0},
-    NamedMethod{"landmarks", landmarks, 1, kMostSubdivisions, 1},
-};
-
 bool contains(std::span<const std::string_view> names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
@@ -86,59 +60,76 @@ double parse_tolerance(const std::string& text) {
 
 std::vector<std::string_view> color_method_names() {
     std::vector<std::string_view> names;
-    names.reserve(kMethods.size());
-    for (const NamedMethod& method : kMethods) names.push_back(method.name);
+    for (const ColorMethodKind* const method : color_methods()) names.push_back(method->name);
     return names;
 }
+
+std::vector<const ColorMethodKind*> color_methods_for_help() {
+    std::vector<const ColorMethodKind*> methods(color_methods().begin(), color_methods().end());
+    std::ranges::sort(methods, {},
+                      [](const ColorMethodKind* method) { return method->help.place; });
+    return methods;
+}
+
+namespace {
+
+/// The count of a method by its number as typed.
+std::size_t parse_count(const std::string& option, const std::string& typed,
+                        const MethodNumber& number) {
+    return number.offset +
+           static_cast<std::size_t>(parse_whole_number(option, typed, number.fewest, number.most));
+}
+
+Triple parse_base_color(const std::string& text) {
+    const std::vector<double> typed = parse_list("--base-color", text, 0, 1);
+    Triple rgb{};
+    if (typed.size() != rgb.size() || text.find(':') != std::string::npos)
+        throw UsageError("--base-color: must be three numbers R,G,B (got '" + text + "')");
+    std::ranges::copy(typed, rgb.begin());
+    return rgb;
+}
+
+}  // namespace
 
 ColorMethod parse_method(const std::string& text) {
     const std::size_t slash = text.find('/');
     const std::string name = text.substr(0, slash);
-    const auto method = std::ranges::find(kMethods, name, &NamedMethod::name);
-    if (method == kMethods.end()) {
+    const ColorMethodKind* const method = find_color_method(name);
+    if (!method) {
         const std::vector<std::string_view> names = color_method_names();
         throw UsageError("--method: " + not_one_of(names, name));
     }
-    if (slash == std::string::npos) return {method->kind, method->by_itself};
-    if (method->most == 0)
+    if (slash == std::string::npos) return {method, method->number.fallback};
+    if (!method->takes_number())
         throw UsageError("--method: " + name + " takes no number (got '" + text + "')");
-    return {method->kind,
-            method->more + static_cast<std::size_t>(parse_whole_number(
-                               "--method: the number of " + name, text.substr(slash + 1),
-                               method->fewest, method->most))};
+    return {method,
+            parse_count("--method: the number of " + name, text.substr(slash + 1), method->number)};
 }
 
 ColorMethod parse_method(const ColorOptions& options) {
     ColorMethod method = parse_method(options.method);
     const bool has_number = options.method.find('/') != std::string::npos;
-    const auto number = [&](const std::string& flag, const std::string& typed,
-                            ColorMethod::Kind kind, double fewest, double most) {
-        if (method.kind != kind)
-            throw UsageError(flag + ": requires --method " + name_of(ColorMethod{kind}) +
-                             " (got '" + options.method + "')");
+    const auto require = [&](const std::string& flag, std::string_view name) {
+        if (!method.is(name))
+            throw UsageError(flag + ": requires --method " + std::string(name) + " (got '" +
+                             options.method + "')");
+    };
+    const auto set_number = [&](const std::string& flag, const std::string& typed,
+                                std::string_view name) {
+        if (typed.empty()) return;
+        require(flag, name);
         if (has_number)
             throw UsageError(flag + ": conflicts with the number in --method (got '" +
                              options.method + "')");
-        return static_cast<std::size_t>(parse_whole_number(flag, typed, fewest, most));
+        method.count = parse_count(flag, typed, method.kind->number);
     };
-    if (!options.subdivide.empty())
-        method.count = number("--subdivide", options.subdivide, landmarks, 1, kMostSubdivisions);
-    if (!options.harmonics.empty())
-        method.count = number("--harmonics", options.harmonics, bloch, 0, kMostHarmonics) + 1;
+    set_number("--subdivide", options.subdivide, "landmarks");
+    set_number("--harmonics", options.harmonics, "bloch");
+    if (!options.base_color.empty()) {
+        require("--base-color", "gltf");
+        method.base_color = parse_base_color(options.base_color);
+    }
     return method;
-}
-
-std::optional<Triple> parse_base_color(const ColorOptions& options) {
-    if (options.base_color.empty()) return {};
-    if (parse_method(options.method).kind != gltf)
-        throw UsageError("--base-color: requires --method gltf (got '" + options.method + "')");
-    const std::vector<double> typed = parse_list("--base-color", options.base_color, 0, 1);
-    Triple rgb{};
-    if (typed.size() != rgb.size() || options.base_color.find(':') != std::string::npos)
-        throw UsageError("--base-color: must be three numbers R,G,B (got '" + options.base_color +
-                         "')");
-    std::ranges::copy(typed, rgb.begin());
-    return rgb;
 }
 
 Table parse_illuminant(const std::string& text) {
@@ -154,9 +145,10 @@ Table parse_illuminant(const std::string& text) {
 }
 
 std::string name_of(const ColorMethod& method) {
-    const auto named = std::ranges::find(kMethods, method.kind, &NamedMethod::kind);
-    const std::string name(named->name);
-    return method.count == 0 ? name : name + "/" + std::to_string(method.count - named->more);
+    const std::string name(method.kind->name);
+    return method.count == 0
+               ? name
+               : name + "/" + std::to_string(method.count - method.kind->number.offset);
 }
 
 std::string_view letter(Side side) {
@@ -241,31 +233,28 @@ void add_space_options(CLI::App& command, ColorOptions& options) {
     offer(command, "adaptation", "bradford none");
 }
 
+std::string color_method_help() {
+    std::string text;
+    bool has_baseline = false, has_film = false;
+    for (const ColorMethodKind* const method : color_methods_for_help()) {
+        const bool is_baseline = method->use == MethodUse::baseline;
+        if (is_baseline && !has_baseline) text += ";\napproximate baselines, for comparison:";
+        const bool starts_line = method->use == MethodUse::exact || (is_baseline && !has_baseline);
+        if (!text.empty()) text += starts_line ? "\n" : "; ";
+        if (method->needs_reflected_film && !has_film) text += "for light reflected by one film: ";
+        text += method->help.text;
+        has_baseline = has_baseline || is_baseline;
+        has_film = has_film || method->needs_reflected_film;
+    }
+    return wrapped(text, kHelpWidth);
+}
+
 void add_color_options(CLI::App& command, ColorOptions& options) {
     add_side_options(command, options, "R (reflected), T (transmitted) or R,T [R]");
     offer(command, "side", "R T", OfferedWords::Use::several);
     add_light_options(command, options);
     add_space_options(command, options);
-    command
-        .add_option("--method", options.method,
-                    "auto: the fastest exact method for the number of colours requested\n"
-                    "(--stats shows which): a row of a large sweep of one film may differ\n"
-                    "from that of a small one, within the tolerance; a method given by name\n"
-                    "computes the same row in every sweep [auto]\n"
-                    "quadrature: product quadrature of the spectrum; any stack\n"
-                    "fourier: series over the orders of interference; one film of real index\n"
-                    "over any substrate; exact for constant indices; fourier/M, M in\n"
-                    "[1, 1000], truncates it at order M; fourier-constant(/M) replaces\n"
-                    "dispersive media by constant indices\n"
-                    "bloch: Bloch waves; one group of two layers, all media of constant real\n"
-                    "index; exact, and faster than quadrature from about 100 periods on;\n"
-                    "approximate baselines, for comparison:\n"
-                    "landmarks: boxes between the landmarks of such a group (see bands);\n"
-                    "equal/N: N equally spaced wavelengths, [2, 1e6] [32]; naive: 650, 510,\n"
-                    "475 nm as R, G, B; for light reflected by one film: gaussian: the\n"
-                    "observer as Gaussians; gltf (-p u): the formulas of\n"
-                    "KHR_materials_iridescence, as in three.js; smits: a single round trip")
-        ->type_name("METHOD");
+    command.add_option("--method", options.method, color_method_help())->type_name("METHOD");
     offer(command, "method", color_method_names);
     command
         .add_option("--subdivide", options.subdivide,

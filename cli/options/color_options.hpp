@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/options/command.hpp"
-#include "core/color/color_request.hpp"
+#include "core/color/color_method.hpp"
 #include "core/colorimetry/observer.hpp"
 #include "core/colorimetry/sensitivity.hpp"
 #include "core/colorimetry/space.hpp"
@@ -58,11 +58,14 @@ ColorMethod parse_method(const std::string& text);
 /// Names of the colour methods, without their numbers.
 std::vector<std::string_view> color_method_names();
 
-/// The method, with --subdivide and --harmonics applied.
-ColorMethod parse_method(const ColorOptions& options);
+/// All methods in the order of their places on help pages.
+std::vector<const ColorMethodKind*> color_methods_for_help();
 
-/// The base colour for --method gltf, linear sRGB, if given.
-std::optional<Triple> parse_base_color(const ColorOptions& options);
+/// What --help says of every method.
+std::string color_method_help();
+
+/// The method, with --subdivide, --harmonics and --base-color applied.
+ColorMethod parse_method(const ColorOptions& options);
 
 /// A named illuminant, or one read from a file. Throws InputError for errors of the file.
 Table parse_illuminant(const std::string& text);

@@ -109,6 +109,12 @@ inline constexpr std::string_view kListHelp =
 /// Whether an option of the command is a LIST.
 bool takes_list(const CLI::App& command);
 
+/// Characters of a line that explains an option, and of one of the notes below the options.
+inline constexpr std::size_t kHelpWidth = 71, kHelpNotesWidth = 84;
+
+/// Breaks lines at blanks, but not inside [brackets]; line breaks of the text stay.
+std::string wrapped(const std::string& text, std::size_t width);
+
 /// Sets the style of help pages for the program and for commands added later.
 void set_help_pages(CLI::App& program);
 

@@ -24,6 +24,25 @@ bool takes_list(const CLI::App& command) {
     });
 }
 
+std::string wrapped(const std::string& text, std::size_t width) {
+    std::string lines = text;
+    std::size_t line = 0, blank = std::string::npos;
+    int brackets = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        brackets += lines[i] == '[' ? 1 : lines[i] == ']' ? -1 : 0;
+        if (lines[i] == ' ' && brackets == 0) blank = i;
+        if (lines[i] == '\n') {
+            line = i + 1;
+            blank = std::string::npos;
+        } else if (i - line >= width && blank != std::string::npos) {
+            lines[blank] = '\n';
+            line = blank + 1;
+            blank = std::string::npos;
+        }
+    }
+    return lines;
+}
+
 void set_help_pages(CLI::App& program) {
     constexpr std::size_t kColumn = 26;
     const auto pages = std::make_shared<HelpPages>();

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "cli/options/picture_options.hpp"
+#include "cli/progress.hpp"
+#include "core/error.hpp"
 #include "tables/lut/lut_file.hpp"
 
 namespace irido::cli {
@@ -105,6 +107,25 @@ tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat
     making.type = parse_type(options.type.empty() ? usual : options.type);
     making.mips = format && format->name == "ktx2" && !options.layout.layers;
     return making;
+}
+
+std::optional<tables::Lut> lut_with_progress(const tables::LutKind& kind, tables::LutPlan plan,
+                                             tables::LutMaking making, bool quiet) {
+    Progress progress(quiet);
+    making.progress = [&progress](double done, const std::string& what) {
+        progress.set(done, what);
+    };
+    tables::Lut lut;
+    try {
+        lut = tables::make_lut(kind, std::move(plan), making);
+    } catch (const ToleranceError& error) {
+        progress.clear();
+        print_error(error.what());
+        return std::nullopt;
+    }
+    progress.clear();
+    for (const auto& text : lut.facts["notes"]) note(text.get<std::string>(), quiet);
+    return lut;
 }
 
 void write_table(const tables::Lut& lut, const tables::LutFormat& format,

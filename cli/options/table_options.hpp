@@ -35,6 +35,11 @@ tables::LutType parse_type(std::string_view text);
 tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat* format,
                             std::string_view text_type, std::size_t axes);
 
+/// Makes a table while showing progress, and prints its notes; nothing, after an error message, if
+/// the tolerance cannot be met.
+std::optional<tables::Lut> lut_with_progress(const tables::LutKind& kind, tables::LutPlan plan,
+                                             tables::LutMaking making, bool quiet);
+
 /// Writes a table to its files, or as CSV to standard output; notes what readers should know.
 void write_table(const tables::Lut& lut, const tables::LutFormat& format,
                  const tables::LutLayout& layout, const OutputOptions& output, bool quiet);

@@ -11,7 +11,6 @@
 
 #include "cli/queries/color_cone.hpp"
 #include "core/coherent/coherent.hpp"
-#include "core/color/baselines/approximation.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/quadrature/quadrature_color.hpp"
 #include "core/colorimetry/difference.hpp"
@@ -77,15 +76,9 @@ struct ColorRows {
     }
 };
 
-/// Whether a method estimates the error of its colours.
-bool is_exact(ColorMethod::Kind kind) {
-    using enum ColorMethod::Kind;
-    return kind == automatic || kind == quadrature || kind == fourier || kind == bloch;
-}
-
 /// Whether a method's colours meet any tolerance requested.
 bool is_untruncated(const ColorMethod& method) {
-    return is_exact(method.kind) && method.count == 0;
+    return method.kind->use == MethodUse::exact && method.count == 0;
 }
 
 /// The incident medium's index at every nm that contributes.
@@ -134,7 +127,6 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
     : angles_deg_(parse_list("--angles", typed.angles, 0, kLargestAngle_deg)),
       illuminant_(parse_illuminant(typed.color.illuminant)),
       method_(parse_method(typed.color)),
-      base_color_(parse_base_color(typed.color)),
       held_to_tolerance_(!typed.color.tolerance.empty()),
       tolerance_(parse_tolerance(typed.color.tolerance)),
       space_(&parse_space(typed.color.space)),
@@ -144,7 +136,7 @@ ColorQuery::ColorQuery(const ColorQueryOptions& typed, const QueryRun& run)
     const Adaptation adaptation = parse_adaptation(typed.color.adaptation);
     request_.sides = parse_sides(typed.color.sides);
     cone_ = parse_cone(typed.cone, angles_deg_);
-    if (!cone_.is_none() && !is_exact(method_.kind))
+    if (!cone_.is_none() && method_.kind->use != MethodUse::exact)
         throw UsageError("--cone and --f-number require an exact --method");
     request_.light = parse_light(typed.color.polarization);
     request_.tolerance = tolerance_;
@@ -270,10 +262,7 @@ std::unique_ptr<const PreparedStack> ColorQuery::prepare(schemas::StackDocument 
                 continue;
             }
             prepared->algorithms.push_back(
-                base_color_ ? approximate_color(illumination->tables, prepared->document.stack,
-                                                method_, request_, base_color_)
-                            : color_algorithm(illumination->tables, prepared->document.stack,
-                                              method_, request_));
+                color_algorithm(illumination->tables, prepared->document.stack, method_, request_));
         }
         return prepared;
     } catch (const DomainError& error) {
@@ -305,9 +294,7 @@ double ColorQuery::try_share(const schemas::StackDocument& document, const Incid
     if (power.spread_layers() == 0 && share < 1)
         return std::numeric_limits<double>::infinity();  // a part costs as much as the whole
     if (share >= 1) {
-        const auto algorithm =
-            base_color_ ? approximate_color(tables, document.stack, method_, request_, base_color_)
-                        : color_algorithm(tables, document.stack, method_, request_);
+        const auto algorithm = color_algorithm(tables, document.stack, method_, request_);
         stack_color(*algorithm, document.stack, sides().size(), incidence.angles_deg, 1);
         return 1 / illuminations;
     }
@@ -415,7 +402,8 @@ tables::Records ColorQuery::records(const std::vector<StackColors>& stacks) cons
                     rows.columns[c].push_back(
                         color_column_value(columns_[c], color.xyz, views_[l]));
                 if (stats_) {
-                    rows.method.push_back(name_of(ColorMethod{color.method, method_.count}));
+                    rows.method.push_back(method_.count == 0 ? std::string(color.method)
+                                                             : name_of(method_));
                     rows.evaluations.push_back(static_cast<double>(color.evaluations));
                     rows.error.push_back(color.error);
                 }

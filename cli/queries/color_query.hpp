@@ -85,7 +85,6 @@ private:
     Table illuminant_;  ///< the requested one
     std::vector<std::unique_ptr<Illumination>> illuminations_;
     ColorMethod method_;
-    std::optional<Triple> base_color_;  ///< for --method gltf
     ColorRequest request_;
     ConeSize cone_;
     bool held_to_tolerance_;  ///< a tolerance was given

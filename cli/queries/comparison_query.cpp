@@ -23,12 +23,6 @@ struct ComparedStack : PreparedStack {
     std::unique_ptr<const StackComparison> comparison;
 };
 
-/// Whether an engine receives a film instead of the stack.
-bool takes_film(const ComparedEngine& engine) {
-    using enum ColorMethod::Kind;
-    return engine.engine || engine.method.kind == gaussian || engine.method.kind == smits;
-}
-
 /// The film passed to engines, for a note.
 std::string given_text(const GivenFilm& given) {
     const EngineFilm& film = given.film;
@@ -186,7 +180,7 @@ std::unique_ptr<const PreparedStack> ComparisonQuery::prepare(
         prepared->comparison = std::make_unique<StackComparison>(
             tables_, engines_, difference_, prepared->document.stack, request_);
         const GivenFilm& given = prepared->comparison->given();
-        if (std::ranges::none_of(engines_, takes_film)) return prepared;
+        if (std::ranges::none_of(engines_, &ComparedEngine::takes_film)) return prepared;
         if (!given.dropped.empty()) {
             const std::string what = "engines cannot take " + joined(given.dropped, ", ");
             if (strict_) throw schemas::InputError(file, "", what);

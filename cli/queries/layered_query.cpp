@@ -159,9 +159,8 @@ SurfaceRows refracted_colors(const LayeredSurface& surface,
                                query.execution);
     const ColorMethod method = parse_method(query.color);
     std::vector<SurfaceColor> colors = light.color(tables, pairs, method, tolerance);
-    if (!query.color.tolerance.empty() || method.kind == ColorMethod::Kind::automatic) {
-        if (method.kind != ColorMethod::Kind::automatic)
-            measure(colors, light.color(tables, pairs, {}, tolerance));
+    if (!query.color.tolerance.empty() || method.is("auto")) {
+        if (!method.is("auto")) measure(colors, light.color(tables, pairs, {}, tolerance));
         check_tolerance(document, query, false, colors);
     }
     std::vector<Triple> xyz;
@@ -229,7 +228,7 @@ SurfaceRows layered_colors(const LayeredSurface& surface, const schemas::Surface
     const Illumination& illumination = columns.illumination();
     report_held_layers(surface, document, illumination.tables.sensitivity(), query);
     const ColorMethod method = parse_method(query.color);
-    const bool is_approximate = method.kind != ColorMethod::Kind::automatic;
+    const bool is_approximate = !method.is("auto");
     const Crossings crossings = parse_crossings(query.transmission);
     const LayeredColor color(illumination.tables, surface, crossings, tolerance, query.execution,
                              method);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/colorimetry/space.hpp"
@@ -20,28 +21,6 @@ enum class Side { reflected, transmitted };
 
 /// Polarization of the incident light.
 enum class Light { s, p, unpolarized };
-
-/// Method that computes a colour. Those after `bloch` are baselines for comparison.
-struct ColorMethod {
-    enum class Kind {
-        automatic,         ///< the cheapest exact method for the tolerance
-        quadrature,        ///< product quadrature; any stack
-        fourier,           ///< BB17's series with exact transforms; one real film over any base
-        bloch,             ///< Bloch waves between band edges; periods of two transparent layers
-        fourier_constant,  ///< BB17's constant indices for dispersive media
-        naive,             ///< three wavelengths taken for R, G and B
-        equal,             ///< equally spaced wavelengths
-        gaussian,          ///< BB17's series with their Gaussian fits of the observer
-        gltf,              ///< as gaussian, with glTF's Schlick terms
-        smits,             ///< two beams, a single reflection inside the film
-        landmarks,         ///< FPB24's boxes between the landmarks of a mirror
-    };
-    Kind kind = Kind::automatic;
-    /// equal: wavelengths, [2, 1e6]. fourier: last order of the series; 0: as many as the tolerance
-    /// needs. bloch: last harmonic + 1; 0: as many as the tolerance needs. landmarks: subdivision
-    /// parameter s, [1, 1000].
-    std::size_t count = 0;
-};
 
 /// Options of a colour computation, apart from the stack and its angles.
 struct ColorRequest {
@@ -77,7 +56,7 @@ struct StackColor {
     /// Bound or reliable estimate of the largest error of X, Y, Z; infinite if the method has none.
     double error = std::numeric_limits<double>::infinity();
     std::size_t evaluations = 0;  ///< wavelengths at which the stack was computed
-    ColorMethod::Kind method = ColorMethod::Kind::quadrature;
+    std::string_view method;      ///< name of the method that computed it
 };
 
 /// One method prepared for stacks of the same materials and structure, whose thicknesses (only

@@ -323,7 +323,7 @@ private:
                     : 0;
             StackColor& color = colors[open[i / sides_] * sides_ + i % sides_];
             color = {sum.all, sum.error + rule + kOfTails * tolerance_, sum.evaluations,
-                     ColorMethod::Kind::quadrature};
+                     "quadrature"};
         }
     }
 

@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include "core/color/color_request.hpp"
-#include "core/color/color_tables.hpp"
+#include "core/color/color_method.hpp"
 
 namespace irido {
 

@@ -4,26 +4,18 @@
 #include <span>
 #include <vector>
 
-#include "core/color/color_request.hpp"
-#include "core/color/color_tables.hpp"
+#include "core/color/color_method.hpp"
 
 namespace irido {
 
 /// Prepares a method for stacks with the materials and structure of `stack`, clamped outside their
 /// range.
-///
-/// automatic: the series for a single film of constant indices, if enough colours are to come to
-/// pay for its table (or if the film has a thickness distribution, which is very slow by
-/// quadrature); Bloch waves for a one_mirror() with many fringes; quadrature for everything else,
-/// and where the others cannot guarantee the tolerance.
-///
 ///   tables   observer and illuminant; must outlive the result
 ///   stack    materials and structure
 ///   method   see ColorMethod
 ///   request  options
-/// Throws DomainError if the method does not support the stack or the request, if a held range is
-/// not usable, and as StackPower and IndexTable do.
-/// usable, and as StackPower and IndexTable do.
+/// Throws DomainError if the method does not support the stack, the request or a base colour, if a
+/// held range is not usable, and as StackPower and IndexTable do.
 std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const Stack& stack,
                                                 const ColorMethod& method,
                                                 const ColorRequest& request);

@@ -3,17 +3,19 @@
 #include <optional>
 #include <string>
 
-#include "core/color/color_request.hpp"
+#include "core/color/color_method.hpp"
 #include "core/engines/engine.hpp"
 
 namespace irido {
 
-/// A candidate for comparison: a renderer's formula or a method of core/color/baselines.
+/// A candidate for comparison: a renderer's formula or a baseline among the colour methods.
 struct ComparedEngine {
     std::string name;                ///< as typed
     const Engine* engine = nullptr;  ///< a formula, or null: `method` applies
     ColorMethod method = {};
 
+    /// Whether it is given a film instead of the stack.
+    bool takes_film() const { return engine || method.kind->needs_reflected_film; }
     /// Whether its result is declared as CIE RGB.
     bool is_cie_rgb() const;
 };

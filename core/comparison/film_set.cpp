@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/coherent/coherent.hpp"
-#include "core/color/baselines/approximation.hpp"
 #include "core/color/held_stack.hpp"
+#include "core/color/stack_color.hpp"
 #include "core/error.hpp"
 #include "core/material/library.hpp"
 #include "core/math/parallel.hpp"
@@ -101,8 +101,8 @@ Triple naive_of_channels(const ColorTables& tables, const ComparedEngine& engine
         const Stack stack =
             film_stack(film.film, constant_material(film.film.base_n[c], film.film.base_k[c]));
         StackColor color;
-        (*approximate_color(tables, stack, engine.method, request))(stack, {&film.angle_deg, 1},
-                                                                    {&color, 1});
+        (*color_algorithm(tables, stack, engine.method, request))(stack, {&film.angle_deg, 1},
+                                                                  {&color, 1});
         rgb[c] = transform(color.xyz)[c];
     }
     return rgb;
@@ -120,7 +120,7 @@ void compare_film(const ColorTables& tables, std::span<const ComparedEngine> eng
     for (std::size_t e = 0; e < engines.size(); ++e) {
         if (engines[e].engine) {
             out[e].rgb = engines[e].engine->reflectance(film.film);
-        } else if (engines[e].method.kind == ColorMethod::Kind::naive) {
+        } else if (engines[e].method.is("naive")) {
             out[e].rgb = naive_of_channels(tables, engines[e], film, request);
         }
     }

@@ -1,21 +1,10 @@
 #include "core/comparison/stack_comparison.hpp"
 
 #include "core/coherent/coherent.hpp"
-#include "core/color/baselines/approximation.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/stack_color.hpp"
 
 namespace irido {
-
-namespace {
-
-/// Whether a method takes the reduced film instead of the stack.
-bool takes_film(const ComparedEngine& engine) {
-    using enum ColorMethod::Kind;
-    return engine.method.kind == gaussian || engine.method.kind == smits;
-}
-
-}  // namespace
 
 StackComparison::StackComparison(const ColorTables& tables, std::span<const ComparedEngine> engines,
                                  const EngineDifference& difference, const Stack& stack,
@@ -34,8 +23,8 @@ StackComparison::StackComparison(const ColorTables& tables, std::span<const Comp
     for (const ComparedEngine& engine : engines_)
         methods_.push_back(
             engine.engine ? nullptr
-                          : approximate_color(tables, takes_film(engine) ? given_.reduced : stack,
-                                              engine.method, request));
+                          : color_algorithm(tables, engine.takes_film() ? given_.reduced : stack,
+                                            engine.method, request));
 }
 
 std::vector<EngineColor> StackComparison::operator()(const Stack& stack,
@@ -47,7 +36,7 @@ std::vector<EngineColor> StackComparison::operator()(const Stack& stack,
     EngineFilm film = given_.with_thickness_of(stack);
     for (std::size_t e = 0; e < engines_.size(); ++e) {
         if (methods_[e])
-            (*methods_[e])(takes_film(engines_[e]) ? given_.reduced_of(stack) : stack, angles_deg,
+            (*methods_[e])(engines_[e].takes_film() ? given_.reduced_of(stack) : stack, angles_deg,
                            approximate);
         for (std::size_t a = 0; a < angles; ++a) {
             EngineColor& color = result[e * angles + a];

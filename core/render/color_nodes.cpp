@@ -1,11 +1,11 @@
 #include "core/render/color_nodes.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/colorimetry/difference.hpp"
 #include "core/error.hpp"
+#include "core/render/as_array.hpp"
 
 namespace irido {
 
@@ -73,12 +73,10 @@ PictureNodes::PictureNodes(ColorNodes nodes, WavelengthRange range,
 }
 
 Triple PictureNodes::rgb(std::span<const float> spectrum, std::size_t illuminant) const {
-    using Values = Eigen::Map<const Eigen::ArrayXf>;
-    const auto size = static_cast<Eigen::Index>(count());
-    const Values values(spectrum.data(), size);
+    const auto values = as_array(spectrum.first(count()));
     Triple rgb{};
     for (std::size_t c = 0; c < 3; ++c)
-        rgb[c] = static_cast<double>((Values(weights_[illuminant][c].data(), size) * values).sum());
+        rgb[c] = static_cast<double>((as_array(weights_[illuminant][c]) * values).sum());
     return rgb;
 }
 

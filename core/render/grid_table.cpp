@@ -1,11 +1,11 @@
 #include "core/render/grid_table.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/math/parallel.hpp"
+#include "core/render/as_array.hpp"
 
 namespace irido {
 
@@ -158,8 +158,6 @@ double GridTable::measured(const Function& function, const Distance& distance, b
 }
 
 void GridTable::lookup(double cosine, double thickness_nm, std::span<float> values) const {
-    using Channels = Eigen::Map<Eigen::ArrayXf>;
-    using Sample = Eigen::Map<const Eigen::ArrayXf>;
     const ShownRange& r = plan_.range;
     const auto place = [](double x, double first, double last, std::size_t count) {
         if (count == 1) return 0.0;
@@ -169,15 +167,15 @@ void GridTable::lookup(double cosine, double thickness_nm, std::span<float> valu
     const Stencil c = stencil(place(cosine, r.least_cosine, r.largest_cosine, cosines_), cosines_);
     const Stencil t =
         stencil(place(thickness_nm, r.least_nm, r.largest_nm, thicknesses_), thicknesses_);
-    const auto size = static_cast<Eigen::Index>(values.size());
-    Channels sum(values.data(), size);
+    auto sum = as_array(values);
     sum.setZero();
     for (std::size_t j = 0; j < t.count; ++j) {
         const auto weight = [&](std::size_t i) {
             return static_cast<float>(t.weight[j] * c.weight[i]);
         };
         const auto sample = [&](std::size_t i) {
-            return Sample(&values_[at(t.first + j, c.first + i)], size);
+            return as_array(
+                std::span(values_).subspan(at(t.first + j, c.first + i), values.size()));
         };
         if (c.count == 1)
             sum += weight(0) * sample(0);

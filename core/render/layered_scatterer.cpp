@@ -1,12 +1,12 @@
 #include "core/render/layered_scatterer.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/math/angle_of_cosine.hpp"
 #include "core/math/constants.hpp"
+#include "core/render/as_array.hpp"
 #include "core/render/facet.hpp"
 #include "core/rough/ggx.hpp"
 
@@ -20,17 +20,6 @@ constexpr std::size_t kMostTableSamples = 1U << 16U;
 /// Angles of the probabilities that draws are made by, and the least of a part that is seen.
 constexpr std::size_t kProbabilityAngles = 129;
 constexpr double kLeastProbability = 0.02;
-
-using Row = Eigen::Map<Eigen::ArrayXf>;
-using ConstRow = Eigen::Map<const Eigen::ArrayXf>;
-
-Row row(std::span<float> values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
-ConstRow row(std::span<const float> values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
 
 /// A direction behind a smooth face, of the same azimuth.
 Vector3 bent(const Vector3& direction, double ratio, double cosine) {
@@ -148,9 +137,9 @@ void LayeredScatterer::add_layer(const LayeredScattering& scattering, std::size_
             std::vector<float> powers(4 * count_);
             for (std::size_t i = 0; i < cosines.size(); ++i) {
                 (*part.spectra)({cosines[i], nm}, powers, memory);
-                row(values.subspan(i * count_, count_)) =
-                    0.5F * (row(std::span(powers).first(count_)) +
-                            row(std::span(powers).subspan(count_, count_)));
+                as_array(values.subspan(i * count_, count_)) =
+                    0.5F * (as_array(std::span(powers).first(count_)) +
+                            as_array(std::span(powers).subspan(count_, count_)));
             }
         },
         spectral_distance(*plan.nodes));
@@ -203,8 +192,9 @@ void LayeredScatterer::set_probabilities() {
             if (part.straight) {
                 part.straight->lookup(inside, 0, tau);
                 const double G1 = smith_masking(part.alpha, inside);
-                on = std::clamp(2 * G1 * static_cast<double>(row(std::span(tau)).mean()) / (1 + G1),
-                                0.0, 1.0);
+                on = std::clamp(
+                    2 * G1 * static_cast<double>(as_array(std::span(tau)).mean()) / (1 + G1), 0.0,
+                    1.0);
             }
             chances.push_back(std::max(kLeastProbability, (1 - on) * left));
             left *= on;
@@ -225,7 +215,7 @@ double LayeredScatterer::probability(std::size_t part, double cosine) const {
 
 void LayeredScatterer::mirror(const FilmPoint& at, std::span<float> s_and_p, Memory&) const {
     const double R = coating_.inward(angle_of_cosine(at.cosine)).R;
-    row(s_and_p) = static_cast<float>(R);
+    as_array(s_and_p) = static_cast<float>(R);
 }
 
 std::optional<Vector3> LayeredScatterer::draw(const Vector3& to, double pick, double u,
@@ -269,13 +259,13 @@ void LayeredScatterer::pass(const Part& part, double cosine, std::span<float> sp
                             Memory& memory) const {
     memory.second.resize(count_);
     part.straight->lookup(cosine, 0, memory.second);
-    row(spectrum) *= static_cast<float>(smith_masking(part.alpha, std::min(1.0, cosine))) *
-                     row(std::span(memory.second)).max(0.0F);
+    as_array(spectrum) *= static_cast<float>(smith_masking(part.alpha, std::min(1.0, cosine))) *
+                          as_array(std::span(memory.second)).max(0.0F);
 }
 
 void LayeredScatterer::scatter(const Vector3& to, const Vector3& from, double thickness_nm,
                                std::span<float> spectrum, Memory& memory) const {
-    row(spectrum) = 0;
+    as_array(spectrum) = 0;
     if (!(to.z > 0 && from.z > 0)) return;
     const double to_cosine = inside_cosine(to.z), from_cosine = inside_cosine(from.z);
     const Vector3 inside_to = bent(to, ratio_, to_cosine);
@@ -290,8 +280,8 @@ void LayeredScatterer::scatter(const Vector3& to, const Vector3& from, double th
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
         if (part.is_base) {
-            row(spectrum) += static_cast<float>(entry * from.z) * row(std::span(base_)) *
-                             row(std::span(std::as_const(through)));
+            as_array(spectrum) += static_cast<float>(entry * from.z) * as_array(std::span(base_)) *
+                                  as_array(std::span(std::as_const(through)));
             return;
         }
         const FacetLight facet = facet_light(kUp, inside_to, inside_from, part.alpha);
@@ -304,9 +294,11 @@ void LayeredScatterer::scatter(const Vector3& to, const Vector3& from, double th
                 if (memory.stacks.size() < parts_.size()) memory.stacks.resize(parts_.size());
                 (*part.spectra)({facet.cosine, thickness_nm},
                                 std::span(memory.powers).first(4 * count_), memory.stacks[i]);
-                row(R) = 0.5F * (row(R) + row(std::span(memory.powers).subspan(count_, count_)));
+                as_array(R) = 0.5F * (as_array(R) +
+                                      as_array(std::span(memory.powers).subspan(count_, count_)));
             }
-            row(spectrum) += static_cast<float>(scale) * row(R).max(0.0F) * row(through);
+            as_array(spectrum) +=
+                static_cast<float>(scale) * as_array(R).max(0.0F) * as_array(through);
         }
         if (!part.straight) return;
         pass(part, to_cosine, through, memory);

@@ -1,11 +1,11 @@
 #include "core/render/path_colors.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/color/held_stack.hpp"
 #include "core/error.hpp"
+#include "core/render/as_array.hpp"
 
 namespace irido {
 
@@ -23,9 +23,6 @@ constexpr double kNodesTolerance = 0.03, kGrazingTolerance = 0.1;
 /// Tables that take more than this part of the places do not pay.
 constexpr std::size_t kTablePart = 8;
 
-using Values = Eigen::Map<const Eigen::ArrayXf>;
-using Changed = Eigen::Map<Eigen::ArrayXf>;
-
 }  // namespace
 
 /// A stack at the wavelengths of a regime.
@@ -40,11 +37,11 @@ struct PathColors::Regime {
 
     /// Linear sRGB of a spectrum [s, p][node].
     Triple integral(std::span<const float> s_and_p) const {
-        const auto size = static_cast<Eigen::Index>(count());
-        const Values s(s_and_p.data(), size), p(s_and_p.data() + size, size);
+        const auto s = as_array(s_and_p.first(count())),
+                   p = as_array(s_and_p.subspan(count(), count()));
         Triple rgb{};
         for (std::size_t c = 0; c < 3; ++c)
-            rgb[c] = static_cast<double>((Values(weights[c].data(), size) * (s + p)).sum());
+            rgb[c] = static_cast<double>((as_array(weights[c]) * (s + p)).sum());
         return rgb;
     }
 
@@ -187,9 +184,9 @@ Triple PathColors::operator()(std::span<const PathStep> path, Scratch& scratch) 
     const std::size_t half = regime.width() / 2;
     scratch.powers_.resize(regime.width());
     scratch.through_.assign(half, 1.0F);
-    const auto size = static_cast<Eigen::Index>(half);
-    Changed through(scratch.through_.data(), size);
-    Changed reflected(scratch.powers_.data(), size), transmitted(reflected.data() + size, size);
+    auto through = as_array(std::span(scratch.through_));
+    auto reflected = as_array(std::span(scratch.powers_).first(half));
+    auto transmitted = as_array(std::span(scratch.powers_).subspan(half, half));
     Triple color{};
     for (std::size_t step = 0; step < path.size(); ++step) {
         const PathStep& now = path[step];
@@ -201,12 +198,12 @@ Triple PathColors::operator()(std::span<const PathStep> path, Scratch& scratch) 
             face.spectra(now.at, scratch.powers_,
                          scratch.memories_[2 * (is_grazing ? 1 : 0) + side]);
         }
-        Changed& goes_on = now.leaves && !now.inside ? transmitted : reflected;
+        auto& goes_on = now.leaves && !now.inside ? transmitted : reflected;
         if (!now.leaves) {
             through *= goes_on;
             continue;
         }
-        Changed& leaving = now.inside ? transmitted : reflected;
+        auto& leaving = now.inside ? transmitted : reflected;
         leaving *= through;
         through *= goes_on;
         const bool is_last = step + 1 == path.size() || through.maxCoeff() < kDim;

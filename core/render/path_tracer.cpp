@@ -1,11 +1,11 @@
 #include "core/render/path_tracer.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
+#include "core/render/as_array.hpp"
 #include "core/render/stack_spectra.hpp"
 
 namespace irido {
@@ -19,17 +19,6 @@ constexpr std::size_t kMostFaceSamples = 1U << 15U;
 constexpr std::size_t kSplits = 3;
 /// Chance of the mirror after the first reflection, where a surface scatters as well.
 constexpr double kMirrorPart = 0.5;
-
-using Lanes = Eigen::Map<Eigen::ArrayXf>;
-using ConstLanes = Eigen::Map<const Eigen::ArrayXf>;
-
-Lanes lanes(std::span<float> values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
-ConstLanes lanes(std::span<const float> values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
 
 void increase(Triple& sum, const Triple& a) {
     for (std::size_t c = 0; c < 3; ++c) sum[c] += a[c];
@@ -204,7 +193,7 @@ Triple PathTracer::go_on(const Vector3& from, const Vector3& direction, std::siz
                          const Numbers& numbers, Scratch& scratch) const {
     const std::span<const float> through(scratch.through_);
     const std::size_t count = nodes_.count();
-    if (!(lanes(through.first(scratch.split_ ? 2 * count : count)).maxCoeff() > 0)) return {};
+    if (!(as_array(through.first(scratch.split_ ? 2 * count : count)).maxCoeff() > 0)) return {};
     const Ray ray{from, direction, kOffFace};
     const std::optional<Place> place = first_place(ray);
     // the nearest lamp before that
@@ -231,7 +220,7 @@ void PathTracer::multiply_split(std::span<const float> s_and_p, Scratch& scratch
     if (!scratch.split_)
         std::copy_n(through.begin(), count, through.begin() + static_cast<std::ptrdiff_t>(count));
     scratch.split_ = true;
-    lanes(through) *= lanes(s_and_p);
+    as_array(through) *= as_array(s_and_p);
 }
 
 Triple PathTracer::follow(const Ray& ray, const Place& place, std::size_t step,
@@ -299,8 +288,8 @@ Triple PathTracer::pass_smooth(const Ray& ray, const Place& place, std::size_t s
         increase(color, go_on(place.hit.point, *through, step, numbers, scratch));
         return color;
     }
-    const double reflected = static_cast<double>(lanes(R).mean());
-    const double passed = through ? static_cast<double>(lanes(T).mean()) : 0;
+    const double reflected = static_cast<double>(as_array(R).mean());
+    const double passed = through ? static_cast<double>(as_array(T).mean()) : 0;
     constexpr double kLeastChance = 0.05;
     const double chance =
         passed > 0 ? std::clamp(reflected / (reflected + passed), kLeastChance, 1 - kLeastChance)
@@ -348,8 +337,8 @@ Triple PathTracer::scatter_on(const Ray& ray, const Place& place, std::size_t st
     const std::size_t count = nodes_.count();
     const std::span<float> through = std::span(scratch.through_).first(count);
     if (scratch.split_)
-        lanes(through) =
-            0.5F * (lanes(through) + lanes(std::span(scratch.through_).subspan(count, count)));
+        as_array(through) = 0.5F * (as_array(through) +
+                                    as_array(std::span(scratch.through_).subspan(count, count)));
     scratch.split_ = false;
     if (place.is_floor) {
         for (std::size_t c = 0; c < 3; ++c)
@@ -359,7 +348,7 @@ Triple PathTracer::scatter_on(const Ray& ray, const Place& place, std::size_t st
         const std::span<float> spectrum = std::span(scratch.spectrum_).first(count);
         const double nm = point_at(place.hit, ray.direction).thickness_nm;
         surface_.scatterer->scatter(to, from, nm, spectrum, scratch.scatterer_);
-        lanes(through) *= static_cast<float>(1 / density) * lanes(spectrum);
+        as_array(through) *= static_cast<float>(1 / density) * as_array(spectrum);
     }
     return go_on(point, direction, step, numbers, scratch);
 }

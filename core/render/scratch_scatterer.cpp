@@ -1,6 +1,5 @@
 #include "core/render/scratch_scatterer.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
+#include "core/render/as_array.hpp"
 #include "core/render/facet.hpp"
 #include "core/scratch/diffraction.hpp"
 #include "core/scratch/energy.hpp"
@@ -18,18 +18,12 @@ namespace irido {
 
 namespace {
 
-using Channels = Eigen::Map<Eigen::ArrayXf>;
-
 constexpr double kPerMicrometre = 1000;                 // nm
 constexpr double kMostXi = 2, kMostRise = 2;            // |xi| and cos + cos
 constexpr std::size_t kMostScratchSamples = 1U << 18U;  // of a table
 constexpr std::size_t kXiSteps = 512;                   // chances of |xi|
 constexpr double kBaseShare = 0.5;                      // of draws by the facets of a rough base
 constexpr double kMiddle_um = 0.55;
-
-Channels channels(std::span<float> values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
 
 double rise_of(const ScratchOptics& optics, const Vector3& a, const Vector3& b) {
     return optics.depth_phase == DepthPhase::vertical ? kMostRise : a.z + b.z;
@@ -131,9 +125,9 @@ ScratchScatterer::ScratchScatterer(const ScratchedSurface& surface, const TableP
                 std::vector<float> powers(4 * count_);
                 for (std::size_t i = 0; i < cosines.size(); ++i) {
                     (*base_)({cosines[i], 0}, powers, memory);
-                    channels(values.subspan(i * count_, count_)) =
-                        0.5F * (channels(std::span(powers).first(count_)) +
-                                channels(std::span(powers).subspan(count_, count_)));
+                    as_array(values.subspan(i * count_, count_)) =
+                        0.5F * (as_array(std::span(powers).first(count_)) +
+                                as_array(std::span(powers).subspan(count_, count_)));
                 }
             },
             spectral_distance(*plan.nodes));
@@ -220,8 +214,8 @@ void ScratchScatterer::add_field(const ScratchField& field, const ScratchOptics&
         },
         [&](std::span<const float> a, std::span<const float> b) {
             std::vector<float> one(a.begin(), a.end()), other(b.begin(), b.end());
-            channels(one) *= scale;
-            channels(other) *= scale;
+            as_array(std::span(one)) *= scale;
+            as_array(std::span(other)) *= scale;
             return srgb_difference(plan.nodes->rgb(one), plan.nodes->rgb(other));
         });
     if (!made.power->is_good())
@@ -255,10 +249,10 @@ void ScratchScatterer::mirror(const FilmPoint& at, std::span<float> s_and_p, Mem
     (*base_)({at.cosine, 0}, memory.powers, memory.stacks.front());
     memory.first.resize(2 * count_);
     balance_->lookup(at.cosine, 0, memory.first);
-    const auto kept = channels(std::span(memory.first).first(count_)).cwiseMax(0.0F);
+    const auto kept = as_array(std::span(memory.first).first(count_)).cwiseMax(0.0F);
     for (const std::size_t half : {std::size_t{0}, count_})
-        channels(s_and_p.subspan(half, count_)) =
-            kept * channels(std::span(memory.powers).subspan(half, count_));
+        as_array(s_and_p.subspan(half, count_)) =
+            kept * as_array(std::span(memory.powers).subspan(half, count_));
 }
 
 std::optional<Vector3> ScratchScatterer::draw(const Vector3& to, double pick, double u,
@@ -313,7 +307,7 @@ double ScratchScatterer::density(const Vector3& to, const Vector3& from) const {
 
 void ScratchScatterer::scatter(const Vector3& to, const Vector3& from, double,
                                std::span<float> spectrum, Memory& memory) const {
-    channels(spectrum) = 0;
+    as_array(spectrum) = 0;
     if (!(to.z > 0 && from.z > 0)) return;
     constexpr double kLeastXi = 1e-9;
     const double x = to.x + from.x, y = to.y + from.y;
@@ -329,7 +323,7 @@ void ScratchScatterer::scatter(const Vector3& to, const Vector3& from, double,
         const double per_nu = kTwoPi * optics_.coherence_radius_um * size;
         constexpr double kFar = 60;  // where the lobe is that of far away to 1e-4
         if (per_nu * static_cast<double>(wavenumber_.back()) > kFar) {
-            channels(spectrum) += static_cast<float>(share) * channels(values).max(0.0F);
+            as_array(spectrum) += static_cast<float>(share) * as_array(values).max(0.0F);
             continue;
         }
         for (std::size_t w = 0; w < count_; ++w)
@@ -339,15 +333,15 @@ void ScratchScatterer::scatter(const Vector3& to, const Vector3& from, double,
     }
     if (!base_) return;
     balance_->lookup(to.z, 0, memory.first);
-    const auto kept = channels(std::span(memory.first).first(count_));
-    channels(spectrum) *= channels(std::span(memory.first).subspan(count_, count_));
+    const auto kept = as_array(std::span(memory.first).first(count_));
+    as_array(spectrum) *= as_array(std::span(memory.first).subspan(count_, count_));
     if (alpha_) {
         const FacetLight facet = facet_light({0, 0, 1}, to, from, *alpha_);
-        channels(spectrum) += static_cast<float>(facet.density * facet.visible_part) * kept;
+        as_array(spectrum) += static_cast<float>(facet.density * facet.visible_part) * kept;
     }
     base_table_->lookup(std::sqrt((1 + to.x * from.x + to.y * from.y + to.z * from.z) / 2), 0,
                         values);
-    channels(spectrum) *= channels(values).max(0.0F);
+    as_array(spectrum) *= as_array(values).max(0.0F);
 }
 
 }  // namespace irido

@@ -50,7 +50,7 @@ void sweep(benchmark::State& state, bool shared, const char* first, const char* 
     const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
     ColorRequest request;
     if (shared) request.varied = {{layers / 2}};
-    const auto algorithm = color_algorithm(tables, stack, {ColorMethod::Kind::quadrature}, request);
+    const auto algorithm = color_algorithm(tables, stack, color_method("quadrature"), request);
     const double angle = 40;
     StackColor color;
     constexpr int kThicknesses = 200;

@@ -129,11 +129,8 @@ struct LevelSum {
 
 class BlochColor : public ColorAlgorithm {
 public:
-    BlochColor(const ColorTables& tables, const Stack& stack, const ColorMethod& method,
-               const ColorRequest& request)
-        : tables_(tables), terms_(method.count), request_(request) {
-        one_mirror("bloch", stack);
-    }
+    BlochColor(const ColorTables& tables, const ColorMethod& method, const ColorRequest& request)
+        : tables_(tables), terms_(method.count), request_(request) {}
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
@@ -169,7 +166,7 @@ private:
         }
         const Triple& white = tables_.sensitivity().white();
         for (std::size_t c = 0; c < 3; ++c) T[c] = std::clamp(T[c], 0.0, white[c]);
-        Lighting{white, request_.sides, ColorMethod::Kind::bloch, points}.store(T, error, colors);
+        Lighting{white, request_.sides, "bloch", points}.store(T, error, colors);
     }
 
     /// Doubles the points until the error is below the tolerance: the last change, and that before
@@ -256,11 +253,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ColorAlgorithm> bloch_color(const ColorTables& tables, const Stack& stack,
+std::unique_ptr<ColorAlgorithm> bloch_color(const ColorTables& tables, const Stack&,
                                             const ColorMethod& method,
                                             const ColorRequest& request) {
-    require_in_range("tolerance", request.tolerance, 1e-12, 1);
-    return std::make_unique<BlochColor>(tables, stack, method, request);
+    return std::make_unique<BlochColor>(tables, method, request);
 }
 
 }  // namespace irido

@@ -2,8 +2,7 @@
 
 #include <memory>
 
-#include "core/color/color_request.hpp"
-#include "core/color/color_tables.hpp"
+#include "core/color/color_method.hpp"
 
 namespace irido {
 
@@ -19,8 +18,8 @@ namespace irido {
 ///            above the tolerance if more than request.evaluations points would be needed. m + 1:
 ///            the harmonics up to m only, 0 being the average; `error` is infinite
 ///   request  options
-/// Throws DomainError if the stack is not one_mirror(). Its operator throws beyond the critical
-/// angle of a layer or of the substrate, and if the visible range has more than kMostGaps gaps.
+/// Its operator throws DomainError if the stack is not one_mirror(), beyond the critical angle of a
+/// layer or of the substrate, and if the visible range has more than kMostGaps gaps.
 std::unique_ptr<ColorAlgorithm> bloch_color(const ColorTables& tables, const Stack& stack,
                                             const ColorMethod& method, const ColorRequest& request);
 

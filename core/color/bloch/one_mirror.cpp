@@ -47,12 +47,18 @@ std::string mirror_fault(const Stack& stack) {
     return "";
 }
 
+std::string mirror_fault(std::string_view method, const Stack& stack) {
+    const std::string fault = mirror_fault(stack);
+    return fault.empty() ? ""
+                         : "method " + std::string(method) +
+                               " needs one group of two coherent layers between media, all of "
+                               "constant real index (got " +
+                               fault + ")";
+}
+
 OneMirror one_mirror(std::string_view method, const Stack& stack) {
-    if (const std::string fault = mirror_fault(stack); !fault.empty())
-        throw DomainError("method " + std::string(method) +
-                          " needs one group of two coherent layers between media, all of constant "
-                          "real index (got " +
-                          fault + ")");
+    if (const std::string fault = mirror_fault(method, stack); !fault.empty())
+        throw DomainError(fault);
     const Pair pair = pair_of(stack.elements);
     const auto n = [&](std::size_t material) {
         return index_at(stack.materials[material], 550).real();

@@ -20,6 +20,9 @@ struct OneMirror {
 /// repetition are transparent to this test, so a single period is a mirror, too.
 std::string mirror_fault(const Stack& stack);
 
+/// The same as a sentence that names the method.
+std::string mirror_fault(std::string_view method, const Stack& stack);
+
 /// Throws DomainError naming the method if the stack is not a mirror.
 OneMirror one_mirror(std::string_view method, const Stack& stack);
 

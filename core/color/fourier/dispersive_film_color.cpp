@@ -22,7 +22,7 @@ public:
         : white_(tables.sensitivity().white()),
           transform_(tables.transform(request.tolerance / 8)),
           tolerance_(request.tolerance / 2),
-          constant_(method.kind == ColorMethod::Kind::fourier_constant),
+          constant_(method.is("fourier-constant")),
           method_(method),
           request_(request) {
         if (constant_) {
@@ -42,7 +42,7 @@ public:
                     std::span<StackColor> colors) const override {
         const Thickness thickness(only_film(stack));
         const std::size_t sides = request_.sides.size();
-        const Lighting lighting{white_, request_.sides, method_.kind, films_.size()};
+        const Lighting lighting{white_, request_.sides, method_.kind->name, films_.size()};
         for (std::size_t i = 0; i < angles_deg.size(); ++i) {
             const double cosine = cos_of_incidence(angles_deg[i]);
             const std::array share = weights(request_.light, cosine);

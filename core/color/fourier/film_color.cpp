@@ -29,7 +29,7 @@ public:
         : sensitivity_(tables.sensitivity()),
           transform_(tables.transform(request.tolerance / 8)),
           limits_{request.tolerance / 20, method.count},
-          method_(method.kind),
+          method_(method.kind->name),
           request_(request) {
         film_ = film_at(IndexTable(stack, {kPeaks_nm[1]}), stack, 0);
     }
@@ -151,7 +151,7 @@ private:
     const Sensitivity& sensitivity_;
     const SensitivityTransform& transform_;
     OrderLimits limits_;
-    ColorMethod::Kind method_;
+    std::string_view method_;
     ColorRequest request_;
     Film film_;
 };
@@ -166,6 +166,13 @@ std::string film_fault(const Stack& stack) {
     if (!layer->coherent) return "an incoherent one";
     if (!is_real(stack.materials[layer->material])) return "k other than 0";
     return "";
+}
+
+std::string series_fault(const Stack& stack) {
+    const std::string fault = film_fault(stack);
+    return fault.empty()
+               ? ""
+               : "the Fourier series needs one coherent film of a real index (got " + fault + ")";
 }
 
 bool is_one_film(const Stack& stack) {
@@ -186,10 +193,6 @@ bool has_dispersion(const Stack& stack) {
 
 std::unique_ptr<ColorAlgorithm> film_color(const ColorTables& tables, const Stack& stack,
                                            const ColorMethod& method, const ColorRequest& request) {
-    require_in_range("tolerance", request.tolerance, 1e-12, 1);
-    if (const std::string fault = film_fault(stack); !fault.empty())
-        throw DomainError("the Fourier series needs one coherent film of a real index (got " +
-                          fault + ")");
     if (!has_dispersion(stack))
         return std::make_unique<ConstantFilm>(tables, stack, method, request);
     return dispersive_film_color(tables, held_stack(stack, tables.sensitivity()), method, request);

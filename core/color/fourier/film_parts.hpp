@@ -65,7 +65,7 @@ struct Thickness {
 struct Lighting {
     const Triple& white;
     std::span<const Side> sides;
-    ColorMethod::Kind method;
+    std::string_view method;  ///< its name
     std::size_t evaluations;
 
     /// The colours of all sides, from the transmitted one.
@@ -81,7 +81,7 @@ struct Lighting {
 /// film_color() for indices that depend on the wavelength.
 ///   tables   observer and illuminant; must outlive the result
 ///   held     the film, its materials clamped
-///   method   fourier or fourier_constant
+///   method   fourier or fourier-constant
 ///   request  options
 std::unique_ptr<ColorAlgorithm> dispersive_film_color(const ColorTables& tables, const Stack& held,
                                                       const ColorMethod& method,

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "core/error.hpp"
 #include "core/stack/index_table.hpp"
 
 namespace irido {
@@ -25,16 +24,16 @@ const Layer* only_layer(const Stack& stack) {
     return only_layer_of(stack.elements);
 }
 
-void require_film(std::string_view method_name, const Stack& stack, const ColorRequest& request) {
-    const std::string method(method_name);
+std::string reflected_film_fault(std::string_view method, const Stack& stack,
+                                 const ColorRequest& request) {
+    const std::string must_have = "method " + std::string(method) + " must have ";
     const Layer* film = only_layer(stack);
     if (!film || !film->coherent || film->thickness_sigma_nm != 0)
-        throw DomainError("method " + method +
-                          " must have one coherent film of one thickness over a substrate");
-    if (first_uniaxial(stack.materials))
-        throw DomainError("method " + method + " must have isotropic media only");
+        return must_have + "one coherent film of one thickness over a substrate";
+    if (first_uniaxial(stack.materials)) return must_have + "isotropic media only";
     if (std::ranges::count(request.sides, Side::transmitted) > 0)
-        throw DomainError("method " + method + " must have reflected light only");
+        return must_have + "reflected light only";
+    return "";
 }
 
 const Layer& film_of(const Stack& stack) {

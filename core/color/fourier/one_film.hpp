@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/coherent/coherent.hpp"
@@ -13,9 +14,10 @@ namespace irido {
 /// more than one.
 const Layer* only_layer(const Stack& stack);
 
-/// Throws DomainError naming the method unless the stack is one coherent film of fixed thickness
-/// and only reflected light is requested.
-void require_film(std::string_view method, const Stack& stack, const ColorRequest& request);
+/// Why a method that takes light reflected by one coherent isotropic film of fixed thickness does
+/// not take these, a sentence; "" if it does.
+std::string reflected_film_fault(std::string_view method, const Stack& stack,
+                                 const ColorRequest& request);
 
 /// The film of such a stack.
 const Layer& film_of(const Stack& stack);

@@ -349,7 +349,7 @@ private:
 
     static void take_better(StackColor& color, const ColorIntegral& integral, double error) {
         if (error < color.error || !std::isfinite(color.error))
-            color = {integral.xyz, error, integral.evaluations, ColorMethod::Kind::quadrature};
+            color = {integral.xyz, error, integral.evaluations, "quadrature"};
     }
 
     /// The mean over the phase of the element of the longest path, where its fringes are too fine
@@ -479,7 +479,7 @@ private:
         constexpr double rounding = 1e-15;
         for (std::size_t i = 0; i < colors.size(); ++i)
             colors[i] = {request_.sides[i] == Side::reflected ? sensitivity_.white() : Triple{},
-                         rounding, on_path_.wavelength_nm().size(), ColorMethod::Kind::quadrature};
+                         rounding, on_path_.wavelength_nm().size(), "quadrature"};
     }
 
     const PanelTree::Start& start_of(std::size_t path) const {

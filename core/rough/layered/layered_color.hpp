@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/color/color_tables.hpp"
+#include "core/color/color_method.hpp"
 #include "core/color/quadrature/integration.hpp"
 #include "core/rough/layered/layered_scattering.hpp"
 

@@ -17,12 +17,6 @@ namespace {
 /// Wavelengths 1 nm apart, and every other one of them for an estimate of the error.
 constexpr std::size_t kRefractedWavelengths = 471, kHalfOfThem = 236;
 
-/// Whether a method gives transmitted light.
-bool knows_transmission(const ColorMethod& method) {
-    using enum ColorMethod::Kind;
-    return method.kind != gaussian && method.kind != gltf && method.kind != smits;
-}
-
 }  // namespace
 
 RefractedLight::RefractedLight(Stack stack, double alpha, const Execution& execution)
@@ -88,7 +82,7 @@ std::vector<SurfaceColor> RefractedLight::color(const ColorTables& tables,
                                                 const ColorMethod& method, double tolerance) const {
     std::vector<SurfaceColor> colors(pairs.size());
     const Sensitivity& sensitivity = tables.sensitivity();
-    if (!is_constant() && method.kind == ColorMethod::Kind::automatic) {
+    if (!is_constant() && method.is("auto")) {
         const auto by_rule = [&](std::size_t count) {
             const SampleRule rule = equal_rule(sensitivity, count);
             std::vector<double> f = btdf(pairs, rule.wavelength_nm);
@@ -109,7 +103,7 @@ std::vector<SurfaceColor> RefractedLight::color(const ColorTables& tables,
     request.tolerance = std::max(kSmallestTolerance, tolerance / 2);
     request.colors = pairs.size();
     request.simd = execution_.simd;
-    const bool is_known = knows_transmission(method);
+    const bool is_known = !method.kind->needs_reflected_film;
     request.sides = {is_known ? Side::transmitted : Side::reflected};
     const std::vector<StackColor> found =
         stack_color(tables, facets_.stack(), method, request, at.theta_deg, execution_.threads);

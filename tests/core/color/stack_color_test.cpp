@@ -26,7 +26,7 @@ const Sensitivity& d65() {
     return sensitivity;
 }
 
-const ColorMethod kQuadrature{ColorMethod::Kind::quadrature};
+const ColorMethod kQuadrature = color_method("quadrature");
 
 StackColor color(const Stack& stack, double angle_deg, Side side, double tolerance,
                  const Sensitivity& sensitivity = d65()) {
@@ -292,7 +292,7 @@ TEST_CASE("the errors of methods that have none of their own are measured") {
     const ColorTables tables(d65());
     const Stack stack = one_film(1.5, 400, 1.2);
     const std::vector<double> angles{0, 70};
-    const ColorMethod equal{ColorMethod::Kind::equal, 12};
+    const ColorMethod equal = color_method("equal", 12);
     std::vector<StackColor> colors = stack_color(tables, stack, equal, {}, angles);
     CHECK(measure_errors(tables, stack, {}, angles, 1, colors));
     for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -310,17 +310,16 @@ TEST_CASE("auto sums the series where quadrature would take long") {
     const auto method_of = [&](const Stack& stack, std::size_t colors) {
         return stack_color(tables, stack, {}, {.colors = colors}, std::span(&angle, 1))[0].method;
     };
-    using enum ColorMethod::Kind;
-    CHECK(method_of(one_film(1.5, 400, 1.2), 1) == quadrature);
-    CHECK(method_of(one_film(1.5, 400, 1.2), 1000000) == fourier);
-    CHECK(method_of(one_film(1.5, 1e9, 2.5), 1) == fourier);
-    CHECK(method_of(mirror(3), 1000000) == quadrature);
+    CHECK(method_of(one_film(1.5, 400, 1.2), 1) == "quadrature");
+    CHECK(method_of(one_film(1.5, 400, 1.2), 1000000) == "fourier");
+    CHECK(method_of(one_film(1.5, 1e9, 2.5), 1) == "fourier");
+    CHECK(method_of(mirror(3), 1000000) == "quadrature");
     Stack spread = one_film(1.5, 400, 1.2);
     std::get<Layer>(spread.elements[0].value).thickness_sigma_nm = 5;
-    CHECK(method_of(spread, 1) == quadrature);
+    CHECK(method_of(spread, 1) == "quadrature");
     spread = one_film(1.5, 4000, 1.2);
     std::get<Layer>(spread.elements[0].value).thickness_sigma_nm = 120;
-    CHECK(method_of(spread, 1) == fourier);
+    CHECK(method_of(spread, 1) == "fourier");
 }
 
 TEST_CASE("fringes past all resolution are an honest failure", "[slow]") {

@@ -18,7 +18,7 @@ using oracle::StackBuilder;
 
 namespace {
 
-const ColorMethod kQuadrature{ColorMethod::Kind::quadrature};
+const ColorMethod kQuadrature = color_method("quadrature");
 
 /// IRIDO_TEST_TOLERANCES: number of stacks to try; 100000 take a night.
 std::size_t stacks_to_try() {
@@ -146,7 +146,7 @@ TEST_CASE("kinks of tables cost and lose no more than the tolerance asks for", "
 
 TEST_CASE("absorbing stacks have their colour within the error", "[slow]") {
     // equal wavelengths 0.05 nm apart, which include every kink of the light, are accurate to 1e-7
-    const ColorMethod equal{ColorMethod::Kind::equal, 9401};
+    const ColorMethod equal = color_method("equal", 9401);
     for (std::uint64_t i = 0; i < std::max<std::size_t>(stacks_to_try(), 100); ++i) {
         Random random(Random(i).bits());
         const Stack stack = absorbing_stack(random);
@@ -170,7 +170,7 @@ TEST_CASE("an incoherent layer follows every row of its k") {
         k.value.push_back(row % 5 == 0 ? 0 : 1e-3);
     }
     // equal wavelengths that include every row and resolve the windows between them to 2e-5
-    const ColorMethod equal{ColorMethod::Kind::equal, 470001};
+    const ColorMethod equal = color_method("equal", 470001);
     const auto [thickness_nm, repeat] =
         GENERATE(table<double, std::uint64_t>({{1e4, 1}, {1e5, 1}, {1e4, 3}}));
     StackBuilder b;

@@ -236,10 +236,9 @@ TEST_CASE("what engines are given of a stack", "[comparison]") {
 TEST_CASE("equal wavelengths converge to the exact colour", "[comparison]") {
     const ColorTables& tables = tables_under("D65");
     const EngineDifference difference({}, tables.sensitivity().white());
-    const std::vector<ComparedEngine> engines{
-        {"equal/8", nullptr, {ColorMethod::Kind::equal, 8}},
-        {"equal/64", nullptr, {ColorMethod::Kind::equal, 64}},
-        {"equal/4096", nullptr, {ColorMethod::Kind::equal, 4096}}};
+    const std::vector<ComparedEngine> engines{{"equal/8", nullptr, color_method("equal", 8)},
+                                              {"equal/64", nullptr, color_method("equal", 64)},
+                                              {"equal/4096", nullptr, color_method("equal", 4096)}};
     const std::vector<ComparedFilm> films = random_films(tables, 30, 11, {});
     const auto colors = compare_films(tables, engines, difference, films, {}, 0);
     for (std::size_t f = 0; f < films.size(); ++f) {
@@ -280,10 +279,9 @@ TEST_CASE("bases known at three wavelengths have engine colours only", "[compari
                                          .base_k = {3.42, 2.35, 1.77}})};
     CHECK(film[0].base() == BaseKind::colored);
     CHECK_FALSE(film[0].stack);
-    const std::vector<ComparedEngine> engines{
-        formula("cycles"),
-        {"naive", nullptr, {ColorMethod::Kind::naive, 0}},
-        {"equal/16", nullptr, {ColorMethod::Kind::equal, 16}}};
+    const std::vector<ComparedEngine> engines{formula("cycles"),
+                                              {"naive", nullptr, color_method("naive")},
+                                              {"equal/16", nullptr, color_method("equal", 16)}};
     const auto colors = compare_films(tables, engines, difference, film, {}, 1);
     CHECK(colors[0].rgb);
     CHECK_FALSE(colors[0].exact_xyz);
@@ -373,7 +371,7 @@ TEST_CASE("fits do not depend on threads, and mirrors have none", "[comparison][
     for (std::size_t i = 0; i < one.parameters.size(); ++i)
         CHECK(one.parameters[i].value == many.parameters[i].value);
     CHECK(has_parameters(formula("unity")));
-    const ComparedEngine naive{"naive", nullptr, {ColorMethod::Kind::naive, 0}};
+    const ComparedEngine naive{"naive", nullptr, color_method("naive")};
     CHECK_FALSE(has_parameters(naive));
     const EngineDifference difference({}, {0.95, 1, 1.09});
     CHECK_THROWS_WITH(fit_engine(naive, difference, {}, {}, 1), "naive has no parameters to fit");

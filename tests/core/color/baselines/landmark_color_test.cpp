@@ -1,5 +1,3 @@
-#include "core/color/baselines/landmark_color.hpp"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -15,8 +13,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-using Method = ColorMethod::Kind;
-
 const ColorTables& d65() {
     static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
     return tables;
@@ -30,7 +26,7 @@ Stack mirror(double n1, double d1, double n2, double d2, std::uint64_t repeat = 
 
 StackColor color(const Stack& stack, double angle_deg, std::size_t subdivisions,
                  const ColorRequest& request = {}) {
-    return stack_color(d65(), stack, {Method::landmarks, subdivisions}, request,
+    return stack_color(d65(), stack, color_method("landmarks", subdivisions), request,
                        std::span(&angle_deg, 1))
         .front();
 }

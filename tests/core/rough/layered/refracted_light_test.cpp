@@ -95,11 +95,11 @@ TEST_CASE("what rough films transmit, in colour", "[rough][layered]") {
     std::vector<double> f = light.btdf(pairs, rule.wavelength_nm);
     for (double& value : f) value *= kPi;
     const std::vector<Triple> summed = sampled_colors(tables.sensitivity(), rule, f);
-    const auto by = [&](ColorMethod::Kind kind) {
-        return light.color(tables, pairs, {kind}, 1e-6);
+    const auto by = [&](std::string_view method) {
+        return light.color(tables, pairs, color_method(method), 1e-6);
     };
-    const auto exact = by(ColorMethod::Kind::automatic), series = by(ColorMethod::Kind::fourier);
-    const auto gaussian = by(ColorMethod::Kind::gaussian);
+    const auto exact = by("auto"), series = by("fourier");
+    const auto gaussian = by("gaussian");
     for (std::size_t p = 0; p < pairs.size(); ++p)
         for (std::size_t c = 0; c < 3; ++c) {
             const double scale = std::max(1.0, summed[p][c]);

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "core/coherent/fresnel.hpp"
-#include "core/color/baselines/film_approximation.hpp"
+#include "core/color/color_method.hpp"
 #include "core/color/fourier/one_film.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/quadrature/integration.hpp"
@@ -56,7 +56,7 @@ public:
             colors[i] = {};
             colors[i].xyz = integral.xyz;
             colors[i].evaluations = integral.evaluations;
-            colors[i].method = ColorMethod::Kind::smits;
+            colors[i].method = "smits";
         }
     }
 
@@ -89,11 +89,27 @@ private:
     double film_n_ = 1;
 };
 
+std::unique_ptr<ColorAlgorithm> smits_color(const ColorTables& tables, const Stack& stack,
+                                            const ColorMethod&, const ColorRequest& request) {
+    return std::make_unique<TwoBeams>(tables, held_stack(stack, tables.sensitivity()), request);
+}
+
 }  // namespace
 
-std::unique_ptr<ColorAlgorithm> two_beam_color(const ColorTables& tables, Stack held,
-                                               const ColorRequest& request) {
-    return std::make_unique<TwoBeams>(tables, std::move(held), request);
-}
+/// Two beams, r = r12 + (1 - r12^2) r23 exp(i Phi), in every other respect exact, and integrated to
+/// 1e-6. R may exceed 1. Source: B. E. Smits and G. W. Meyer, Newton's Colors: Simulating
+/// Interference Phenomena in Realistic Image Synthesis (1992).
+extern constinit const ColorMethodKind color_method_smits = {
+    .name = "smits",
+    .place = 10,
+    .help = {11, "smits: a single round trip"},
+    .trials = {.place = 10, .counts = kNoNumber, .what = "two beams"},
+    .needs_reflected_film = true,
+    .fault =
+        [](const Stack& stack, const ColorRequest& request) {
+            return reflected_film_fault("smits", stack, request);
+        },
+    .prepare = smits_color,
+};
 
 }  // namespace irido

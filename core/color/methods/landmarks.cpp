@@ -1,10 +1,10 @@
-#include "core/color/baselines/landmark_color.hpp"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/coherent/fresnel.hpp"
 #include "core/color/bloch/one_mirror.hpp"
+#include "core/color/color_method.hpp"
 #include "core/color/fourier/film_parts.hpp"
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
@@ -39,14 +39,11 @@ double envelope(const BraggPeriod& period, double omega) {
 
 class LandmarkColor : public ColorAlgorithm {
 public:
-    LandmarkColor(const ColorTables& tables, const Stack& stack, std::size_t subdivisions,
-                  const ColorRequest& request)
+    LandmarkColor(const ColorTables& tables, std::size_t subdivisions, const ColorRequest& request)
         : cumulative_(tables.cumulative()),
           sensitivity_(tables.sensitivity()),
           subdivisions_(static_cast<double>(subdivisions)),
-          request_(request) {
-        one_mirror("landmarks", stack);
-    }
+          request_(request) {}
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
@@ -67,9 +64,8 @@ public:
                 for (std::size_t c = 0; c < 3; ++c)
                     T[c] += share[k] * (sensitivity_.white()[c] - R[c]);
             }
-            Lighting{sensitivity_.white(), request_.sides, ColorMethod::Kind::landmarks, boxes}
-                .store(T, std::numeric_limits<double>::infinity(),
-                       colors.subspan(i * sides, sides));
+            Lighting{sensitivity_.white(), request_.sides, "landmarks", boxes}.store(
+                T, std::numeric_limits<double>::infinity(), colors.subspan(i * sides, sides));
         }
     }
 
@@ -139,13 +135,40 @@ private:
     ColorRequest request_;
 };
 
-}  // namespace
+constexpr std::array<std::size_t, 5> kFirstSubdivisions{1, 2, 3, 4, 5};
 
-std::unique_ptr<ColorAlgorithm> landmark_color(const ColorTables& tables, const Stack& stack,
+std::unique_ptr<ColorAlgorithm> landmark_color(const ColorTables& tables, const Stack&,
                                                const ColorMethod& method,
                                                const ColorRequest& request) {
     require_in_range("subdivisions", static_cast<double>(method.count), 1, 1000);
-    return std::make_unique<LandmarkColor>(tables, stack, method.count, request);
+    return std::make_unique<LandmarkColor>(tables, method.count, request);
 }
+
+}  // namespace
+
+/// FPB24's piecewise constant reflectance of a mirror of very many periods (eq. 15): boxes between
+/// consecutive landmarks (ends of gaps, Airy points, zeros of the envelope), as high as the box
+///     in a gap:  1
+///     else:      w~(theta) R^e(middle), R^e = |C|^2 / (|C|^2 + sin^2 KL),
+///                w~ = w0 + (1 - w0)(1 - cos theta)^5, w0 = 0.735 R12 + 0.532
+/// with |C| = |q - 1/q|/2 |sin b|, R12 the reflectance of an interface of both layers at normal
+/// incidence and theta the angle in the first one: each adds what CumulativeSensitivity has between
+/// its ends. Boxes next to the gap of order m, between it and an Airy point, are split into
+/// max(1, s - m) equal ones, s = method.count; there is one of order 0 below the first Airy point.
+/// N and the media around the periods do not matter. T = 1 - R; s and p are averaged.
+/// The algorithm throws DomainError as bragg_period() does, and where more than kMostOrders gaps
+/// are in the visible range. Source: FPB24 (CGF 43(2), 2024), section 3.2 and appendix B.
+extern constinit const ColorMethodKind color_method_landmarks = {
+    .name = "landmarks",
+    .place = 11,
+    .number = {.fewest = 1, .most = 1000, .fallback = 1},
+    .help = {6, "landmarks: boxes between the landmarks of such a group (see bands)"},
+    .trials = {.place = 11,
+               .counts = kFirstSubdivisions,
+               .what = "FPB24's boxes, subdivided by `parameter`"},
+    .fault = [](const Stack& stack,
+                const ColorRequest&) { return mirror_fault("landmarks", stack); },
+    .prepare = landmark_color,
+};
 
 }  // namespace irido

@@ -1,14 +1,9 @@
-#include "core/color/baselines/approximation.hpp"
+#include "core/color/baselines/sampled_color.hpp"
 
 #include <algorithm>
 
-#include "core/color/baselines/bare_base.hpp"
-#include "core/color/baselines/film_approximation.hpp"
-#include "core/color/fourier/one_film.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/quadrature/panel_sums.hpp"
-#include "core/color/quadrature/quadrature_color.hpp"
-#include "core/error.hpp"
 #include "core/math/pool.hpp"
 #include "core/spectrum/spectrum.hpp"
 
@@ -16,25 +11,15 @@ namespace irido {
 
 namespace {
 
-/// Weights that take R at kRgb_nm as linear r, g, b.
-SampleRule naive_rule(const Triple& white) {
-    const ColorMatrix rows = xyz_from_srgb(white);
-    SampleRule rule;
-    rule.wavelength_nm.assign(kRgb_nm.begin(), kRgb_nm.end());
-    for (std::size_t c = 0; c < 3; ++c) rule.weight[c].assign(rows[c].begin(), rows[c].end());
-    return rule;
-}
-
-/// Weighted sums of the spectra at given wavelengths.
 class SampledColor : public ColorAlgorithm {
 public:
     SampledColor(const Sensitivity& sensitivity, std::shared_ptr<const SampleRule> rule,
-                 const Stack& stack, ColorMethod::Kind kind, const ColorRequest& request)
+                 const Stack& stack, std::string_view method, const ColorRequest& request)
         : rule_(std::move(rule)),
           stride_(whole_vectors(rule_->wavelength_nm.size())),
           table_(held_stack(stack, sensitivity), rule_->wavelength_nm),
           white_(sensitivity.white()),
-          kind_(kind),
+          method_(method),
           sides_(request.sides),
           light_(request.light),
           simd_(request.simd),
@@ -86,7 +71,7 @@ private:
         for (std::size_t c = 0; c < 3; ++c)
             result.xyz[c] = white_[c] * (result.xyz[c] / mirror_[c]);
         result.evaluations = points;
-        result.method = kind_;
+        result.method = method_;
         return result;
     }
 
@@ -95,7 +80,7 @@ private:
     std::vector<double> rows_;  ///< weights for X, Y, Z, zero past the points
     IndexTable table_;
     Triple white_, mirror_{};
-    ColorMethod::Kind kind_;
+    std::string_view method_;
     std::vector<Side> sides_;
     Light light_;
     SimdLevel simd_;
@@ -105,44 +90,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ColorAlgorithm> approximate_color(const ColorTables& tables, const Stack& stack,
-                                                  const ColorMethod& method,
-                                                  const ColorRequest& request,
-                                                  const std::optional<Triple>& base_color) {
-    using enum ColorMethod::Kind;
-    const Sensitivity& sensitivity = tables.sensitivity();
-    if (base_color && method.kind != gltf) throw DomainError("a base colour requires method gltf");
-    switch (method.kind) {
-        case equal:
-            return std::make_unique<SampledColor>(sensitivity, tables.equal(method.count), stack,
-                                                  method.kind, request);
-        case naive:
-            return std::make_unique<SampledColor>(
-                sensitivity, std::make_shared<const SampleRule>(naive_rule(sensitivity.white())),
-                stack, method.kind, request);
-        case gaussian:
-            require_film("gaussian", stack, request);
-            return gaussian_color(sensitivity, held_stack(stack, sensitivity), method.count,
-                                  request);
-        case gltf: {
-            require_film("gltf", stack, request);
-            const Stack held = held_stack(stack, sensitivity);
-            return gltf_color(
-                sensitivity, held,
-                base_color ? *base_color : bare_base_color(tables, held, Material(), 1), request);
-        }
-        case smits:
-            require_film("smits", stack, request);
-            return two_beam_color(tables, held_stack(stack, sensitivity), request);
-        case automatic:
-        case quadrature:
-        case fourier:
-        case fourier_constant:
-        case bloch:
-        case landmarks:
-            break;
-    }
-    throw DomainError("method must be one of equal, naive, gaussian, gltf, smits");
+std::unique_ptr<ColorAlgorithm> sampled_color(const Sensitivity& sensitivity,
+                                              std::shared_ptr<const SampleRule> rule,
+                                              const Stack& stack, std::string_view method,
+                                              const ColorRequest& request) {
+    return std::make_unique<SampledColor>(sensitivity, std::move(rule), stack, method, request);
 }
 
 }  // namespace irido

@@ -1,0 +1,34 @@
+#include "core/color/color_method.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.hpp"
+
+#define IRIDO_DECLARE(name) extern const ColorMethodKind name;
+namespace irido {
+#include "color_methods.inc"
+
+std::span<const ColorMethodKind* const> color_methods() {
+    static const auto sorted = [] {
+        std::array methods{IRIDO_ALL};
+        std::ranges::sort(methods, {}, &ColorMethodKind::place);
+        return methods;
+    }();
+    return sorted;
+}
+#undef IRIDO_DECLARE
+#undef IRIDO_ALL
+
+const ColorMethodKind* find_color_method(std::string_view name) {
+    const auto found = std::ranges::find(color_methods(), name, &ColorMethodKind::name);
+    return found == color_methods().end() ? nullptr : *found;
+}
+
+ColorMethod color_method(std::string_view name, std::size_t count) {
+    const ColorMethodKind* kind = find_color_method(name);
+    if (!kind) throw DomainError("unknown colour method " + std::string(name));
+    return {kind, count};
+}
+
+}  // namespace irido

@@ -1,0 +1,76 @@
+#include "core/color/exact_color.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/color/quadrature/quadrature_color.hpp"
+#include "core/color/spread_color.hpp"
+#include "core/error.hpp"
+#include "core/math/lazy.hpp"
+
+namespace irido {
+
+namespace {
+
+class SpecialColor : public ColorAlgorithm {
+public:
+    SpecialColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
+                 std::unique_ptr<ColorAlgorithm> special)
+        : tables_(tables), stack_(stack), request_(request), special_(std::move(special)) {}
+
+    void operator()(const Stack& stack, std::span<const double> angles_deg,
+                    std::span<StackColor> colors) const override {
+        const std::size_t sides = request_.sides.size();
+        const bool all = try_special(stack, angles_deg, colors);
+        for (std::size_t i = 0; i < angles_deg.size(); ++i) {
+            const std::span<StackColor> of_angle = colors.subspan(i * sides, sides);
+            const bool is_there = all || try_special(stack, angles_deg.subspan(i, 1), of_angle);
+            if (is_there && std::ranges::all_of(of_angle, [&](const StackColor& color) {
+                    return color.error <= request_.tolerance;
+                }))
+                continue;
+            const ColorAlgorithm& exact = *quadrature_.get(lock_, [&] {
+                return std::make_unique<std::unique_ptr<ColorAlgorithm>>(
+                    quadrature_color(tables_, stack_, request_));
+            });
+            exact(stack, angles_deg.subspan(i, 1), of_angle);
+        }
+    }
+
+private:
+    /// False if it does not take an angle.
+    bool try_special(const Stack& stack, std::span<const double> angles_deg,
+                     std::span<StackColor> colors) const {
+        try {
+            (*special_)(stack, angles_deg, colors);
+            return true;
+        } catch (const DomainError&) {
+            return false;
+        }
+    }
+
+    const ColorTables& tables_;
+    Stack stack_;
+    ColorRequest request_;
+    std::unique_ptr<ColorAlgorithm> special_;
+    mutable std::mutex lock_;
+    mutable Lazy<std::unique_ptr<ColorAlgorithm>> quadrature_;
+};
+
+}  // namespace
+
+std::unique_ptr<ColorAlgorithm> or_quadrature(const ColorTables& tables, const Stack& stack,
+                                              const ColorRequest& request,
+                                              std::unique_ptr<ColorAlgorithm> special) {
+    return std::make_unique<SpecialColor>(tables, stack, request, std::move(special));
+}
+
+std::unique_ptr<ColorAlgorithm> exact_color(const ColorTables& tables, const Stack& stack,
+                                            const ColorMethod& method,
+                                            const ColorRequest& request) {
+    if (auto special = spread_color(tables, stack, method, request))
+        return or_quadrature(tables, stack, request, std::move(special));
+    return quadrature_color(tables, stack, request);
+}
+
+}  // namespace irido
