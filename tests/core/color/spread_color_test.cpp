@@ -107,7 +107,7 @@ TEST_CASE("two wide spreads between metals are a mean of colours", "[color]") {
     layer_of(stack, 1).thickness_sigma_nm = layer_of(stack, 2).thickness_sigma_nm = kSigma_nm;
     const StackColor both = color(stack, 30);
     CHECK(both.error <= 1e-6);
-    CHECK(both.method == ColorMethod::Kind::quadrature);
+    CHECK(both.method == "quadrature");
     CHECK(both.evaluations > 100000);  // of colours, not of spectra that are means
     Triple mean{};
     double weights = 0;
