@@ -33,6 +33,13 @@ constexpr SpeedCase filter_case(double alpha, std::string_view name, std::string
     return result;
 }
 
+constexpr SpeedCase each_layer_case(std::string_view name, int layers, std::string_view summary,
+                                    Stack (*stack)(int layers)) {
+    SpeedCase result{name, layers, summary, stack};
+    result.each_layer = true;
+    return result;
+}
+
 constexpr SpeedCase table_case(std::string_view name, int layers, std::string_view summary,
                                const char* stack, const char* path, double first, double last) {
     SpeedCase result{name, layers, summary};
@@ -73,6 +80,14 @@ Stack absorbing(int layers) {
     return films(layers, [](int i) { return constant(index_of(i), 0.01); });
 }
 
+/// Films that absorb beyond 750 nm only.
+Stack nearly_transparent(int layers) {
+    const Table k{{300, 750, 780}, {0, 0, 0.01}};
+    return films(layers, [&](int i) {
+        return Material{"", RefractiveIndex{Constant{index_of(i)}, k}};
+    });
+}
+
 Stack dispersive(int layers) {
     return films(layers, [](int i) {
         return Material{"", RefractiveIndex{Formula{5, {index_of(i), 0.005, -2}, kAllWavelengths},
@@ -82,6 +97,12 @@ Stack dispersive(int layers) {
 
 Stack periods(int layers) {
     Stack stack = transparent(2);
+    stack.elements = {{Group{static_cast<std::uint64_t>(layers / 2), stack.elements}}};
+    return stack;
+}
+
+Stack absorbing_periods(int layers) {
+    Stack stack = absorbing(2);
     stack.elements = {{Group{static_cast<std::uint64_t>(layers / 2), stack.elements}}};
     return stack;
 }
@@ -106,6 +127,11 @@ constexpr std::array kCases{
     SpeedCase{"40_normal", 40, "40 transparent films at 0 degrees", transparent, true},
     SpeedCase{"40_dispersive", 40, "40 films with dispersion formulas", dispersive},
     SpeedCase{"40_absorbing", 40, "40 absorbing films", absorbing},
+    SpeedCase{"40_nearly_transparent", 40, "40 films that absorb beyond 750 nm",
+              nearly_transparent},
+    each_layer_case("40_each", 40, "40 absorbing films, and what each absorbs", absorbing),
+    each_layer_case("500_periods_each", 1000, "500 absorbing periods, and what each layer absorbs",
+                    absorbing_periods),
     SpeedCase{"20_periods", 40, "20 periods of two films", periods},
     SpeedCase{"500_periods", 1000, "500 periods of two films", periods},
     SpeedCase{"20_hosted", 40, "20 periods between half-spaces of the first one", hosted_periods},
@@ -169,6 +195,7 @@ public:
           power_(stack_),
           table_(stack_, case_wavelengths()) {
         needs_.T = needs_.A = !of.only_R;
+        needs_.layers = of.each_layer;
         for (int i = 0; i < 90; ++i) angles_deg_.push_back(of.normal ? 0 : i + 0.5);
         for (const double angle : angles_deg_) incidences_.push_back(incident_angle(angle));
         for (std::size_t i = 0; i < kSamples; ++i) {

@@ -21,6 +21,7 @@ struct SpeedCase {
     double alpha = 0;
     std::string_view expression{}, path{};  ///< of a table: its stack and the varied path
     double first = 0, last = 0;
+    bool each_layer = false;  ///< with what each layer absorbs
 };
 
 struct SpeedRow {

@@ -47,7 +47,7 @@ Film film_of(const schemas::StackDocument& document, double at_nm) {
     const Layer layer = only_film(stack);
     try {
         const IndexTable table(stack, {at_nm});
-        return {table.n(stack.incident)[0], table.n(layer.material)[0],
+        return {table.n(stack.incident, 0), table.n(layer.material, 0),
                 table.index(stack.substrate, 0), layer.thickness_nm};
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());

@@ -90,7 +90,7 @@ double index_of_gem(const Stack& stack) {
     if (std::abs(inside.imag()) >= kTransparentBelow_k)
         throw DomainError("a gem must be transparent, |k| of the substrate below 1e-3 (got " +
                           to_text(inside.imag()) + " at 550 nm)");
-    return inside.real() / indices.n(stack.incident)[0];
+    return inside.real() / indices.n(stack.incident, 0);
 }
 
 std::string rounded_text(double value) {

@@ -37,7 +37,8 @@ void note_incident(const schemas::StackDocument& document, const IndexTable& tab
     const std::size_t incident = document.stack.incident;
     if (is_constant(document.stack.materials[incident])) return;  // reported when read
     double largest = 0;
-    for (const double k : table.k(table.incident())) largest = std::max(largest, std::abs(k));
+    for (std::size_t w = 0; w < table.wavelength_nm().size(); ++w)
+        largest = std::max(largest, std::abs(table.k(incident, w)));
     if (largest > 0)
         say(document.file + ": " + document.material_pointers[incident] + ": " +
             schemas::incident_note(largest));

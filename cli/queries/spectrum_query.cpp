@@ -44,8 +44,7 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
         lines.push_back(points + "one at a time (" + plain_reason + ")");
     } else {
         lines.push_back(points + "vectorized (" + std::string(name_of(work.kernel)) + "), " +
-                        std::to_string(work.layers) + " layers" +
-                        (needs.layers ? ", A_layers one at a time" : ""));
+                        std::to_string(work.layers) + " layers");
     }
     const auto skipped = [&](const std::string& what) { lines.push_back("skipped: " + what); };
     if (work.normal_angles > 0 && needs.s && needs.p)
@@ -74,8 +73,9 @@ std::vector<std::string> lines_of(const Work& work, const Needs& needs, std::siz
     return lines;
 }
 
-/// Approximate count of numbers computed and written at a time.
-constexpr std::size_t kBlockNumbers = 1U << 20U;
+/// Most numbers computed and written at a time, and rows of several angles: as many as stay in the
+/// cache, so that every block is computed in the memory of the one before.
+constexpr std::size_t kBlockNumbers = 1U << 20U, kBlockRows = 1U << 13U;
 /// Size of the cache of index tables, in numbers: 64 MB.
 constexpr std::size_t kKeptIndices = 1U << 23U;
 
@@ -447,8 +447,9 @@ void SpectrumQuery::each_block(const schemas::StackDocument& document,
     const std::size_t numbers = cone_.is_none() ? kBlockNumbers : kBlockNumbers / kOfCone;
     const std::size_t most = std::max<std::size_t>(1, numbers / layout(document).size());
     if (!average_ && rows_per_angle() > most) return each_part_of_angle(document, most, take);
-    const std::size_t angles = angles_deg_.size(), blocks = (rows() + most - 1) / most;
-    const std::size_t count = (angles + blocks - 1) / blocks;
+    const std::size_t angles = angles_deg_.size();
+    const std::size_t count =
+        std::max<std::size_t>(1, std::min(most, kBlockRows) / rows_per_angle());
     const auto prepared = prepare(document);
     const auto result = new_result();
     for (std::size_t a = 0; a < angles; a += count) {

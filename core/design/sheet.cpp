@@ -36,10 +36,12 @@ IndexGrid::IndexGrid(const Stack& stack, std::vector<double> wavelengths_nm,
     k0.assign(table.k0().begin(), table.k0().begin() + static_cast<std::ptrdiff_t>(count));
     fill_up(k0, count, stride);
     for (std::size_t m = 0; m < stack.materials.size(); ++m) {
-        const auto n = table.n(m), k = table.k(m);
-        n_re.emplace_back(n.begin(), n.end());
-        n_im.emplace_back(k.begin(), k.end());
-        if (m == stack.incident) std::ranges::fill(n_im.back(), 0.0);
+        n_re.emplace_back(count);
+        n_im.emplace_back(count);
+        for (std::size_t w = 0; w < count; ++w) {
+            n_re.back()[w] = table.n(m, w);
+            n_im.back()[w] = m == stack.incident ? 0 : table.k(m, w);
+        }
         fill_up(n_re.back(), count, stride);
         fill_up(n_im.back(), count, stride);
     }

@@ -71,8 +71,8 @@ void BraggMirror::check_indices(double first_nm, double last_nm) {
     wavelengths.push_back(last_nm);
     const IndexTable table(stack_, std::move(wavelengths));
     for (const Layer& layer : pair_)
-        for (const double k : table.k(layer.material))
-            left_out_k_ = std::max(left_out_k_, std::abs(k));
+        for (std::size_t w = 0; w < table.wavelength_nm().size(); ++w)
+            left_out_k_ = std::max(left_out_k_, std::abs(table.k(layer.material, w)));
     if (left_out_k_ > kLargestK)
         throw DomainError(
             "the two layers of a Bragg mirror must be transparent, k in [-0.1, 0.1] "

@@ -197,7 +197,7 @@ void cone_spectra(const Stack& stack, const StackPower& power, const IndexTable&
                 .resize(points * (quantity == &Spectrum::A_layers ? power.layer_count() : 1));
     for (std::size_t axis = 0; axis < axes_deg.size(); ++axis) {
         const auto light_at = [&](std::size_t w) {
-            const double n0 = table.n(table.incident())[w];
+            const double n0 = table.n(table.incident(), w);
             return ConeLight({axes_deg[axis], size.half_angle(n0)});
         };
         const auto ends_at = [&](const ConeLight& light, std::size_t w) {
@@ -207,7 +207,7 @@ void cone_spectra(const Stack& stack, const StackPower& power, const IndexTable&
                 if (const std::size_t row = table.extraordinary(m); row != m)
                     index.push_back(table.index(row, w));
             }
-            return light.smooth_ends(index, table.n(table.incident())[w]);
+            return light.smooth_ends(index, table.n(table.incident(), w));
         };
         for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
             const ConeLight light = light_at(begin);

@@ -157,14 +157,24 @@ void copy_points(const Spectrum& from, Spectrum& to, std::size_t begin, std::siz
         copy_some(from.*values, to.*values, begin, end);
 }
 
+/// A_layers of points [begin, end) of one polarization are those of the other.
+void copy_layers(const Spectrum& from, Spectrum& to, std::size_t points, std::size_t begin,
+                 std::size_t end) {
+    for (std::size_t first = 0; first < to.A_layers.size(); first += points)
+        copy_some(from.A_layers, to.A_layers, first + begin, first + end);
+}
+
 /// Whether all points of an angle are better computed together: where both polarizations are one,
 /// and where the incident wave carries no power.
 bool is_special(IncidentAngle incidence) {
     return incidence.cos == 1 || incidence.cos == 0;
 }
 
-Stream stream(std::span<const double> row, std::size_t wavelength, bool varies) {
-    return {row.data() + wavelength, varies};
+Stream stream_of_n(const IndexTable& table, std::size_t row, std::size_t wavelength, bool across) {
+    return {table.n_from(row, wavelength), !across && table.row_varies(row)};
+}
+Stream stream_of_k(const IndexTable& table, std::size_t row, std::size_t wavelength, bool across) {
+    return {table.k_from(row, wavelength), !across && table.row_varies(row)};
 }
 
 /// The extraordinary indices of a run of p alone.
@@ -175,9 +185,8 @@ void set_extraordinary(const IndexTable& table, std::size_t wavelength, bool acr
     for (std::size_t m = 0; m < table.materials(); ++m) {
         const std::size_t row = table.extraordinary(m);
         if (row == m) continue;
-        const bool varies = !across && !table.is_constant(m);
-        run.extraordinary_n[m] = stream(table.n(row), wavelength, varies);
-        run.extraordinary_k[m] = stream(table.k(row), wavelength, varies);
+        run.extraordinary_n[m] = stream_of_n(table, row, wavelength, across);
+        run.extraordinary_k[m] = stream_of_k(table, row, wavelength, across);
     }
 }
 
@@ -190,8 +199,7 @@ void set_points(const SpectrumJob& job, const IndexTable& table,
     const std::size_t wavelength = across ? job.fixed : job.begin;
     run.count = job.end - job.begin;
     run.k0 = {table.k0().data() + wavelength, !across};
-    run.incident = stream(table.n(table.incident()), wavelength,
-                          !across && !table.is_constant(table.incident()));
+    run.incident = stream_of_n(table, table.incident(), wavelength, across);
     const IncidentAngle& first = incidence[across ? job.begin : job.fixed];
     run.cos_theta = {&first.cos, across};
     run.sin_theta = {&first.sin, across};
@@ -210,19 +218,20 @@ void set_points(const SpectrumJob& job, const IndexTable& table,
     run.n.resize(table.materials());
     run.k.resize(table.materials());
     for (std::size_t m = 0; m < table.materials(); ++m) {
-        const bool varies = !across && !table.is_constant(m);
-        run.n[m] = stream(table.n(m), wavelength, varies);
-        run.k[m] = stream(table.k(m), wavelength, varies);
+        run.n[m] = stream_of_n(table, m, wavelength, across);
+        run.k[m] = stream_of_k(table, m, wavelength, across);
     }
 }
 
 /// Points by the vector kernel, which leaves some to the plain one.
 class VectorRun {
 public:
-    VectorRun(const ChainProgram& program, PlainRun& plain, const IndexTable& table,
-              std::span<const IncidentAngle> incidence, const Needs& needs, SimdLevel simd,
-              Spectra& out, SpectrumMemory& memory)
+    /// `layers` is nullptr unless the absorption of each is requested.
+    VectorRun(const ChainProgram& program, const ChainLayers* layers, PlainRun& plain,
+              const IndexTable& table, std::span<const IncidentAngle> incidence, const Needs& needs,
+              SimdLevel simd, Spectra& out, SpectrumMemory& memory)
         : program_(program),
+          layers_(layers),
           plain_(plain),
           table_(table),
           incidence_(incidence),
@@ -233,6 +242,7 @@ public:
           cosines_(memory.cosines),
           sines_(memory.sines),
           redo_(memory.redo),
+          redo_layers_(memory.redo_layers),
           memory_(memory.kernel) {}
 
     void operator()(const SpectrumJob& job) {
@@ -248,33 +258,50 @@ public:
         const bool only_p = normal && !needs_.s;
         const RunOutput s = output_at(only_p ? out_.p : out_.s, first, stride);
         const RunOutput p = output_at(out_.p, first, stride);
+        const std::size_t points = incidence_.size() * wavelengths;
+        const LayerOutput layers_s{place(only_p ? out_.p.A_layers : out_.s.A_layers, first), points,
+                                   stride};
+        const LayerOutput layers_p{place(out_.p.A_layers, first), points, stride};
         redo_.clear();
-        const RunOutput* const with_s = needs_.s || normal ? &s : nullptr;
-        const RunOutput* const with_p = needs_.p && !normal ? &p : nullptr;
+        redo_layers_.clear();
+        const auto pass = [&](bool with_s, bool with_p) {
+            run_chain(program_, run_, with_s ? &s : nullptr, with_p ? &p : nullptr, redo_, memory_,
+                      simd_);
+            if (layers_)
+                run_chain_layers(program_, *layers_, run_, with_s ? &layers_s : nullptr,
+                                 with_p ? &layers_p : nullptr, redo_layers_, memory_, simd_);
+        };
+        const bool with_s = needs_.s || normal, with_p = needs_.p && !normal;
         if (table_.is_uniaxial() && with_p) {
-            if (with_s) run_chain(program_, run_, with_s, nullptr, redo_, memory_, simd_);
+            if (with_s) pass(true, false);
             set_extraordinary(table_, wavelength, across, run_);
-            run_chain(program_, run_, nullptr, with_p, redo_of_p_, memory_, simd_);
-            add_redo_of_p();
+            pass(false, true);
+            for (auto* redo : {&redo_, &redo_layers_}) {
+                std::ranges::sort(*redo);
+                redo->erase(std::unique(redo->begin(), redo->end()), redo->end());
+            }
         } else {
-            run_chain(program_, run_, with_s, with_p, redo_, memory_, simd_);
+            pass(with_s, with_p);
         }
-        if (normal && needs_.s && needs_.p && needs_.p_at_normal)
+        if (normal && needs_.s && needs_.p && needs_.p_at_normal) {
             copy_points(out_.s, out_.p, first, first + run_.count);
+            if (layers_) copy_layers(out_.s, out_.p, points, first, first + run_.count);
+        }
+        const auto incidence_of = [&](std::size_t i) {
+            return incidence_[across ? angle + i : angle];
+        };
+        const auto wavelength_of = [&](std::size_t i) {
+            return across ? wavelength : wavelength + i;
+        };
         for (const std::size_t i : redo_)
-            plain_(incidence_[across ? angle + i : angle], across ? wavelength : wavelength + i,
-                   first + i * stride);
+            plain_(incidence_of(i), wavelength_of(i), first + i * stride);
+        for (const std::size_t i : redo_layers_)
+            plain_.layers(incidence_of(i), wavelength_of(i), first + i * stride);
     }
 
 private:
-    void add_redo_of_p() {
-        redo_.insert(redo_.end(), redo_of_p_.begin(), redo_of_p_.end());
-        redo_of_p_.clear();
-        std::ranges::sort(redo_);
-        redo_.erase(std::unique(redo_.begin(), redo_.end()), redo_.end());
-    }
-
     const ChainProgram& program_;
+    const ChainLayers* layers_;
     PlainRun& plain_;
     const IndexTable& table_;
     std::span<const IncidentAngle> incidence_;
@@ -283,8 +310,7 @@ private:
     Spectra& out_;
     PointRun& run_;
     std::vector<double>&cosines_, &sines_;
-    std::vector<std::size_t>& redo_;
-    std::vector<std::size_t> redo_of_p_;
+    std::vector<std::size_t>&redo_, &redo_layers_;
     RunMemory& memory_;
 };
 
@@ -364,7 +390,10 @@ void SpectrumKernel::update() {
     const Chain* chain = stack_.chain();
     is_vectorized_ = chain && simd_ != SimdLevel::plain &&
                      compile(*chain, absorbs_, amplifies_, needs_.A, fixed_, program_);
-    if (is_vectorized_) program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
+    if (needs_.layers) stack_.require_layer_list();
+    if (!is_vectorized_) return;
+    program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
+    if (needs_.layers) compile_layers(*chain, stack_.listed(), absorbs_, layers_);
 }
 
 void SpectrumKernel::fix_layers(const IndexTable& table, IncidentAngle incidence, FixedLayers& out,
@@ -425,7 +454,8 @@ void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& ta
     PlainRun plain(stack_, table, needs_, out);
     std::optional<VectorRun> vector;
     if (by_vectors(table))
-        vector.emplace(program_, plain, table, incidence, needs_, simd_, out, memory);
+        vector.emplace(program_, needs_.layers ? &layers_ : nullptr, plain, table, incidence,
+                       needs_, simd_, out, memory);
     for (const SpectrumJob& job : jobs) {
         const bool grazing = !job.along_angles && incidence[job.fixed].cos == 0;
         if (vector && !grazing) {
@@ -434,12 +464,6 @@ void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& ta
                                    ? points_at(job.fixed, wavelengths, fixed, memory.fixed_points)
                                    : std::span<const FixedPoints>();
             (*vector)(job);
-            if (!needs_.layers) continue;
-            for (std::size_t i = job.begin; i < job.end; ++i) {
-                const std::size_t a = job.along_angles ? i : job.fixed;
-                const std::size_t w = job.along_angles ? job.fixed : i;
-                plain.layers(incidence[a], w, a * wavelengths + w);
-            }
             continue;
         }
         for (std::size_t w = job.begin; w < job.end; ++w)
@@ -463,9 +487,10 @@ void SpectrumKernel::operator()(const IndexTable& table, std::span<const Inciden
 void SpectrumKernel::operator()(const IndexTable& table, std::span<const IncidentAngle> incidence,
                                 unsigned threads, Spectra& out) const {
     SpectrumMemory memory;
-    const double unit = by_vectors(table) && !needs_.layers
-                            ? kVectorWork * static_cast<double>(layers_of(program_) + 2)
-                            : kPlainWork;
+    const std::size_t listed = needs_.layers ? stack_.layer_count() : 0;
+    const double unit =
+        by_vectors(table) ? kVectorWork * static_cast<double>(layers_of(program_) + 2 * listed + 2)
+                          : kPlainWork;
     const auto points = static_cast<double>(incidence.size() * table.wavelength_nm().size());
     if (threads == 1 || points * unit < kLittleWork) return (*this)(table, incidence, out, memory);
     prepare(table, incidence, out, memory.jobs);

@@ -82,7 +82,7 @@ struct SpectrumMemory {
     std::vector<SpectrumJob> jobs;
     PointRun run;
     std::vector<double> cosines, sines;
-    std::vector<std::size_t> redo;
+    std::vector<std::size_t> redo, redo_layers;
     RunMemory kernel;
     std::vector<FixedLayers> fixed;
     std::vector<const FixedLayers*> fixed_parts;
@@ -93,7 +93,8 @@ struct SpectrumMemory {
 /// where declared. Refers to the StackPower. Thread-safe.
 class SpectrumKernel {
 public:
-    /// Throws DomainError if amplitudes are requested from a stack that has none.
+    /// Throws DomainError if amplitudes are requested from a stack that has none, and as
+    /// StackPower::require_layer_list() does if the absorption of each layer is requested.
     ///   stack               must outlive this object
     ///   absorbs, amplifies  per material, as in the IndexTables to come
     ///   needs               outputs requested
@@ -159,12 +160,13 @@ private:
     FixedRuns fixed_;
     bool is_vectorized_ = false;
     ChainProgram program_;  ///< if it is
+    ChainLayers layers_;    ///< likewise, if the absorption of each is requested
 };
 
 /// Spectra of a stack at all wavelengths of a table and all angles. Stacks of fixed thicknesses use
-/// the vector kernel; thickness distributions, A_layers and points that the vector kernel rejects
-/// go through StackPower one by one. Throws DomainError if amplitudes are requested from a stack
-/// that has none, and as StackPower does.
+/// the vector kernel; thickness distributions and points that the vector kernel rejects go through
+/// StackPower one by one. Throws DomainError if amplitudes are requested from a stack that has
+/// none, and as StackPower does.
 ///   stack      power of the stack
 ///   table      its indices
 ///   incidence  directions; at normal incidence both polarizations are computed as one

@@ -123,12 +123,16 @@ Response StackPower::operator()(std::span<const Medium> media, double k0, Polari
     return response;
 }
 
-void StackPower::layer_absorption(std::span<const Medium> media, double k0,
-                                  Polarization polarization, std::span<double> absorbed) const {
+void StackPower::require_layer_list() const {
     if (layer_count_ > kLargestLayerList)
         throw DomainError("the layers to list must be at most " +
                           std::to_string(kLargestLayerList) + " (got " +
                           std::to_string(layer_count_) + ")");
+}
+
+void StackPower::layer_absorption(std::span<const Medium> media, double k0,
+                                  Polarization polarization, std::span<double> absorbed) const {
+    require_layer_list();
     const bool lit = outgoing_wave(media.back(), polarization).flux > 0;
     std::vector<double> parts(listed_.size());
     const std::span<double> all = listed_.empty() ? absorbed : std::span(parts);

@@ -61,12 +61,19 @@ public:
     /// layers count as one.
     std::size_t layer_count() const { return layer_count_; }
 
+    /// For each layer with groups and slices written out, the layer of layer_count() that it is
+    /// part of; empty if that is itself, or if there are more than kLargestLayerList layers.
+    std::span<const std::size_t> listed() const { return listed_; }
+
     static constexpr std::size_t kLargestLayerList = 1000;
+
+    /// Throws DomainError if there are more than kLargestLayerList layers.
+    void require_layer_list() const;
 
     /// Power absorbed in each of these layers, as a fraction of the incident power; gain is
     /// negative. Computed from the layers' own fluxes, so small values are accurate. In an
     /// incoherent layer between absorbing ones it includes the interference flux of its waves at
-    /// its faces. Throws DomainError if there are more than kLargestLayerList layers.
+    /// its faces. Throws as require_layer_list() does.
     ///   media         one per material, followed by the incident medium without absorption
     ///   k0            2 pi / wavelength, 1/nm
     ///   polarization  s or p, the one that `media` were computed for

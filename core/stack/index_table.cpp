@@ -21,12 +21,6 @@ std::vector<std::size_t> rows_of_extraordinary(const std::vector<Material>& mate
     return rows;
 }
 
-std::size_t rows_in(const std::vector<std::size_t>& extraordinary) {
-    std::size_t rows = extraordinary.size();
-    for (const std::size_t row : extraordinary) rows = std::max(rows, row + 1);
-    return rows;
-}
-
 }  // namespace
 
 IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
@@ -34,11 +28,7 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
       materials_(stack.materials.size()),
       incident_(stack.incident),
       extraordinary_(rows_of_extraordinary(stack.materials)),
-      rows_(rows_in(extraordinary_)),
-      n_(wavelength_nm_.size() * rows_ + kMostLanes, 1),
-      k_(n_.size(), 0),
       k0_(wavelength_nm_.size() + kMostLanes, 1),
-      constant_(materials_, true),
       absorbs_(materials_, false),
       amplifies_(materials_, false) {
     const std::size_t count = wavelength_nm_.size();
@@ -49,27 +39,22 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
         k0_[w] = 2 * std::numbers::pi / wavelength_nm_[w];
         largest_k0 = std::max(largest_k0, k0_[w]);
     }
-    for (std::size_t m = 0; m < materials_; ++m) {
+    const auto fill = [&](std::size_t m, auto&& at) {
         const Material& material = stack.materials[m];
-        const bool constant = irido::is_constant(material);
-        const auto fill = [&](std::size_t row, auto&& at) {
-            Complex index;
-            for (std::size_t w = 0; w < count; ++w) {
-                if (w == 0 || !constant) {
-                    index = at(material, wavelength_nm_[w]);
-                    largest_index =
-                        std::max(largest_index, std::abs(index.real()) + std::abs(index.imag()));
-                }
-                n_[row * count + w] = index.real();
-                k_[row * count + w] = index.imag();
-                if (index != this->index(row, 0)) constant_[m] = false;
-                if (index.imag() != 0) absorbs_[m] = true;
-                if (index.imag() < 0) amplifies_[m] = true;
-            }
-        };
-        fill(m, index_at);
-        if (extraordinary_[m] != m) fill(extraordinary_[m], extraordinary_index_at);
-    }
+        rows_.push_back(new_row(1));
+        const bool varies = !irido::is_constant(material);
+        for (std::size_t w = 0; w < (varies ? count : std::min<std::size_t>(count, 1)); ++w) {
+            const Complex index = at(material, wavelength_nm_[w]);
+            largest_index =
+                std::max(largest_index, std::abs(index.real()) + std::abs(index.imag()));
+            set(rows_.size() - 1, w, index);
+            note_sign(m, index);
+        }
+    };
+    clear_rows();
+    for (std::size_t m = 0; m < materials_; ++m) fill(m, index_at);
+    for (std::size_t m = 0; m < materials_; ++m)
+        if (extraordinary_[m] != m) fill(m, extraordinary_index_at);
     largest_wavenumber_ = largest_k0 * largest_index;
     for (std::size_t w = 0; w < count; ++w) {
         const Complex incident = index(incident_, w);
@@ -80,14 +65,44 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
     }
 }
 
+void IndexTable::clear_rows() {
+    rows_.clear();
+    n_.assign(kMostLanes, 1);
+    k_.assign(kMostLanes, 0);
+}
+
+/// A row of `places` values, before the padding.
+IndexTable::Row IndexTable::new_row(std::size_t places) {
+    const std::size_t first = n_.size() - kMostLanes;
+    n_.resize(n_.size() + places, 1);
+    k_.resize(n_.size(), 0);
+    return {first, places > 1};
+}
+
+/// Values of a row must be set in the order of their wavelengths: the first one serves for all of
+/// them until another differs.
+void IndexTable::set(std::size_t row, std::size_t wavelength, Complex index) {
+    if (wavelength > 0 && !rows_[row].varies) {
+        const Complex first = this->index(row, 0);
+        if (index == first) return;
+        const std::size_t count = wavelength_nm_.size();
+        rows_[row] = new_row(count);
+        std::fill_n(n_.data() + rows_[row].first, count, first.real());
+        std::fill_n(k_.data() + rows_[row].first, count, first.imag());
+    }
+    n_[rows_[row].at(wavelength)] = index.real();
+    k_[rows_[row].at(wavelength)] = index.imag();
+}
+
+void IndexTable::note_sign(std::size_t material, Complex index) {
+    if (index.imag() != 0) absorbs_[material] = true;
+    if (index.imag() < 0) amplifies_[material] = true;
+}
+
 void IndexTable::replace(std::size_t material, std::span<const Complex> index) {
-    const std::size_t count = wavelength_nm_.size();
-    for (std::size_t w = 0; w < count; ++w) {
-        n_[material * count + w] = index[w].real();
-        k_[material * count + w] = index[w].imag();
-        if (index[w] != index[0]) constant_[material] = false;
-        if (index[w].imag() != 0) absorbs_[material] = true;
-        if (index[w].imag() < 0) amplifies_[material] = true;
+    for (std::size_t w = 0; w < wavelength_nm_.size(); ++w) {
+        set(material, w, index[w]);
+        note_sign(material, index[w]);
         largest_wavenumber_ = std::max(
             largest_wavenumber_, k0_[w] * (std::abs(index[w].real()) + std::abs(index[w].imag())));
     }
@@ -96,15 +111,11 @@ void IndexTable::replace(std::size_t material, std::span<const Complex> index) {
 void IndexTable::resize_like(const IndexTable& model, std::size_t count) {
     materials_ = model.materials_;
     extraordinary_ = model.extraordinary_;
-    rows_ = model.rows_;
     incident_ = model.incident_;
     largest_wavenumber_ = 0;
-    constant_ = model.constant_;
     absorbs_ = model.absorbs_;
     amplifies_ = model.amplifies_;
     wavelength_nm_.resize(count);
-    n_.resize(count * rows_ + kMostLanes, 1);
-    k_.resize(n_.size(), 0);
     k0_.resize(count + kMostLanes, 1);
 }
 
@@ -122,11 +133,9 @@ void IndexTable::assign(const IndexTable& constant,
             shortest = std::min(shortest, wavelength);
         }
     }
-    for (std::size_t m = 0; m < rows_; ++m) {
-        const Complex index = constant.index(m, 0);
-        std::fill_n(n_.data() + m * count, count, index.real());
-        std::fill_n(k_.data() + m * count, count, index.imag());
-    }
+    rows_ = constant.rows_;
+    n_ = constant.n_;
+    k_ = constant.k_;
     largest_wavenumber_ = constant.largest_wavenumber_ * constant.wavelength_nm_[0] / shortest;
 }
 
@@ -140,20 +149,25 @@ void IndexTable::assign(std::span<const IndexTable* const> parts) {
         const std::size_t some = part->wavelength_nm_.size();
         std::copy_n(part->wavelength_nm_.data(), some, wavelength_nm_.data() + at);
         std::copy_n(part->k0_.data(), some, k0_.data() + at);
-        for (std::size_t m = 0; m < rows_; ++m) {
-            std::copy_n(part->n_.data() + m * some, some, n_.data() + m * count + at);
-            std::copy_n(part->k_.data() + m * some, some, k_.data() + m * count + at);
-        }
         for (std::size_t m = 0; m < materials_; ++m) {
-            const std::size_t e = extraordinary_[m];
-            if (part->index(m, 0) != first.index(m, 0) || part->index(e, 0) != first.index(e, 0) ||
-                !part->constant_[m])
-                constant_[m] = false;
             if (part->absorbs_[m]) absorbs_[m] = true;
             if (part->amplifies_[m]) amplifies_[m] = true;
         }
         largest_wavenumber_ = std::max(largest_wavenumber_, part->largest_wavenumber_);
         at += some;
+    }
+    clear_rows();
+    for (std::size_t row = 0; row < first.rows_.size(); ++row) {
+        rows_.push_back(new_row(1));
+        at = 0;
+        for (const IndexTable* part : parts) {
+            const std::size_t some = part->wavelength_nm_.size();
+            const bool is_same = at > 0 && !rows_[row].varies && !part->rows_[row].varies &&
+                                 part->index(row, 0) == index(row, 0);
+            for (std::size_t w = 0; w < some && !is_same; ++w)
+                set(row, at + w, part->index(row, w));
+            at += some;
+        }
     }
 }
 

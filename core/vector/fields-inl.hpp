@@ -47,7 +47,7 @@ constexpr std::uint32_t kLayersBetweenChecks = 8;
 constexpr double kDeepLogScale = 200;
 
 /// Layers whose sines are computed side by side: more would not fit the registers.
-constexpr std::uint32_t kSideBySide = 4;
+constexpr std::uint32_t kSideBySide = 4, kAbsorbingSideBySide = 2;
 
 /// A half period with a larger exponent is left to the plain kernel.
 constexpr double kLargestHalfExponent = 150;
@@ -373,16 +373,18 @@ HWY_INLINE DepthIntegrals depth_integrals(const double* medium, Cx phase, SinCos
     return result;
 }
 
-/// Power absorbed in a layer, times exp(-2 Im delta); f is at its lower face.
+/// Power absorbed in a layer, times exp(-2 Im delta), as a form in the fields at its lower face:
+/// bb |B|^2 + cc |C|^2 + 2 Re(conj(B) bc C).
+struct AbsorbedForm {
+    V bb, cc;
+    Cx bc;
+};
 template <bool kIsP>
-HWY_INLINE V absorbed_in_layer(const Fields& f, const double* medium, const DepthIntegrals& i) {
+HWY_INLINE AbsorbedForm absorbed_form(const double* medium, const DepthIntegrals& i) {
     const V loss = slot(medium, kLoss);
     const Cx conj_cs{i.cs.re, negative(i.cs.im)};
-    if constexpr (!kIsP) {
-        const V bb = i.cc, cc = i.ss;  // w = 1
-        const Cx bc = minus_i(conj_cs);
-        const V both = Mul(constant(2), dot(f.b, mul(bc, f.c)));
-        return Mul(loss, MulAdd(bb, norm(f.b), MulAdd(cc, norm(f.c), both)));
+    if constexpr (!kIsP) {  // w = 1
+        return {Mul(loss, i.cc), Mul(loss, i.ss), scaled(minus_i(conj_cs), loss)};
     } else {
         const Cx w = slots(medium, kWRe), v = slots(medium, kEpsRe);
         const V loss_w = slot(medium, kLossW);
@@ -391,10 +393,12 @@ HWY_INLINE V absorbed_in_layer(const Fields& f, const double* medium, const Dept
         const Cx minus_iv = minus_i(v);
         const Cx first = scaled(mul(minus_i(w), conj_cs), loss);
         const Cx second = scaled(mul({minus_iv.re, negative(minus_iv.im)}, i.cs), loss_w);
-        const Cx bc{Add(first.re, second.re), Add(first.im, second.im)};
-        const V both = Mul(constant(2), dot(f.b, mul(bc, f.c)));
-        return MulAdd(bb, norm(f.b), MulAdd(cc, norm(f.c), both));
+        return {bb, cc, {Add(first.re, second.re), Add(first.im, second.im)}};
     }
+}
+HWY_INLINE V absorbed_in(const Fields& f, const AbsorbedForm& form) {
+    const V both = Mul(constant(2), dot(f.b, mul(form.bc, f.c)));
+    return MulAdd(form.bb, norm(f.b), MulAdd(form.cc, norm(f.c), both));
 }
 
 }  // namespace

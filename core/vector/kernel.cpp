@@ -12,6 +12,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "core/vector/absorption-inl.hpp"
 #include "core/vector/mirror_run-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -134,6 +135,11 @@ void run(const Program& program, const PointRun& points, const RunOutput* s, con
     Runner(program, points, s, p, redo, memory)();
 }
 
+void run_each(const LayerProgram& layers, const PointRun& points, const LayerOutput* s,
+              const LayerOutput* p, std::vector<std::size_t>& redo, RunMemory& memory) {
+    AbsorptionRun(layers, points, s, p, redo, memory)();
+}
+
 void store(const FixedRun& fixed, const PointRun& points, bool s, bool p, std::size_t rows,
            double* to, RunMemory& memory) {
     std::vector<std::size_t> none;
@@ -152,6 +158,12 @@ void run_program(const Program& program, const PointRun& points, const RunOutput
                  const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
                  SimdLevel level) {
     IRIDO_DISPATCH(level, run)(program, points, s, p, redo, memory);
+}
+
+void run_layers(const LayerProgram& layers, const PointRun& points, const LayerOutput* s,
+                const LayerOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
+                SimdLevel level) {
+    IRIDO_DISPATCH(level, run_each)(layers, points, s, p, redo, memory);
 }
 
 void store_fixed(const FixedRun& fixed, const PointRun& points, bool s, bool p, std::size_t rows,

@@ -51,9 +51,16 @@ struct RunOutput {
     std::size_t stride = 1;
 };
 
+/// Destination of the power absorbed in each layer in one polarization: that of a layer at point i
+/// goes to index layer * layer_stride + i * stride.
+struct LayerOutput {
+    double* A;
+    std::size_t layer_stride, stride;
+};
+
 /// Scratch buffers, reusable between runs.
 struct RunMemory {
-    std::vector<double> records;
+    std::vector<double> records, absorbed;
     std::vector<char> evanescent;
     std::vector<std::size_t> varying;
 };
@@ -71,6 +78,17 @@ struct RunMemory {
 void run_program(const Program& program, const PointRun& run, const RunOutput* s,
                  const RunOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
                  SimdLevel level);
+
+/// coherent_layer_absorption() for many points at once, in terms of the incident power.
+///   layers  compiled layers
+///   run     points
+///   s, p    outputs, nullptr for a polarization that is not needed
+///   redo    receives the points that need the plain kernel
+///   memory  scratch
+///   level   instruction set
+void run_layers(const LayerProgram& layers, const PointRun& run, const LayerOutput* s,
+                const LayerOutput* p, std::vector<std::size_t>& redo, RunMemory& memory,
+                SimdLevel level);
 
 /// Stores the rows of a FixedRun at all points. Points that need the plain kernel get NaN.
 ///   fixed   elements to store

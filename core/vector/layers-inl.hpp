@@ -32,15 +32,29 @@ struct LayersRun : MediaRun {
         V less;  ///< (1 - exp(-2b))/2
         Cx cos, sin;
     };
+    /// `count` layers that absorb, their sines and exponentials side by side.
+    template <std::size_t count>
+    HWY_INLINE void absorbing_turns(const std::uint32_t* order, const V* k0_d,
+                                    AbsorbingTurn* t) const {
+        V phase[count];
+        SinCos turn[count];
+        _Pragma("GCC unroll 4") for (std::size_t k = 0; k < count; ++k) {
+            t[k].phase = scaled(slots(record(order[k]), kPhaseRe), k0_d[k]);
+            phase[k] = t[k].phase.re;
+        }
+        sin_cos<count>(phase, turn);
+        _Pragma("GCC unroll 4") for (std::size_t k = 0; k < count; ++k) t[k].less =
+            Mul(constant(-0.5), expm1(Mul(constant(-2), t[k].phase.im)));
+        _Pragma("GCC unroll 4") for (std::size_t k = 0; k < count; ++k) {
+            const V less = t[k].less, more = Sub(constant(1), less);
+            t[k].turn = turn[k];
+            t[k].cos = {Mul(turn[k].cos, more), negative(Mul(turn[k].sin, less))};
+            t[k].sin = {Mul(turn[k].sin, more), Mul(turn[k].cos, less)};
+        }
+    }
     HWY_INLINE AbsorbingTurn absorbing_turn(std::uint32_t layer, V k0_d) const {
-        const double* medium = record(layer);
         AbsorbingTurn t;
-        t.phase = scaled(slots(medium, kPhaseRe), k0_d);
-        t.turn = sin_cos(t.phase.re);
-        t.less = Mul(constant(-0.5), expm1(Mul(constant(-2), t.phase.im)));
-        const V more = Sub(constant(1), t.less);
-        t.cos = {Mul(t.turn.cos, more), negative(Mul(t.turn.sin, t.less))};
-        t.sin = {Mul(t.turn.sin, more), Mul(t.turn.cos, t.less)};
+        absorbing_turns<1>(&layer, &k0_d, &t);
         return t;
     }
 
@@ -91,18 +105,20 @@ struct LayersRun : MediaRun {
         }
     }
 
-    /// Layers that all travel, in registers.
-    template <bool kS, bool kP>
-    HWY_NOINLINE void travelling_step(const Program::Step& step, V k0, Fields& s_out,
-                                      Fields& p_out) const {
+    /// Takes the fields through layers in registers; `through(count, order, s, p)` takes them
+    /// through `count` layers, either kTogether or 1, as std::integral_constant.
+    template <bool kS, bool kP, std::uint32_t kTogether, class Through>
+    HWY_INLINE void in_batches(const Program::Step& step, Fields& s_out, Fields& p_out,
+                               const Through& through) const {
         Fields s = s_out, p = p_out;
         const std::uint32_t* order = program_.order.data() + step.first;
         for (std::uint32_t left = step.count; left > 0;) {
             std::uint32_t some = std::min(left, kLayersBetweenChecks);
             left -= some;
-            for (; some >= kSideBySide; some -= kSideBySide, order += kSideBySide)
-                travelling_layers<kS, kP, kSideBySide>(order, k0, s, p);
-            for (; some > 0; --some, ++order) travelling_layers<kS, kP, 1>(order, k0, s, p);
+            for (; some >= kTogether; some -= kTogether, order += kTogether)
+                through(std::integral_constant<std::size_t, kTogether>(), order, s, p);
+            for (; some > 0; --some, ++order)
+                through(std::integral_constant<std::size_t, 1>(), order, s, p);
             if (kS) check_size(s);
             if (kP) check_size(p);
         }
@@ -110,23 +126,23 @@ struct LayersRun : MediaRun {
         p_out = p;
     }
 
-    /// One layer after the other, in registers; `through(layer, s, p)` takes the fields through
-    /// one.
+    /// `through(layer, s, p)` takes the fields through one layer.
     template <bool kS, bool kP, class Through>
-    HWY_INLINE void layer_by_layer(const Program::Step& step, Fields& s_out, Fields& p_out,
+    HWY_INLINE void layer_by_layer(const Program::Step& step, Fields& s, Fields& p,
                                    const Through& through) const {
-        Fields s = s_out, p = p_out;
-        const std::uint32_t* order = program_.order.data() + step.first;
-        for (std::uint32_t left = step.count; left > 0;) {
-            const std::uint32_t some = std::min(left, kLayersBetweenChecks);
-            for (std::uint32_t i = 0; i < some; ++i) through(order[i], s, p);
-            order += some;
-            left -= some;
-            if (kS) check_size(s);
-            if (kP) check_size(p);
-        }
-        s_out = s;
-        p_out = p;
+        in_batches<kS, kP, 1>(step, s, p,
+                              [&](auto, const std::uint32_t* order, Fields& to_s, Fields& to_p)
+                                  HWY_ATTR { through(*order, to_s, to_p); });
+    }
+
+    /// Layers that all travel.
+    template <bool kS, bool kP>
+    HWY_NOINLINE void travelling_step(const Program::Step& step, V k0, Fields& s_out,
+                                      Fields& p_out) const {
+        in_batches<kS, kP, kSideBySide>(
+            step, s_out, p_out,
+            [this, k0](auto count, const std::uint32_t* order, Fields& s, Fields& p)
+                HWY_ATTR { travelling_layers<kS, kP, count()>(order, k0, s, p); });
     }
 
     /// Travelling layers with matrices from share_layers().
@@ -190,24 +206,29 @@ struct LayersRun : MediaRun {
         return MulAdd(a, Div(b2, Add(constant(1), b2)), before);
     }
 
-    template <bool kS, bool kP, bool kFlux>
-    HWY_NOINLINE void absorbing_step(const Program::Step& step, V k0, Fields& s_out, Fields& p_out,
-                                     V& dying_out) const {
-        V dying = dying_out;
-        const auto through = [&, k0](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
-            const double* medium = record(layer);
-            const V k0_d = vacuum_phase(layer, k0);
-            const AbsorbingTurn t = absorbing_turn(layer, k0_d);
+    /// `count` layers that absorb.
+    template <bool kS, bool kP, bool kFlux, std::size_t count>
+    HWY_INLINE void absorbing_layers(const std::uint32_t* order, V k0, Fields& s, Fields& p,
+                                     V& dying) const {
+        V all_k0_d[count];
+        AbsorbingTurn turns[count];
+        _Pragma("GCC unroll 4") for (std::size_t k = 0; k < count; ++k) all_k0_d[k] =
+            vacuum_phase(order[k], k0);
+        absorbing_turns<count>(order, all_k0_d, turns);
+        _Pragma("GCC unroll 4") for (std::size_t k = 0; k < count; ++k) {
+            const double* medium = record(order[k]);
+            const V k0_d = all_k0_d[k];
+            const AbsorbingTurn& t = turns[k];
             if constexpr (kFlux) {
                 const V e = exp(Mul(constant(-2), t.phase.im));
                 const DepthIntegrals integrals =
                     depth_integrals(medium, t.phase, t.turn, t.less, e, k0_d);
                 if (kS)
-                    s.absorbed =
-                        MulAdd(s.absorbed, e, absorbed_in_layer<false>(s, medium, integrals));
+                    s.absorbed = MulAdd(s.absorbed, e,
+                                        absorbed_in(s, absorbed_form<false>(medium, integrals)));
                 if (kP)
-                    p.absorbed =
-                        MulAdd(p.absorbed, e, absorbed_in_layer<true>(p, medium, integrals));
+                    p.absorbed = MulAdd(p.absorbed, e,
+                                        absorbed_in(p, absorbed_form<true>(medium, integrals)));
             }
             if (kS) {
                 through_absorbing(s, t.cos, mul(slots(medium, kSwRe), t.sin),
@@ -220,8 +241,17 @@ struct LayersRun : MediaRun {
                 grow(p, t.phase.im);
             }
             if (wants_denominators_) dying = dying_turn(t.phase.re, t.phase.im, dying);
-        };
-        layer_by_layer<kS, kP>(step, s_out, p_out, through);
+        }
+    }
+
+    template <bool kS, bool kP, bool kFlux>
+    HWY_NOINLINE void absorbing_step(const Program::Step& step, V k0, Fields& s_out, Fields& p_out,
+                                     V& dying_out) const {
+        V dying = dying_out;
+        in_batches<kS, kP, kFlux ? 1 : kAbsorbingSideBySide>(
+            step, s_out, p_out,
+            [&, k0](auto count, const std::uint32_t* order, Fields& s, Fields& p)
+                HWY_ATTR { absorbing_layers<kS, kP, kFlux, count()>(order, k0, s, p, dying); });
         dying_out = dying;
     }
 

@@ -56,8 +56,21 @@ struct MediaRun {
     bool prepare_varying(std::size_t point) {
         for (const std::size_t m : varying_) prepare(m, point);
         const bool changed = point == 0 || !varying_.empty();
-        if (changed) any_evanescent_ = std::ranges::find(evanescent_, 1) != evanescent_.end();
-        return changed;
+        if (!changed) return false;
+        any_evanescent_ = std::ranges::find(evanescent_, 1) != evanescent_.end();
+        loss_ = largest_loss();
+        return true;
+    }
+
+    /// 0 where no layer absorbs or amplifies at these points, though materials do so elsewhere.
+    HWY_INLINE V largest_loss() const {
+        V largest = constant(0);
+        for (std::size_t m = 0; m + 1 < program_.media.size(); ++m) {
+            if (!program_.media[m].absorbs) continue;
+            const double* record = records_ + m * kRecord;
+            largest = Max(largest, Max(Abs(slot(record, kLoss)), Abs(slot(record, kLossW))));
+        }
+        return largest;
     }
 
     bool is_constant(std::size_t m) const {
@@ -196,6 +209,7 @@ struct MediaRun {
     std::vector<std::size_t>& varying_;  ///< media that differ from point to point
     const bool normal_ = !run_.cos_theta.varies && *run_.cos_theta.values == 1;
     bool any_evanescent_ = false;
+    V loss_;  ///< see largest_loss()
     bool needs_flux_ = false;
     bool wants_denominators_ = (s_ && s_->log_scale) || (p_ && p_->log_scale);
 };

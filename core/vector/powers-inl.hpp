@@ -18,6 +18,16 @@ namespace {
 struct PowersRun : ChainRun {
     using ChainRun::ChainRun;
 
+    static HWY_INLINE std::uint32_t bits_of(Mask lanes) {
+        if (HWY_LIKELY(hn::AllFalse(Lanes(), lanes))) return 0;
+        HWY_ALIGN double flags[kMostLanes];
+        Store(IfThenElse(lanes, constant(1), constant(0)), Lanes(), flags);
+        std::uint32_t bits = 0;
+        for (std::size_t lane = 0; lane < hn::Lanes(Lanes()); ++lane)
+            if (flags[lane] != 0) bits |= 1U << lane;
+        return bits;
+    }
+
     HWY_INLINE void remember(std::uint32_t redo, std::size_t point, std::size_t lanes) {
         for (std::size_t lane = 0; HWY_UNLIKELY(redo != 0) && lane < lanes; ++lane)
             if (redo >> lane & 1) redo_.push_back(point + lane);
@@ -64,6 +74,7 @@ struct PowersRun : ChainRun {
         V R, T, A, log_scale;
         V unit, mixed;  ///< Incident's, for this sum
         Mask balances;  ///< R + T + A is 1 and none of them is negative
+        Mask lossy;     ///< some layer absorbs or amplifies
     };
 
     /// Powers from the fields at the top; returns the lanes whose absorption needs the depth
@@ -77,9 +88,17 @@ struct PowersRun : ChainRun {
         const Cx difference{Sub(first.re, second.re), Sub(first.im, second.im)};
         e.log_scale = f.log_scale;
         powers(e, difference, in, out_b, out_flux, out);
-        if (!out.A || !program_.absorbs) return no_lanes();
-        e.A = Sub(Sub(constant(1), e.R), e.T);
-        return hn::Le(Abs(e.A), constant(kSubtractable));
+        e.lossy = no_lanes();
+        if (!out.A || !program_.absorbs) return e.lossy;
+        e.lossy = hn::Gt(loss_, constant(0));
+        e.A = IfThenElse(e.lossy, Sub(Sub(constant(1), e.R), e.T), e.mixed);
+        const Mask lossless = hn::AndNot(e.lossy, e.balances);
+        if (HWY_UNLIKELY(!hn::AllFalse(Lanes(), lossless))) {
+            const V sum = Add(e.R, e.T);
+            e.R = IfThenElse(lossless, Div(e.R, sum), e.R);
+            e.T = IfThenElse(lossless, Div(e.T, sum), e.T);
+        }
+        return And(e.lossy, hn::Le(Abs(e.A), constant(kSubtractable)));
     }
 
     /// R and T from the fields of the reflected and of the incident wave, and A where no layer
@@ -120,7 +139,7 @@ struct PowersRun : ChainRun {
     /// A from the absorbed flux, where 1 - R - T would lose precision; rounding errors of the
     /// common denominator show up in the sum of the three.
     static HWY_INLINE void from_flux(Ends& e, const Fields& f) {
-        const Mask small = hn::Le(Abs(e.A), constant(kSubtractable));
+        const Mask small = And(e.lossy, hn::Le(Abs(e.A), constant(kSubtractable)));
         e.A = IfThenElse(small, MulAdd(e.unit, f.absorbed, e.mixed), e.A);
         const Mask balances = And(And(small, e.balances), hn::Ge(e.A, constant(0)));
         const V sum = Add(Add(e.R, e.T), e.A);
@@ -167,14 +186,7 @@ struct PowersRun : ChainRun {
         const V total = Add(Add(e.R, e.T), e.A);
         const Mask finite = hn::Le(Abs(total), constant(1e300));
         const Mask weak = hn::Le(Max(e.R, e.T), constant(kAmplified));
-        const Mask redo = Or(bad, hn::Not(And(finite, weak)));
-        if (HWY_LIKELY(hn::AllFalse(Lanes(), redo))) return 0;
-        HWY_ALIGN double flags[kMostLanes];
-        Store(IfThenElse(redo, constant(1), constant(0)), Lanes(), flags);
-        std::uint32_t bits = 0;
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-            if (flags[lane] != 0) bits |= 1U << lane;
-        return bits;
+        return bits_of(Or(bad, hn::Not(And(finite, weak))));
     }
 };
 

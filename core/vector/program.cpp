@@ -46,11 +46,22 @@ public:
         program_.mirror.reset();
     }
 
+    void add(const Layer& layer) { add(layer.material, layer.thickness_nm); }
+
+    /// Call after the layers.
+    void add_substrate(std::size_t material) {
+        program_.media.push_back({material, material != Program::kIncident && absorbs_[material]});
+        std::size_t single = 0;
+        for (const Program::Step& step : program_.steps)
+            if (step.kind <= Program::Kind::absorbing) single += step.count;
+        program_.shares_layers = single >= 2 * program_.layers.size();
+    }
+
     /// False if the elements are better left to the plain kernel.
     bool add(std::span<const Element> elements) {
         for (std::size_t i = elements.size(); i-- > 0;) {
             if (const Layer* layer = std::get_if<Layer>(&elements[i].value)) {
-                add(layer->material, layer->thickness_nm);
+                add(*layer);
             } else if (!add(std::get<Group>(elements[i].value))) {
                 return false;
             }
@@ -284,12 +295,23 @@ bool compile(std::span<const Element> elements, std::size_t substrate,
         end = run.first;
     }
     if (!compiler.add(elements.first(end))) return false;
-    program.media.push_back({substrate, substrate != Program::kIncident && absorbs[substrate]});
-    std::size_t single = 0;
-    for (const Program::Step& step : program.steps)
-        if (step.kind <= Program::Kind::absorbing) single += step.count;
-    program.shares_layers = single >= 2 * program.layers.size();
+    compiler.add_substrate(substrate);
     return true;
+}
+
+void compile_layers(std::span<const Layer> layers, std::span<const std::size_t> listed,
+                    std::size_t substrate, const std::vector<bool>& absorbs,
+                    LayerProgram& program) {
+    Compiler compiler(program.program, absorbs, true);
+    program.owners.clear();
+    program.without.clear();
+    for (std::size_t i = layers.size(); i-- > 0;) {
+        const auto owner = static_cast<std::uint32_t>(listed.empty() ? i : listed[i]);
+        const bool is_there = layers[i].thickness_nm > 0;
+        (is_there ? program.owners : program.without).push_back(owner);
+        compiler.add(layers[i]);
+    }
+    compiler.add_substrate(substrate);
 }
 
 }  // namespace irido

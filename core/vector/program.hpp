@@ -51,6 +51,13 @@ struct Program {
     }
 };
 
+/// Coherent layers with groups written out, to find the absorption of each.
+struct LayerProgram {
+    Program program;
+    std::vector<std::uint32_t> owners;   ///< per entry of `order`: the listed layer it is part of
+    std::vector<std::uint32_t> without;  ///< listed layers of no thickness
+};
+
 /// Neighbouring elements shared by many stacks: evaluated once per point and stored as rows of
 /// numbers over the points. For s, then for p: the fields B and C (4 rows) or the matrix (4 rows if
 /// real, else 8), and the logarithm of a common factor; the last row is the phase of the damped
@@ -89,6 +96,15 @@ FixedRuns fixed_runs(std::span<const Element> elements, std::size_t substrate,
 bool compile(std::span<const Element> elements, std::size_t substrate,
              const std::vector<bool>& absorbs, bool needs_A, const FixedRuns& fixed,
              Program& program);
+
+/// Compiles layers for the absorption of each, reusing memory.
+///   layers     from the incident side, with groups written out
+///   listed     per layer, the listed one that it is part of; empty: itself
+///   substrate  index of its material
+///   absorbs    per material: whether its index has an imaginary part anywhere
+///   program    result
+void compile_layers(std::span<const Layer> layers, std::span<const std::size_t> listed,
+                    std::size_t substrate, const std::vector<bool>& absorbs, LayerProgram& program);
 
 /// The mirror, if its closed form is faster than its program. `absorbs` tells per material whether
 /// its index has an imaginary part anywhere.

@@ -107,9 +107,15 @@ json media_of(const Stack& stack, const std::vector<double>& wavelength_nm) {
     for (std::size_t m = 0; m < stack.materials.size(); ++m) {
         const bool constant = indices.is_constant(m);
         json medium{{"name", stack.materials[m].name}, {"constant", constant}};
-        const auto n = indices.n(m), k = indices.k(m);
-        medium["n"] = constant ? json(n[0]) : json(std::vector<double>(n.begin(), n.end()));
-        medium["k"] = constant ? json(k[0]) : json(std::vector<double>(k.begin(), k.end()));
+        if (constant) {
+            medium["n"] = indices.n(m, 0);
+            medium["k"] = indices.k(m, 0);
+        } else {
+            for (std::size_t w = 0; w < wavelength_nm.size(); ++w) {
+                medium["n"].push_back(indices.n(m, w));
+                medium["k"].push_back(indices.k(m, w));
+            }
+        }
         media.push_back(std::move(medium));
     }
     return media;

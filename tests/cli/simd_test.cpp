@@ -97,7 +97,7 @@ TEST_CASE("stats say what was skipped and do not touch the answer", "[cli][simd]
     CHECK_THAT(metal, Contains("skipped: matrices of 2 of 4 layers"));
     CHECK_THAT(metal, !Contains("skipped: absorption"));
     CHECK_THAT(stats("\"1 | Ag@10 | 1.5\" -a 30 --columns A_layers"),
-               Contains("1 layers, A_layers one at a time"));
+               Contains("points (wavelength, angle), vectorized"));
     CHECK_THAT(stats("\"1 | (Ag@1 | 1.5@100)^300 | 1.5\" -a 30"),
                Contains("skipped: repetitions of 1 group"));
     CHECK_THAT(stats("\"1 | ((1.3@5 | 2@6)^90 | Ag@1)^3 | 1.5\" -a 30"),

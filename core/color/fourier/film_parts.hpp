@@ -33,7 +33,7 @@ inline std::array<double, 2> weights(Light light, double cos_theta) {
 
 /// Film with its three indices at one wavelength; the thickness is left to be filled in.
 inline Film film_at(const IndexTable& table, const Stack& stack, std::size_t wavelength) {
-    return {table.n(stack.incident)[wavelength], table.n(only_film(stack).material)[wavelength],
+    return {table.n(stack.incident, wavelength), table.n(only_film(stack).material, wavelength),
             table.index(stack.substrate, wavelength), 0};
 }
 

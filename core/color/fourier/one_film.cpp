@@ -42,7 +42,7 @@ const Layer& film_of(const Stack& stack) {
 
 FilmIndex film_index(const Stack& stack, double wavelength_nm) {
     const IndexTable table(stack, {wavelength_nm});
-    return {table.n(stack.incident)[0], table.index(film_of(stack).material, 0),
+    return {table.n(stack.incident, 0), table.index(film_of(stack).material, 0),
             table.index(stack.substrate, 0)};
 }
 

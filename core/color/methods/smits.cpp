@@ -64,9 +64,9 @@ private:
     double reflectance(const IndexTable& table, std::size_t w, double cos_theta,
                        double thickness_nm) const {
         const auto at = [&](std::size_t material) {
-            return medium(table.index(material, w), table.n(held_.incident)[w], cos_theta);
+            return medium(table.index(material, w), table.n(held_.incident, w), cos_theta);
         };
-        const double n0 = table.n(held_.incident)[w];
+        const double n0 = table.n(held_.incident, w);
         const Medium above = medium(n0, n0, cos_theta), film = at(film_of(held_).material),
                      below = at(held_.substrate);
         const Complex turn =

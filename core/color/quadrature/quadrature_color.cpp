@@ -295,7 +295,7 @@ private:
             if (!smooth_.is_tabulated(m)) continue;
             for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
                 const Medium here =
-                    medium(on_path_.index(m, w), on_path_.n(on_path_.incident())[w], incidence);
+                    medium(on_path_.index(m, w), on_path_.n(on_path_.incident(), w), incidence);
                 effects[m] = std::max(
                     effects[m], std::sqrt(std::abs(here.eps)) /
                                     std::max(std::abs(here.q2), kLeastNormal * std::abs(here.eps)));

@@ -53,7 +53,7 @@ double path_of(std::span<const Element> elements, const IndexTable& indices) {
     double path = 0;
     for (const Element& element : elements) {
         if (const Layer* layer = std::get_if<Layer>(&element.value))
-            path += 2 * layer->thickness_nm * indices.n(layer->material)[0];
+            path += 2 * layer->thickness_nm * indices.n(layer->material, 0);
         else
             path += static_cast<double>(std::get<Group>(element.value).repeat) *
                     path_of(std::get<Group>(element.value).elements, indices);

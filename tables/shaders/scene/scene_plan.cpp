@@ -458,8 +458,8 @@ private:
         const auto& first = std::get<Layer>(group.elements[0].value);
         const auto& second = std::get<Layer>(group.elements[1].value);
         const IndexTable table(stack, {kMiddle_nm});
-        plan.constants = {{"n1", table.n(first.material)[0]},  {"d1_nm", first.thickness_nm},
-                          {"n2", table.n(second.material)[0]}, {"d2_nm", second.thickness_nm},
+        plan.constants = {{"n1", table.n(first.material, 0)},  {"d1_nm", first.thickness_nm},
+                          {"n2", table.n(second.material, 0)}, {"d2_nm", second.thickness_nm},
                           {"periods", group.repeat},           {"at_nm", kMiddle_nm}};
         plan.snippets = {"bragg", "cumulative"};
         omit(material, "color", "closed form in the shader: snippet bragg");
@@ -591,7 +591,7 @@ LutRequest color_request_of(const schemas::Scene& scene, const schemas::SceneMat
 Film shader_film(const Stack& stack) {
     const Layer layer = only_film(stack);
     const IndexTable table(stack, {kMiddle_nm});
-    return {table.n(stack.incident)[0], table.n(layer.material)[0], table.index(stack.substrate, 0),
+    return {table.n(stack.incident, 0), table.n(layer.material, 0), table.index(stack.substrate, 0),
             layer.thickness_nm};
 }
 

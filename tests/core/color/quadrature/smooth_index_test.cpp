@@ -68,7 +68,7 @@ TEST_CASE("fitted indices lose no more of the colour than they say") {
                     (wavelengths[w] - panel.first_nm) / (panel.last_nm - panel.first_nm);
                 for (std::size_t c = 0; c < 3; ++c)
                     lost[c] += s[c] * std::cos(turns * 3.14159 * x + run) *
-                               (exact.n(film)[w] - smooth.n(film)[w]) / kCount *
+                               (exact.n(film, w) - smooth.n(film, w)) / kCount *
                                (panel.last_nm - panel.first_nm);
             }
             const IndexFit::Error error = fit->errors(1, 0).front();
