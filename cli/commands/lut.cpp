@@ -13,10 +13,8 @@
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/files/atomic_file.hpp"
-#include "tables/lut/lut_figure.hpp"
 #include "tables/lut/lut_file.hpp"
 #include "tables/lut/lut_kind.hpp"
-#include "tables/lut/lut_maker.hpp"
 #include "tables/shaders/shader.hpp"
 
 namespace irido::cli {
@@ -26,17 +24,12 @@ namespace {
 constexpr std::size_t kMostVaried = 2;
 
 /// Options of one kind of table, as given on the command line.
-struct LutCommand {
+struct LutCommand : TableOutput {
     schemas::StackRequest stack;
     ColorOptions color;
     std::vector<std::string> vary;
     std::map<std::string, std::string, std::less<>> options;  ///< those of the kind
     std::map<std::string, bool, std::less<>> flags;
-    OutputOptions output;
-    PictureOptions picture;
-    TableOptions table;
-    unsigned threads = 0;
-    bool quiet = false;
 };
 
 void parse_option(const tables::LutOption& option, const std::string& text,
@@ -147,45 +140,19 @@ tables::LutPlan plan_of(const tables::LutKind& kind, const tables::LutRequest& r
     }
 }
 
-void draw_lut(const LutCommand& command, const tables::LutKind& kind,
-              const tables::LutRequest& request, const tables::PictureFormat& picture,
-              const tables::Lut& lut) {
+int run_lut(const tables::LutKind& kind, const LutCommand& command) {
+    const OutputOptions& output = command.output;
+    if (!asked_picture(output, command.picture)) resolved_lut_format(output);
+    const tables::LutRequest request = parse(kind, command);
+    check_writable(output);
+    const bool slow = is_slow(kind, request);
+    if (slow) note(kSlowNote, command.quiet);
     const std::string_view summary = kind.summary.substr(0, kind.summary.find_last_not_of('.') + 1);
     std::vector<std::string> varied;
     for (const tables::VariedValue& vary : request.vary) varied.push_back(vary.path);
     const std::string title =
         kind.stack ? title_of(request.document, command.stack, varied) : std::string(summary);
-    const auto figure = [&] {
-        tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(command.picture));
-        for (const std::string& text : drawn.notes) note(text, command.quiet);
-        return drawn;
-    };
-    write_picture(figure, command.picture, picture, command.output);
-}
-
-int run_lut(const tables::LutKind& kind, const LutCommand& command) {
-    const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
-    const tables::LutFormat* const format =
-        picture ? nullptr : &resolved_lut_format(command.output);
-    const tables::LutRequest request = parse(kind, command);
-    check_writable(command.output);
-    const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    if (is_slow(kind, request)) say(kSlowNote);
-    tables::LutPlan plan = plan_of(kind, request);
-    tables::LutMaking making = making_of(command.table, format, kind.text_type, plan.axes.size());
-    making.measure = !command.output.file.empty();
-    making.threads = command.threads;
-    if (!is_slow(kind, request))
-        note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
-    const std::optional<tables::Lut> lut =
-        lut_with_progress(kind, std::move(plan), std::move(making), command.quiet);
-    if (!lut) return kCheckFailed;
-    if (picture) {
-        draw_lut(command, kind, request, *picture, *lut);
-        return 0;
-    }
-    write_table(*lut, *format, command.table.layout, command.output, command.quiet);
-    return 0;
+    return make_table(kind, plan_of(kind, request), command, title, !slow);
 }
 
 void add_kind_options(CLI::App& command, const tables::LutKind& kind, LutCommand& typed) {

@@ -4,8 +4,6 @@
 #include <memory>
 
 #include "cli/commands/lut_brdf.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/options/long_work.hpp"
 #include "cli/options/picture_options.hpp"
 #include "cli/options/surface_options.hpp"
 #include "cli/options/table_options.hpp"
@@ -18,7 +16,6 @@
 #include "core/rough/walk/rest_table.hpp"
 #include "core/rough/walk/tabulated_scattering.hpp"
 #include "schemas/input_error.hpp"
-#include "tables/lut/lut_figure.hpp"
 #include "tables/lut/measured/half_angle_table.hpp"
 #include "tables/lut/measured/measured_bsdf.hpp"
 #include "tables/lut/measured/merl.hpp"
@@ -36,15 +33,10 @@ constexpr double kRestTolerance = 1e-2;
 
 constexpr const char* kBsdfWavelengths = "360:830:10";
 
-struct LutBrdfCommand {
+struct LutBrdfCommand : TableOutput {
     SurfaceOptions surface;
     SurfaceQuery query;
     std::string wavelengths, phi_d, theta_h, theta_d, exposure;
-    TableOptions table;
-    PictureOptions picture;
-    OutputOptions output;
-    unsigned threads = 0;
-    bool quiet = false;
 };
 
 std::vector<std::string_view> brdf_format_names() {
@@ -230,35 +222,14 @@ double exposure_of(const LutBrdfCommand& command) {
 
 int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
                       const std::string& title) {
-    const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
-    const tables::LutFormat* const format =
-        picture ? nullptr : &resolved_lut_format(command.output);
-    if (picture && plan.axes[0].axis.count() > 1)
+    if (asked_picture(command.output, command.picture) && plan.axes[0].axis.count() > 1)
         throw UsageError("--phi-d: a picture shows one value (got " +
                          std::to_string(plan.axes[0].axis.count()) + ")");
-    tables::LutMaking making = making_of(command.table, format, "f32", plan.axes.size());
-    making.measure = !command.output.file.empty();
-    making.threads = command.threads;
-    const auto say = [&](const std::string& text) { note(text, command.quiet); };
-    note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
     static const tables::LutKind kind{
         .name = "brdf", .summary = kLutBrdfSummary, .axes = kLutBrdfAxes};
-    const std::optional<tables::Lut> lut =
-        lut_with_progress(kind, std::move(plan), std::move(making), command.quiet);
-    if (!lut) return kCheckFailed;
-    if (!picture) {
-        write_table(*lut, *format, command.table.layout, command.output, command.quiet);
-        return 0;
-    }
-    const auto figure = [&] {
-        // pi times the BRDF, as of brdf --color: a white diffuser is white
-        tables::Figure drawn = tables::lut_figure(*lut, title, parse_gamut(command.picture),
-                                                  kPi * std::exp2(exposure_of(command)));
-        for (const std::string& text : drawn.notes) say(text);
-        return drawn;
-    };
-    write_picture(figure, command.picture, *picture, command.output);
-    return 0;
+    // pi times the BRDF, as of brdf --color: a white diffuser is white
+    return make_table(kind, std::move(plan), command, title, true,
+                      kPi * std::exp2(exposure_of(command)));
 }
 
 int run_lut_brdf(const LutBrdfCommand& command) {

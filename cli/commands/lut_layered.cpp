@@ -120,6 +120,15 @@ nlohmann::json facts_of(const FoundNodes& found, const LayeredScattering& scatte
     return facts;
 }
 
+/// Against errors of a table for which no tolerance was typed.
+std::string remedy_of(const LutLayeredCommand& command) {
+    std::string limits = command.size.empty() ? "" : "--size " + command.size;
+    if (!command.nodes.empty())
+        limits += (limits.empty() ? "" : " and ") + ("--nodes " + command.nodes);
+    if (limits.empty()) return "no number of nodes and angles reaches it for this surface";
+    return "leave out " + limits + ", or give more";
+}
+
 int run_lut_layered(const LutLayeredCommand& command) {
     const tables::LutFormat& format = resolved_lut_format(command.output, false);
     const tables::LutType type = parse_type(command.type);
@@ -159,6 +168,9 @@ int run_lut_layered(const LutLayeredCommand& command) {
         query.note("CIEDE2000 with " + std::to_string(found.table.wavelength_nm.size()) +
                    " nodes: up to " + error +
                    "; of colours multiplied: " + to_text(hundredths(found.products)));
+        if (!(found.error <= request.tolerance))
+            query.note("this is more than the usual " + to_text(request.tolerance) + ": " +
+                       remedy_of(command));
         write_table(lut, format, {}, command.output, command.quiet);
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());

@@ -499,13 +499,13 @@ void add_plan_command(CLI::App& program, Run& run) {
         ->type_name("MATERIAL");
     set_examples(
         *command, {"irido plan vehicle.json", "irido plan vehicle.json --explain rim"},
-        "size: samples along the axes; bytes: size of the table's numbers; cost: number of\n"
-        "evaluations of the table's function; state: new, kept (with -o; new ones show the\n"
-        "reason), or numbers (stored in the manifest). losses: where shading differs from\n"
-        "the scene's description, with the largest Delta E 2000 found; mip levels are\n"
-        "estimated where a single thickness would be worst. Omissions that the scene itself\n"
-        "requests appear with --explain only. The estimated time is printed on standard\n"
-        "error.");
+        "size: samples along the axes; bytes: size of the table's numbers, of a grid with its\n"
+        "companion; cost: number of evaluations of the table's function; state: new, kept\n"
+        "(with -o; new ones show the reason), or numbers (stored in the manifest). losses:\n"
+        "where shading differs from the scene's description, with the largest Delta E 2000\n"
+        "found; mip levels are estimated where a single thickness would be worst. Omissions\n"
+        "that the scene itself requests appear with --explain only. The estimated time is\n"
+        "printed on standard error.");
     command->callback([typed, &run] { run = [typed] { return run_plan(*typed); }; });
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
-#include "cli/options/picture_options.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/options/long_work.hpp"
 #include "cli/progress.hpp"
 #include "core/error.hpp"
+#include "tables/lut/lut_figure.hpp"
 #include "tables/lut/lut_file.hpp"
 
 namespace irido::cli {
@@ -109,25 +111,6 @@ tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat
     return making;
 }
 
-std::optional<tables::Lut> lut_with_progress(const tables::LutKind& kind, tables::LutPlan plan,
-                                             tables::LutMaking making, bool quiet) {
-    Progress progress(quiet);
-    making.progress = [&progress](double done, const std::string& what) {
-        progress.set(done, what);
-    };
-    tables::Lut lut;
-    try {
-        lut = tables::make_lut(kind, std::move(plan), making);
-    } catch (const ToleranceError& error) {
-        progress.clear();
-        print_error(error.what());
-        return std::nullopt;
-    }
-    progress.clear();
-    for (const auto& text : lut.facts["notes"]) note(text.get<std::string>(), quiet);
-    return lut;
-}
-
 void write_table(const tables::Lut& lut, const tables::LutFormat& format,
                  const tables::LutLayout& layout, const OutputOptions& output, bool quiet) {
     if (output.file.empty()) {
@@ -143,6 +126,43 @@ void write_table(const tables::Lut& lut, const tables::LutFormat& format,
             if (!axis.is_linear() && axis.half_at == 0 && !(lut.mips && &axis == &lut.axes.front()))
                 note(axis.name + ": samples are not equally spaced: fetch texels, do not filter",
                      quiet);
+}
+
+int make_table(const tables::LutKind& kind, tables::LutPlan plan, const TableOutput& typed,
+               const std::string& title, bool is_announced, double gain) {
+    const tables::PictureFormat* const picture = asked_picture(typed.output, typed.picture);
+    const tables::LutFormat* const format = picture ? nullptr : &resolved_lut_format(typed.output);
+    tables::LutMaking making = making_of(typed.table, format, kind.text_type, plan.axes.size());
+    making.measure = !typed.output.file.empty();
+    making.threads = typed.threads;
+    const auto say = [&](const std::string& text) { note(text, typed.quiet); };
+    if (is_announced)
+        note_long_work(least_seconds(plan, making), making.sizing.tolerance.has_value(), say);
+    Progress progress(typed.quiet);
+    making.progress = [&progress](double done, const std::string& what) {
+        progress.set(done, what);
+    };
+    tables::Lut lut;
+    try {
+        lut = tables::make_lut(kind, std::move(plan), making);
+    } catch (const ToleranceError& error) {
+        progress.clear();
+        print_error(error.what());
+        return kCheckFailed;
+    }
+    progress.clear();
+    for (const auto& text : lut.facts["notes"]) say(text.get<std::string>());
+    if (!picture) {
+        write_table(lut, *format, typed.table.layout, typed.output, typed.quiet);
+        return 0;
+    }
+    const auto figure = [&] {
+        tables::Figure drawn = tables::lut_figure(lut, title, parse_gamut(typed.picture), gain);
+        for (const std::string& text : drawn.notes) say(text);
+        return drawn;
+    };
+    write_picture(figure, typed.picture, *picture, typed.output);
+    return 0;
 }
 
 }  // namespace irido::cli

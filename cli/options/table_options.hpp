@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/options/command.hpp"
+#include "cli/options/picture_options.hpp"
 #include "tables/lut/lut_format.hpp"
 #include "tables/lut/lut_maker.hpp"
 
@@ -11,6 +12,15 @@ struct TableOptions {
     std::string type, size, tolerance;
     bool any_size = false;
     tables::LutLayout layout;
+};
+
+/// Everything typed about a table and where it goes.
+struct TableOutput {
+    TableOptions table;
+    PictureOptions picture;
+    OutputOptions output;
+    unsigned threads = 0;
+    bool quiet = false;
 };
 
 /// --dtype; `usual` is what it is if not typed, as the help has it.
@@ -35,13 +45,19 @@ tables::LutType parse_type(std::string_view text);
 tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat* format,
                             std::string_view text_type, std::size_t axes);
 
-/// Makes a table while showing progress, and prints its notes; nothing, after an error message, if
-/// the tolerance cannot be met.
-std::optional<tables::Lut> lut_with_progress(const tables::LutKind& kind, tables::LutPlan plan,
-                                             tables::LutMaking making, bool quiet);
-
 /// Writes a table to its files, or as CSV to standard output; notes what readers should know.
 void write_table(const tables::Lut& lut, const tables::LutFormat& format,
                  const tables::LutLayout& layout, const OutputOptions& output, bool quiet);
+
+/// Makes a table, with progress and notes, and writes it or draws its picture. Returns the exit
+/// status: kCheckFailed, with a message, if no size meets the tolerance. Throws UsageError.
+///   kind          of the table
+///   plan          the function that the table samples
+///   typed         size, format and place of the output
+///   title         of the picture
+///   is_announced  whether the time that it takes is foreseen and noted
+///   gain          multiplies the colours of a picture
+int make_table(const tables::LutKind& kind, tables::LutPlan plan, const TableOutput& typed,
+               const std::string& title, bool is_announced, double gain = 1);
 
 }  // namespace irido::cli

@@ -19,7 +19,7 @@ constexpr std::size_t kFineSamples = 9;            ///< along each side of these
 
 /// Of a grid that is larger, so many samples are looked at: half of the columns along its longest
 /// axis where curvature promises the largest errors, half evenly spaced.
-constexpr std::size_t kManySamples = 8192, kFewestColumns = 16;
+constexpr std::size_t kManySamples = 2048, kFewestColumns = 16;
 
 std::vector<double> middles(const LutAxis& axis) {
     const std::vector<double>& x = axis.values;
@@ -285,6 +285,10 @@ InterpolationError Comparison::error() const {
     worst.resize(std::min(worst.size(), kWorstCells));
     for (const Difference& one : worst) keep(result, largest(cell_of(one.at), 1).front());
     return result;
+}
+
+double Comparison::evaluations(double samples, std::size_t ranges) {
+    return std::min(samples, static_cast<double>(kManySamples)) * static_cast<double>(ranges + 1);
 }
 
 std::vector<LutAxis> Comparison::all_middles() const {

@@ -75,6 +75,11 @@ public:
     /// As InterpolationError says.
     InterpolationError error() const;
 
+    /// Number of evaluations of error(), about.
+    ///   samples  of the grid
+    ///   ranges   axes that are interpolated
+    static double evaluations(double samples, std::size_t ranges);
+
     /// About as much, by the curvature of the stored values alone.
     double foreseen() const;
 

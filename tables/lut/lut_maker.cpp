@@ -62,6 +62,30 @@ LutPlan roughly(const LutPlan& plan, double error) {
     return rough;
 }
 
+/// Seconds of one sample, without what a function computes once, for the first of two calls.
+double seconds_of_sample(const LutPlan::Evaluate& evaluate, const std::vector<LutAxis>& grid) {
+    constexpr std::size_t few = 6;  // samples along an axis
+    std::vector<LutAxis> some = grid;
+    const auto choose = [&](std::size_t shift) {
+        for (std::size_t a = 0; a < grid.size(); ++a) {
+            const std::size_t count = grid[a].count();
+            if (count <= few) continue;
+            // what the samples of the last axis share counts little for many of them
+            const std::size_t by = a + 1 == grid.size() ? shift : 0;
+            some[a].values.clear();
+            for (std::size_t i = 0; i < few; ++i)
+                some[a].values.push_back(grid[a].values[(2 * i + by) * count / (2 * few)]);
+        }
+    };
+    choose(0);
+    evaluate(some);
+    choose(1);
+    const auto start = std::chrono::steady_clock::now();
+    evaluate(some);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    return taken.count() / static_cast<double>(size_of(some, 0, some.size()));
+}
+
 std::vector<InterpolationError> errors_of(Sampler& exact, const Lut& lut) {
     std::vector<InterpolationError> errors;
     exact.says("error", false);
@@ -121,8 +145,7 @@ double least_evaluations(const LutPlan& plan, const LutMaking& making) {
     }
     if (sizing.tolerance)  // each range is looked at, with few samples along the others
         return samples * static_cast<double>(ranges) * kLookedAt / kOnLines;
-    // the values; and to measure their error, between them along each range and along all
-    return samples * (making.measure ? 2 + static_cast<double>(ranges) : 1);
+    return samples + (making.measure ? Comparison::evaluations(samples, ranges) : 0);
 }
 
 Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making) {
@@ -160,24 +183,24 @@ std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized
     return errors;
 }
 
-double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads) {
-    constexpr std::size_t few = 8;  // samples along an axis
-    constexpr double evaluations =
-        4;  // of the values: between them along each of two axes and both
+double estimated_seconds(const LutPlan& plan, const Lut& sized, const LutMaking& making) {
+    const std::vector<std::vector<LutAxis>> grids = grids_of(sized);
+    LutPlan rough = plan;
+    if (grids.size() > 1) rough = roughly(plan, kOfError * making.sizing.tolerance.value_or(0));
     double seconds = 0;
-    for (std::vector<LutAxis> grid : grids_of(sized)) {
-        const auto all = static_cast<double>(size_of(grid, 0, grid.size()));
-        for (LutAxis& axis : grid)
-            if (axis.count() > few)
-                axis.values = equally_spaced(axis.values.front(), axis.values.back(), few);
-        const auto start = std::chrono::steady_clock::now();
-        plan.evaluate(grid);
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-        seconds += taken.count() * evaluations *
-                   std::max(1.0, all / static_cast<double>(size_of(grid, 0, grid.size())));
+    bool is_first = true;  // whose error the sizing knows
+    for (const std::vector<LutAxis>& grid : grids) {
+        const auto samples = static_cast<double>(size_of(grid, 0, grid.size()));
+        seconds += samples * seconds_of_sample(plan.evaluate, grid);
+        const auto ranges = static_cast<std::size_t>(
+            std::ranges::count_if(grid, [](const LutAxis& axis) { return axis.count() > 1; }));
+        if (!is_first)
+            seconds +=
+                Comparison::evaluations(samples, ranges) * seconds_of_sample(rough.evaluate, grid);
+        is_first = false;
     }
     const unsigned cores =
-        threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+        making.threads > 0 ? making.threads : std::max(1U, std::thread::hardware_concurrency());
     return seconds / cores;
 }
 

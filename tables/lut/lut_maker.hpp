@@ -31,7 +31,7 @@ struct LutMaking {
 
 /// The error of a table that is interpolated linearly along all axes that are ranges. Measured at
 /// the middles of the cells along each axis and along all axes, and on a finer grid in the eight
-/// worst cells: a sampled maximum, not a bound. Of more than 8192 middles, those along lines where
+/// worst cells: a sampled maximum, not a bound. Of more than 2048 middles, those along lines where
 /// the table's own curvature promises the largest errors, and along as many evenly spaced ones.
 /// Uses the values as stored.
 struct InterpolationError {
@@ -61,8 +61,8 @@ Lut sized_lut(const LutKind& kind, LutPlan plan, const LutMaking& making);
 /// cells that would be worst at a single thickness. Empty if there are no levels.
 std::vector<double> estimated_level_errors(const LutPlan& plan, const Lut& sized, unsigned threads);
 
-/// Estimated time of make_lut(), in seconds, for the values of a sized table and their error,
-/// extrapolated from a few samples of each level.
-double estimated_seconds(const LutPlan& plan, const Lut& sized, unsigned threads);
+/// Estimated seconds of make_lut() after it has found the sizes of a table: its values, and errors
+/// of mip levels, extrapolated from a few samples of each level.
+double estimated_seconds(const LutPlan& plan, const Lut& sized, const LutMaking& making);
 
 }  // namespace irido::tables

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/color/quadrature/panel_sums.hpp"
+#include "core/color/quadrature/resampling.hpp"
 #include "core/complex.hpp"
 #include "core/error.hpp"
 #include "core/math/transform.hpp"
@@ -18,31 +19,19 @@ namespace {
 /// Panels are not cut below this share of their wavelength.
 constexpr double kNarrowest = 1e-7;
 
-/// Degree, as an index, at which the coefficients of a fringe of this half turn are below the
-/// tolerance: those of cos(h x) are Bessel functions J_k(h) < (e h/2k)^k. Twice the turn, because
-/// light that bounces twice has fringes twice as fast.
-std::size_t first_degree(double half_turn, double tolerance) {
-    const double h = 2 * half_turn;
-    std::size_t degree = 0;
-    for (; degree + 1 < kDegrees.size(); ++degree) {
-        const auto k = static_cast<double>(kDegrees[degree]);
-        if (k * std::log(std::numbers::e * h / (2 * k)) < std::log(tolerance)) break;
-    }
-    return degree;
-}
-
 /// A denominator's zero within this many point spacings of a point is not resolved: poles further
 /// off make coefficients that fall steadily, and the tail sees them.
 constexpr double kFarFromZero = 1 / 1.5;
 
-/// Panels with more fringes are halved before they are sampled.
-constexpr double kLargestHalfTurn = 16;
-
 /// A panel is halved where twice the degree promises more than this times the error allowed.
 constexpr double kHopeful = 10;
 
-/// Part of the error allowed that may be lost to a panel's fitted indices, and that is planned for.
-constexpr double kMostLost = 0.6, kPlannedLost = 0.4;
+/// Part of the error allowed that may be lost to a panel's fitted indices, and to its interpolated
+/// denominators.
+constexpr double kMostLost = 0.6, kMostUnseen = 0.1;
+
+/// Degree, as an index, at which panels of known denominators begin: their points cost little.
+constexpr std::size_t kKnownDegree = 4;
 
 /// Where the points are dense for a denominator, differences of neighbours are its slope.
 constexpr double kDense = 3.2;
@@ -166,9 +155,15 @@ public:
                 integrals_[k].xyz[c] = reference_[k] * sensitivity_.white()[c];
         }
         const double share = 1 / static_cast<double>(start.panels.size());
-        for (const PanelTree::Start::Panel& panel : start.panels)
-            settle_or_refine({panel.node, panel.degree, panel.half_turn, share}, samples,
-                             panel.first);
+        for (const PanelTree::Start::Panel& panel : start.panels) {
+            Job job{panel.node, panel.sampled, panel.half_turn, share};
+            if (panel.sampled < panel.degree && knows_denominators(job, samples, panel.first)) {
+                job.degree = std::max(panel.degree, kKnownDegree);
+                follow(std::move(job));
+            } else {
+                settle_or_refine(std::move(job), samples, panel.first);
+            }
+        }
         while (!next_.empty()) {
             std::swap(memory_.now, next_);
             next_.clear();
@@ -183,6 +178,7 @@ public:
 
 private:
     using Job = IntegrationMemory::Job;
+    enum class Outcome { settled, twice_the_degree, halves };
 
     /// Memory that is used again.
     Samples room() {
@@ -228,7 +224,11 @@ private:
 
     /// The panel's samples begin at the point `first`.
     void settle_or_refine(Job job, const Samples& samples, std::size_t first) {
-        switch (settle(job, samples, first)) {
+        const Outcome outcome = settle(job, samples, first);
+        if (outcome == Outcome::settled && job.known) leave(std::move(*job.known));
+        if (outcome != Outcome::settled && knows_denominators(job, samples, first))
+            return refine_known(std::move(job), outcome, samples);
+        switch (outcome) {
             case Outcome::settled:
                 return;
             case Outcome::twice_the_degree: {
@@ -248,6 +248,118 @@ private:
                                      job.node->half_turn(half, job.half_turn), job.share / 2});
                 }
         }
+    }
+
+    /// Whether the denominators of a panel are known between its samples, which begin at the point
+    /// `first`, as well as the error allowed needs; keeps them in the job then.
+    bool knows_denominators(Job& job, const Samples& samples, std::size_t first) {
+        if (job.known) return true;
+        const Transmission* through = limits_.transmission;
+        if (!through || !through->holds) return false;
+        const QuadratureRule& rule = job.rule();
+        double unseen = 0;
+        for (std::size_t d = 0; d < denominators_; ++d) {
+            // T <= 1 has |D|^2 >= flux, so that |dT| = 2 flux |dD| / |D|^3 <= 2 |dD| / sqrt(flux)
+            const std::size_t row = integrals_.size() + 3 * d;
+            const double off = std::hypot(last_two(rule, samples.row(row) + first),
+                                          last_two(rule, samples.row(row + 1) + first));
+            unseen += 2 * off / std::sqrt(through->flux[d]) / static_cast<double>(denominators_);
+        }
+        const Triple allowed = budget(rule, job.share);
+        for (std::size_t c = 0; c < 3; ++c)
+            if (!(unseen * rule.light[c] * sensitivity_.white()[c] <= kMostUnseen * allowed[c]))
+                return false;
+        job.unseen = unseen;
+        job.known_degree = job.degree;
+        job.known = room();
+        job.known->resize(0, denominators_, rule.points);
+        for (std::size_t d = 0; d < denominators_; ++d)
+            for (std::size_t part = 0; part < 2; ++part)
+                std::copy_n(samples.row(integrals_.size() + 3 * d + part) + first, rule.points,
+                            job.known->row(3 * d + part));
+        return true;
+    }
+
+    /// The larger of the last two coefficients: those of a denominator fall faster and faster.
+    double last_two(const QuadratureRule& rule, const double* values) const {
+        std::array<double, 2> last{};
+        row_sums(rule.coefficients.data() + (rule.middle + rule.tail - 2) * rule.stride, 2,
+                 rule.stride, values, 0, last.data(), limits_.simd);
+        return std::max(std::abs(last[0]), std::abs(last[1]));
+    }
+
+    /// Settles or refines a panel of known denominators at the points of its degree.
+    void follow(Job job) {
+        Samples samples = room();
+        fill_known(job, resampling(job.known_degree, job.degree), kDegrees[job.degree] + 1,
+                   samples);
+        settle_or_refine(std::move(job), samples, 0);
+        leave(std::move(samples));
+    }
+
+    /// Samples that follow from a panel's denominators.
+    void fill_known(const Job& job, const Resampling& by, std::size_t points, Samples& samples) {
+        samples.resize(integrals_.size(), denominators_, points);
+        followed_ += points;
+        memory_.transmitted.resize(by.stride);
+        resample(by, *job.known, samples, integrals_.size(), memory_.transmitted.data());
+        const double mean = 1 / static_cast<double>(denominators_);
+        for (std::size_t k = 0; k < integrals_.size(); ++k) {
+            const bool reflects = limits_.transmission->sides[k] == Side::reflected;
+            double* const row = samples.row(k);
+            for (std::size_t j = 0; j < points; ++j) {
+                const double T = std::min(1.0, mean * memory_.transmitted[j]);
+                row[j] = reflects ? 1 - T : T;
+            }
+        }
+    }
+
+    /// Both parts of every denominator at other points.
+    ///   from         denominators only
+    ///   to           with `spectra` rows before the denominators
+    ///   transmitted  nullptr, or the sum of T of the denominators
+    void resample(const Resampling& by, const Samples& from, Samples& to, std::size_t spectra,
+                  double* transmitted) const {
+        std::array<const double*, 4> in{};
+        std::array<double*, 4> out{};
+        for (std::size_t d = 0; d < denominators_; ++d) {
+            for (std::size_t part = 0; part < 2; ++part) {
+                in[2 * d + part] = from.row(3 * d + part);
+                out[2 * d + part] = to.row(spectra + 3 * d + part);
+            }
+            std::fill_n(to.row(spectra + 3 * d + 2), to.points(), 0.0);
+        }
+        resampled_denominators(by.columns.data(), by.inputs, by.stride, denominators_, in.data(),
+                               out.data(), limits_.transmission->flux.data(), transmitted,
+                               limits_.simd);
+    }
+
+    ///   samples  of the panel, or of several if these were computed
+    void refine_known(Job job, Outcome outcome, const Samples& samples) {
+        if (outcome == Outcome::twice_the_degree) {
+            const std::size_t count = kDegrees[job.degree];
+            ++job.degree;
+            if (samples.points() != count + 1) return follow(std::move(job));
+            Samples added = room(), merged = room();
+            fill_known(job, resampling_to_added(job.known_degree, job.degree), count, added);
+            merge(samples, added, 0, count, merged);
+            leave(std::move(added));
+            settle_or_refine(std::move(job), merged, 0);
+            return leave(std::move(merged));
+        }
+        for (std::size_t half = 0; half < 2; ++half) {
+            PanelTree::Node& node = job.node->half(half);
+            Job part{&node, node.seeing(std::max<std::size_t>(job.degree, 1) - 1),
+                     job.node->half_turn(half, job.half_turn), job.share / 2};
+            part.known_degree = job.known_degree;
+            part.unseen = job.unseen;
+            part.known = room();
+            part.known->resize(0, denominators_, kDegrees[job.known_degree] + 1);
+            resample(resampling_of_half(job.known_degree, half), *job.known, *part.known, 0,
+                     nullptr);
+            follow(std::move(part));
+        }
+        leave(std::move(*job.known));
     }
 
     /// Every second point from each.
@@ -277,17 +389,18 @@ private:
         return result;
     }
 
-    enum class Outcome { settled, twice_the_degree, halves };
-
     /// Adds the panel's integrals if they meet its budget or it must end here.
     Outcome settle(const Job& job, const Samples& samples, std::size_t first) {
         const QuadratureRule& rule = job.rule();
         const Triple allowed = budget(rule, job.share);
         const bool last_degree = job.degree + 1 == kDegrees.size();
         const bool narrow = is_narrow(job.node->range());
-        const bool must_end = evaluations_ >= limits_.evaluations || (last_degree && narrow);
+        const bool must_end =
+            evaluations_ + followed_ >= limits_.evaluations || (last_degree && narrow);
         const Poles poles = poles_of(job, samples, first);
-        const Triple lost = lost_by_fit(job, poles);
+        Triple lost = lost_by_fit(job, poles);
+        for (std::size_t c = 0; c < 3; ++c)
+            lost[c] += job.unseen * rule.light[c] * sensitivity_.white()[c];
         if (!must_end && !is_below(lost, scaled(allowed, kMostLost))) return Outcome::halves;
         const std::size_t width = rule.sum_count();
         memory_.sums.resize(integrals_.size() * width);
@@ -432,6 +545,7 @@ private:
     std::vector<Job>& next_;          ///< panels that are not settled
     std::vector<Samples>& spare_;
     std::size_t evaluations_ = 0;
+    std::size_t followed_ = 0;  ///< points that followed from denominators
 };
 
 }  // namespace
@@ -444,145 +558,6 @@ void Samples::resize(std::size_t spectra, std::size_t denominators, std::size_t 
     for (std::size_t row = 0; row < rows_; ++row)
         std::fill_n(numbers_.begin() + static_cast<std::ptrdiff_t>(row * stride_ + points),
                     stride_ - points, 0.0);
-}
-
-const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
-    return *rules_[degree].get(lock_, [&] {
-        return std::make_unique<std::shared_ptr<const QuadratureRule>>(
-            tree_.tables_.rule(range_, kDegrees[degree]));
-    });
-}
-
-const SpectralPoints& PanelTree::Node::all_points(std::size_t degree) {
-    const std::vector<double>& every = rule(degree).wavelength_nm;
-    const IndexFit* indices = fit();
-    return all_[degree].get(
-        lock_, [&] { return std::make_unique<SpectralPoints>(tree_.make_points(every, indices)); });
-}
-
-const SpectralPoints& PanelTree::Node::added_points(std::size_t degree) {
-    const std::vector<double>& every = rule(degree).wavelength_nm;
-    const IndexFit* indices = fit();
-    return added_[degree].get(lock_, [&] {
-        std::vector<double> odd;
-        for (std::size_t j = 1; j < every.size(); j += 2) odd.push_back(every[j]);
-        return std::make_unique<SpectralPoints>(tree_.make_points(std::move(odd), indices));
-    });
-}
-
-PanelTree::Node& PanelTree::Node::half(std::size_t which) {
-    return halves_[which].get(lock_, [&] {
-        const double middle = has_rows_ ? tree_.indices_->middle_row(range_)
-                                        : 2 / (1 / range_.first_nm + 1 / range_.last_nm);
-        return std::make_unique<Node>(tree_, which == 0 ? WavelengthRange{range_.first_nm, middle}
-                                                        : WavelengthRange{middle, range_.last_nm});
-    });
-}
-
-const IndexFit* PanelTree::Node::fit() {
-    if (!has_rows_) return nullptr;
-    return &fit_.get(lock_, [&] { return tree_.indices_->fit(range_); });
-}
-
-std::size_t PanelTree::Node::seeing(std::size_t degree) {
-    if (const IndexFit* indices = fit())
-        while (kDegrees[degree] < indices->degree()) ++degree;
-    return degree;
-}
-
-double PanelTree::Node::half_turn(std::size_t which, double half_turn) {
-    const WavelengthRange part = half(which).range();
-    return half_turn * (1 / part.first_nm - 1 / part.last_nm) /
-           (1 / range_.first_nm - 1 / range_.last_nm);
-}
-
-PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, double tolerance,
-                                  std::size_t most_panels) {
-    double half_turns = 0;
-    for (const SpectralPanel& panel : panels) half_turns += panel.half_turn;
-    // more panels than can be afforded do not help: the fringes stay unresolved
-    const double largest =
-        std::max(kLargestHalfTurn, 2 * half_turns / static_cast<double>(most_panels));
-    Start start;
-    std::vector<SpectralPoints> parts;
-    for (const SpectralPanel& panel : panels) {
-        Node* root = nullptr;
-        {
-            const std::scoped_lock guard(lock_);
-            const std::pair key{panel.range.first_nm, panel.range.last_nm};
-            root = &roots_.try_emplace(key, *this, panel.range).first->second;
-        }
-        begin_with(*root, panel.half_turn, largest, tolerance, start, parts);
-    }
-    std::vector<const IndexTable*> indices;
-    for (const SpectralPoints& part : parts) {
-        start.points.wavelength_nm.insert(start.points.wavelength_nm.end(),
-                                          part.wavelength_nm.begin(), part.wavelength_nm.end());
-        indices.push_back(part.indices.get());
-    }
-    if (indices.front()) {
-        auto all = std::make_unique<IndexTable>(*indices.front());
-        all->assign(indices);
-        start.points.indices = std::move(all);
-    }
-    start.points.id = points_made_++;
-    return start;
-}
-
-SpectralPoints PanelTree::make_points(std::vector<double> wavelength_nm,
-                                      const IndexFit* fit) const {
-    SpectralPoints points = make_points_(std::move(wavelength_nm), fit);
-    points.id = points_made_++;
-    return points;
-}
-
-/// Whether what the fit of a panel's indices loses is small enough, as far as is known before the
-/// first evaluation: denominators turn as their fringes do.
-bool PanelTree::is_smooth(Node& node, double half_turn, std::size_t degree, double tolerance) {
-    const IndexFit* fit = node.fit();
-    if (!fit) return true;
-    if (degree >= IndexFit::kLevels) return false;
-    const WavelengthRange range = node.range(), all = tables_.sensitivity().support();
-    const std::vector<double> inverse = indices_->inverse_indices(range);
-    const double slope = half_turn / (1 - range.first_nm / range.last_nm);
-    const auto n = static_cast<double>(kDegrees[degree]);
-    std::size_t rate = 0;
-    while (rate + 1 < kFallRates.size() && half_turn <= steepest_of(kFallRates[rate + 1], n))
-        ++rate;
-    const Triple light = tables_.sensitivity().integral(range);
-    const double share =
-        (1 / range.first_nm - 1 / range.last_nm) / (1 / all.first_nm - 1 / all.last_nm);
-    for (std::size_t c = 0; c < 3; ++c) {
-        double lost = 0, root = 0;
-        for (const IndexFit::Error& error : fit->errors(degree, rate)) {
-            const double effect = index_effect(inverse[error.material], slope);
-            lost += effect * error.first[c];
-            root += effect * std::sqrt(error.second[c]);
-        }
-        const double part = light[c] / tables_.sensitivity().white()[c] + share;
-        if (!(lost + root * root <= kPlannedLost * tolerance / 2 * part)) return false;
-    }
-    return true;
-}
-
-void PanelTree::begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,
-                           Start& start, std::vector<SpectralPoints>& parts) {
-    const std::size_t degree = node.seeing(first_degree(half_turn, tolerance));
-    if (half_turn > largest_half_turn || !is_smooth(node, half_turn, degree, tolerance)) {
-        for (std::size_t half = 0; half < 2; ++half)
-            begin_with(node.half(half), node.half_turn(half, half_turn), largest_half_turn,
-                       tolerance, start, parts);
-        return;
-    }
-    std::size_t first = 0;
-    if (!start.panels.empty()) {
-        const Start::Panel& before = start.panels.back();
-        first = before.first + kDegrees[before.degree];
-    }
-    start.panels.push_back({&node, degree, half_turn, first});
-    const std::vector<double>& points = node.rule(degree).wavelength_nm;
-    parts.push_back(
-        make_points_({points.begin() + (parts.empty() ? 0 : 1), points.end()}, node.fit()));
 }
 
 void integrate_color(const Sensitivity& sensitivity, const PanelTree::Start& start,

@@ -1,114 +1,18 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <functional>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "core/color/color_tables.hpp"
-#include "core/color/quadrature/smooth_index.hpp"
-#include "core/math/lazy.hpp"
+#include "core/color/color_request.hpp"
+#include "core/color/quadrature/index_effect.hpp"
+#include "core/color/quadrature/panel_tree.hpp"
 #include "core/math/simd_level.hpp"
-#include "core/stack/index_table.hpp"
 
 namespace irido {
-
-/// A spectral range over which the integrands are smooth, with a guess at how fast they vary.
-struct SpectralPanel {
-    WavelengthRange range;
-    /// Half the phase in radians by which the fastest fringe advances over the panel; the
-    /// integrands need about as many Chebyshev polynomials.
-    double half_turn = 0;
-};
-
-/// Wavelengths at which spectra are computed, with the data prepared for them.
-struct SpectralPoints {
-    std::vector<double> wavelength_nm;
-    std::unique_ptr<const IndexTable> indices;  ///< of stacks
-    std::size_t id = 0;                         ///< unique within one PanelTree, counted from 0
-};
-/// `fit` replaces the tabulated indices; nullptr if none are replaced.
-using PointsMaker =
-    std::function<SpectralPoints(std::vector<double> wavelength_nm, const IndexFit* fit)>;
-
-/// Panels and their recursive halves, with rules and points created on first use. Thread-safe.
-class PanelTree {
-public:
-    /// Refers to `tables` and, if given, to `indices`: panels with table rows inside are then split
-    /// there and have a fit.
-    PanelTree(const ColorTables& tables, PointsMaker make_points,
-              const SmoothIndices* indices = nullptr)
-        : tables_(tables), make_points_(std::move(make_points)), indices_(indices) {}
-
-    class Node {
-    public:
-        Node(const PanelTree& tree, WavelengthRange range)
-            : tree_(tree),
-              range_(range),
-              has_rows_(tree.indices_ != nullptr && tree.indices_->has_rows(range)) {}
-        WavelengthRange range() const { return range_; }
-        const IndexFit* fit();  ///< nullptr without rows
-        /// Index of `degree`, or of the first degree that resolves the fit completely.
-        std::size_t seeing(std::size_t degree);
-        /// Half phase of fringes in one half, given that of the whole panel.
-        double half_turn(std::size_t which, double half_turn);
-        // of a degree, as an index into kDegrees
-        const QuadratureRule& rule(std::size_t degree);
-        const SpectralPoints& all_points(std::size_t degree);
-        const SpectralPoints& added_points(std::size_t degree);  ///< those not among the points of
-                                                                 ///< the previous degree
-        Node& half(std::size_t which);
-
-    private:
-        const PanelTree& tree_;
-        WavelengthRange range_;
-        bool has_rows_;
-        std::mutex lock_;
-        Lazy<const IndexFit> fit_;
-        std::array<Lazy<std::shared_ptr<const QuadratureRule>>, kDegrees.size()> rules_;
-        std::array<Lazy<SpectralPoints>, kDegrees.size()> all_, added_;
-        std::array<Lazy<Node>, 2> halves_;
-    };
-
-    /// Initial panels.
-    struct Start {
-        struct Panel {
-            Node* node;
-            std::size_t degree;  ///< index into kDegrees
-            double half_turn;
-            std::size_t first;  ///< index of its first point; neighbours share one
-        };
-        std::vector<Panel> panels;
-        SpectralPoints points;
-    };
-    /// Starts with adjoining panels, short wavelengths first, that cover the support, and bisects
-    /// each until its fringes suit a rule.
-    ///   panels       to start with
-    ///   tolerance    of X, Y, Z; determines the initial degrees
-    ///   most_panels  limit on the number of panels made by bisection
-    Start start(const std::vector<SpectralPanel>& panels, double tolerance,
-                std::size_t most_panels = kMostPanels);
-    static constexpr std::size_t kMostPanels = 1024;
-
-private:
-    SpectralPoints make_points(std::vector<double> wavelength_nm, const IndexFit* fit) const;
-    void begin_with(Node& node, double half_turn, double largest_half_turn, double tolerance,
-                    Start& start, std::vector<SpectralPoints>& parts);
-    bool is_smooth(Node& node, double half_turn, std::size_t degree, double tolerance);
-
-    const ColorTables& tables_;
-    PointsMaker make_points_;
-    const SmoothIndices* indices_;
-    mutable std::atomic<std::size_t> points_made_ = 0;
-    std::mutex lock_;
-    std::map<std::pair<double, double>, Node> roots_;  ///< by the ends of their ranges
-};
 
 /// Spectra at common points, in rows readable kMostLanes + 1 past their last point.
 class Samples {
@@ -145,6 +49,11 @@ struct IntegrationMemory {
         double half_turn = 0;
         double share = 0;                              ///< of the tolerance
         std::optional<Samples> coarse = std::nullopt;  ///< at the points of the previous degree
+        /// Denominators at the points of a degree that resolves them, and the largest error of the
+        /// spectra that follow from these. See Transmission.
+        std::optional<Samples> known = std::nullopt;
+        std::size_t known_degree = 0;
+        double unseen = 0;
         const QuadratureRule& rule() const { return node->rule(degree); }
     };
     /// A denominator on a panel and its derivative.
@@ -155,7 +64,7 @@ struct IntegrationMemory {
     std::vector<bool> marked;
     std::vector<Job> now, next;
     std::vector<const SpectralPoints*> parts;
-    std::vector<double> reference, sums;
+    std::vector<double> reference, sums, transmitted;
     std::vector<Triple> errors, panel_errors;
     std::vector<Samples> spare;
 };
@@ -167,6 +76,15 @@ struct ColorIntegral {
     std::size_t evaluations = 0;
 };
 
+/// Transmittances that follow from denominators, T = flux / |D|^2, as those of stacks in which all
+/// waves travel and nothing absorbs: D then has half the frequencies of the fringes, and no narrow
+/// lines, and is interpolated between points that do not resolve T.
+struct Transmission {
+    std::array<double, 2> flux{};   ///< of each denominator; known after the first call of `sample`
+    bool holds = false;             ///< so are all the samples
+    std::span<const Side> sides{};  ///< of the spectra, the means of T or 1 - T
+};
+
 struct IntegrationLimits {
     double tolerance = 1e-6;             ///< largest error of X, Y, Z; [1e-12, 1]
     std::size_t evaluations = 1U << 20;  ///< limit per spectrum; past it the best value is returned
@@ -174,24 +92,17 @@ struct IntegrationLimits {
     /// Per material the largest |n| / |kz/k0|^2 over the spectrum; empty if no index is fitted. See
     /// index_effect().
     std::span<const double> index_effects{};
+    /// nullptr where spectra do not follow from denominators.
+    const Transmission* transmission = nullptr;
 };
-
-/// Bound on |dR/dn| and |dT/dn|, for n and k of one material, on a panel. The phase k0 n d of light
-/// crossing once, or as often as it stays in the stack, is what varies a denominator: n dR/dn is at
-/// most 1 due to interfaces, and |dD/d ln lambda| / |D| due to what lies between them. Not proven
-/// for every stack, but satisfied by random ones with a factor of 4 to spare.
-///   effect  |n| / |kz/k0|^2: a change of n is one of kz, larger off the normal
-///   slope   largest |dD/d ln lambda| / |D| of the denominators
-inline double index_effect(double effect, double slope) {
-    return effect * (1 + slope);
-}
 
 /// Integrates spectra that are computed together, times the weighted colour-matching functions,
 /// over adjoining panels that cover the support. Each panel doubles its degree or is bisected,
 /// whichever promises more, until the estimate is below its share of the tolerance. The estimate
 /// combines the last Chebyshev coefficients with the moments, and counts the full weight of every
-/// point near which a denominator has a zero closer than the next point. A spectrum equal to 1 at
-/// every point gives exactly the white. If the evaluations run out, error > tolerance.
+/// point near which a denominator has a zero closer than the next point. Where the denominators are
+/// known between the points, finer ones follow from these. A spectrum equal to 1 at every point
+/// gives exactly the white. If the evaluations run out, error > tolerance.
 ///   sensitivity   weighted colour-matching functions
 ///   start         initial panels
 ///   denominators  number in the samples, 0 to 2

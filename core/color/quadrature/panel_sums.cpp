@@ -26,7 +26,65 @@ void some_row_sums(const double* rows, std::size_t stride, const double* values,
     for (std::size_t r = 0; r < kRows; ++r) sums[r] = hn::GetLane(hn::SumOfLanes(Lanes(), sum[r]));
 }
 
+/// Of kVectors vectors of points: parts of kCount denominators, and their transmittances.
+template <std::size_t kCount, std::size_t kVectors>
+void some_resampled(const double* columns, std::size_t inputs, std::size_t stride,
+                    const double* const* from, double* const* to, const double* flux,
+                    double* transmitted) {
+    const std::size_t lanes = hn::Lanes(Lanes());
+    V part[2 * kCount][kVectors];
+    for (auto& of_part : part)
+        for (V& sum : of_part) sum = constant(0);
+    for (std::size_t i = 0; i < inputs; ++i) {
+        V column[kVectors];
+        for (std::size_t v = 0; v < kVectors; ++v)
+            column[v] = hn::LoadU(Lanes(), columns + i * stride + v * lanes);
+        for (std::size_t r = 0; r < 2 * kCount; ++r) {
+            const V value = constant(from[r][i]);
+            for (std::size_t v = 0; v < kVectors; ++v)
+                part[r][v] = hn::MulAdd(column[v], value, part[r][v]);
+        }
+    }
+    for (std::size_t v = 0; v < kVectors; ++v) {
+        V sum = constant(0);
+        for (std::size_t d = 0; d < kCount; ++d) {
+            const V re = part[2 * d][v], im = part[2 * d + 1][v];
+            hn::StoreU(re, Lanes(), to[2 * d] + v * lanes);
+            hn::StoreU(im, Lanes(), to[2 * d + 1] + v * lanes);
+            // past the points both are 0
+            const V size = hn::Max(hn::MulAdd(re, re, hn::Mul(im, im)), constant(1e-300));
+            if (transmitted) sum = hn::Add(sum, hn::Div(constant(flux[d]), size));
+        }
+        if (transmitted) hn::StoreU(sum, Lanes(), transmitted + v * lanes);
+    }
+}
+
+template <std::size_t kCount>
+void resampled(const double* columns, std::size_t inputs, std::size_t stride,
+               const double* const* from, double* const* to, const double* flux,
+               double* transmitted) {
+    const std::size_t lanes = hn::Lanes(Lanes());
+    double* at[2 * kCount];
+    std::size_t j = 0;
+    const auto step = [&](auto run) {
+        for (std::size_t r = 0; r < 2 * kCount; ++r) at[r] = to[r] + j;
+        run(columns + j, inputs, stride, from, at, flux, transmitted ? transmitted + j : nullptr);
+    };
+    for (; j + 2 * lanes <= stride; j += 2 * lanes) step(some_resampled<kCount, 2>);
+    for (; j < stride; j += lanes) step(some_resampled<kCount, 1>);
+}
+
 }  // namespace
+
+void all_resampled(const double* columns, std::size_t inputs, std::size_t stride,
+                   std::size_t denominators, const double* const* from, double* const* to,
+                   const double* flux, double* transmitted) {
+    if (denominators == 2) {
+        resampled<2>(columns, inputs, stride, from, to, flux, transmitted);
+    } else {
+        resampled<1>(columns, inputs, stride, from, to, flux, transmitted);
+    }
+}
 
 void all_row_sums(const double* rows, std::size_t count, std::size_t stride, const double* values,
                   double reference, double* sums) {
@@ -71,6 +129,13 @@ namespace irido {
 void row_sums(const double* rows, std::size_t count, std::size_t stride, const double* values,
               double reference, double* sums, SimdLevel level) {
     IRIDO_DISPATCH(level, all_row_sums)(rows, count, stride, values, reference, sums);
+}
+
+void resampled_denominators(const double* columns, std::size_t inputs, std::size_t stride,
+                            std::size_t denominators, const double* const* from, double* const* to,
+                            const double* flux, double* transmitted, SimdLevel level) {
+    IRIDO_DISPATCH(level, all_resampled)
+    (columns, inputs, stride, denominators, from, to, flux, transmitted);
 }
 
 double steepness(const double* re, const double* im, const double* log_scale,

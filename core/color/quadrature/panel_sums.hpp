@@ -17,6 +17,18 @@ namespace irido {
 void row_sums(const double* rows, std::size_t count, std::size_t stride, const double* values,
               double reference, double* sums, SimdLevel level);
 
+/// One or two complex functions D at other points, by a matrix, and the sum of flux / |D|^2.
+///   columns       of a Resampling, with `inputs` and `stride`
+///   denominators  number of functions, 1 or 2
+///   from          real and imaginary part of each, `inputs` numbers
+///   to            the same at the other points, `stride` numbers
+///   flux          of each
+///   transmitted   the sum, `stride` numbers; nullptr if it is not needed
+///   level         instruction set
+void resampled_denominators(const double* columns, std::size_t inputs, std::size_t stride,
+                            std::size_t denominators, const double* const* from, double* const* to,
+                            const double* flux, double* transmitted, SimdLevel level);
+
 /// Largest |D'|/|D| of a complex function D = exp(l) d between neighbouring points, as its
 /// differences show it: (|d_(j+1) - d_j| / min(|d_j|, |d_(j+1)|) + |l_(j+1) - l_j|) / (x_j -
 /// x_(j+1)). From D'/D = l' + d'/d, the mean of D'/D over a step is (l_(j+1) - l_j + log q) /

@@ -14,6 +14,7 @@
 #include "core/color/quadrature/fixed_layers_cache.hpp"
 #include "core/color/quadrature/integration.hpp"
 #include "core/color/quadrature/left_out_fringes.hpp"
+#include "core/color/quadrature/stack_path.hpp"
 #include "core/error.hpp"
 #include "core/math/pool.hpp"
 #include "core/spectrum/spectrum.hpp"
@@ -22,16 +23,6 @@
 namespace irido {
 
 namespace {
-
-/// Past this exponent of attenuation, one way and of the power, fringes of what is below are less
-/// than a hundredth of the tolerance.
-double opaque_exponent(double tolerance) {
-    return std::log(100 / tolerance);
-}
-
-/// Periods that light of a group sees at once where it does not see its end: those that make a
-/// band gap. Edges of the gaps are found by halving panels.
-constexpr double kOpaquePeriods = 32;
 
 /// Layers computed for one spectrum before it is given up, about a second's worth of either kernel,
 /// and points that any stack may have.
@@ -63,57 +54,16 @@ constexpr double kFine_nm = 4e6, kPointsPerPath = 0.032, kPeriodsOfMean = 4;
 /// Layers of a path below this share of the fringes' have no lines as narrow as these.
 constexpr double kSlow = 0.01;
 
-/// Twice the optical thickness, nm, of what light passes on its way to faces that it returns from,
-/// and what it loses on its way: exponents of what is absorbed, and of the gaps through which it
-/// tunnels.
-struct Path {
-    double length_nm = 0;
-    double absorbed = 0, tunnelled = 0;
-    double exponent() const { return absorbed + tunnelled; }
-};
+/// Stacks of as many layers get their spectra from interpolated denominators: points of fewer take
+/// no longer than interpolation.
+constexpr double kFollowedWork = 16;
 
-/// Gaps that stand in periods attenuate with each of these, or, in bands as wide as a gap of one
-/// period makes them, once.
-enum class Gaps { attenuate, have_bands };
+/// Smaller tolerances are within reach of the roundings of interpolation.
+constexpr double kFollowedTolerance = 1e-8;
 
-/// Goes on to what is `opaque`, an exponent.
-///   normal  kz/k0 of every material
-void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
-              double opaque, Gaps gaps, Path& path) {
-    for (const Element& element : elements) {
-        if (path.exponent() >= opaque) return;
-        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
-            const Complex kz = normal[layer->material];
-            const double exponent = 2 * k0 * std::abs(kz.imag()) * layer->thickness_nm;
-            if (layer->coherent && exponent < opaque)
-                path.length_nm += 2 * layer->thickness_nm * std::abs(kz.real());
-            (kz.real() == 0 ? path.tunnelled : path.absorbed) += exponent;
-        } else {
-            const Group& group = std::get<Group>(element.value);
-            Path period;
-            add_path(group.elements, normal, k0, opaque, gaps, period);
-            const auto repeat = static_cast<double>(group.repeat);
-            const double absorbed = repeat * period.absorbed;
-            const double tunnelled = (gaps == Gaps::attenuate ? repeat : 1) * period.tunnelled;
-            const bool has_end = absorbed + tunnelled < opaque;
-            path.length_nm +=
-                (has_end ? repeat : std::min(repeat, kOpaquePeriods)) * period.length_nm;
-            path.absorbed += absorbed;
-            path.tunnelled += tunnelled;
-        }
-    }
-}
-
-/// Layers whose matrices one evaluation takes, a doubling of an absorbing group among them.
-double work_of(std::span<const Element> elements) {
-    double work = 1;
-    for (const Element& element : elements) {
-        const Group* group = std::get_if<Group>(&element.value);
-        const double doublings = group ? std::log2(static_cast<double>(group->repeat)) : 0;
-        work += group ? work_of(group->elements) + 4 * doublings : 1;
-    }
-    return work;
-}
+/// What R or T may be off from flux / |D|^2 where it is that.
+constexpr double kRoundingOfFlux = 1e-10;
+constexpr std::size_t kFluxStep = 5;  ///< between points where that is checked
 
 /// Part of a wavelength within which the slope of a table jumps.
 constexpr double kKinkStep = 1e-7;
@@ -136,17 +86,6 @@ std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
     for (int i = 0; i <= 4; ++i)
         wavelengths.push_back(support.first_nm + (support.last_nm - support.first_nm) * i / 4);
     return wavelengths;
-}
-
-/// kz/k0 of the polarization that turns more in a medium.
-Complex longest_normal(const IndexTable& table, std::size_t material, std::size_t wavelength,
-                       IncidentAngle incidence) {
-    const Complex s =
-        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::s).q2);
-    if (table.extraordinary(material) == material) return s;
-    const Complex p =
-        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::p).q2);
-    return std::abs(p.real()) > std::abs(s.real()) ? p : s;
 }
 
 /// Whether a material's k is known between the wavelengths of the survey from what it is there.
@@ -206,6 +145,9 @@ public:
             amplifies_[m] = true;
         }
         needs_.denominators = true;
+        const auto is_true = [](bool is) { return is; };
+        is_lossless_ = constant_ && !keeps_rows_ && std::ranges::none_of(absorbs_, is_true) &&
+                       std::ranges::none_of(amplifies_, is_true);
     }
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
@@ -311,13 +253,20 @@ private:
         const auto path_of = [&](Gaps gaps) {
             return optical_path_nm(stack.elements, incidence, gaps, scratch.normal);
         };
+        const bool follows = is_lossless_ && kernel.is_vectorized() &&
+                             work_of(stack.elements) >= kFollowedWork &&
+                             limits.tolerance >= kFollowedTolerance;
         const double path_nm = path_of(Gaps::attenuate), longest_nm = path_of(Gaps::have_bands);
         const bool is_fine = longest_nm > kFine_nm ||
                              kPointsPerPath * longest_nm > static_cast<double>(limits.evaluations);
         for (StackColor& color : colors) color.error = std::numeric_limits<double>::infinity();
         if (is_fine && try_mean(stack, incidence, longest_nm, limits, colors, scratch)) return;
-        const PanelTree::Start& start = start_of(path_class(path_nm));
+        const PanelTree::Start& start = start_of(path_class(path_nm), follows);
         IntegrationLimits known = limits;
+        Transmission through;
+        through.sides = request_.sides;
+        if (follows) known.transmission = &through;
+        bool is_first = follows;
         if (!constant_) known.index_effects = index_effects(incidence, scratch.effects);
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
@@ -335,7 +284,13 @@ private:
                 kernel(indices, {&incidence, 1}, scratch.spectra, scratch.memory);
             }
             const Spectra& at = scratch.spectra;
-            fill(with_s ? at.s : at.p, with_s && with_p ? &at.p : nullptr, samples);
+            const Spectrum& one = with_s ? at.s : at.p;
+            const Spectrum* const other = with_s && with_p ? &at.p : nullptr;
+            fill(one, other, samples);
+            if (!is_first) return;
+            is_first = false;
+            through.holds =
+                has_flux(one, through.flux[0]) && (!other || has_flux(*other, through.flux[1]));
         };
         scratch.integrals.resize(colors.size());
         integrate_color(sensitivity_, start, with_s && with_p ? 2 : 1, sample, known,
@@ -345,6 +300,27 @@ private:
         const bool done = std::ranges::all_of(
             colors, [&](const StackColor& c) { return c.error <= limits.tolerance; });
         if (!done && !is_fine) try_mean(stack, incidence, longest_nm, limits, colors, scratch);
+    }
+
+    /// Whether T is flux / |D|^2, as it is where all waves travel.
+    static bool has_flux(const Spectrum& spectrum, double& flux) {
+        const auto size_at = [&](std::size_t j) {
+            return spectrum.denominator_re[j] * spectrum.denominator_re[j] +
+                   spectrum.denominator_im[j] * spectrum.denominator_im[j];
+        };
+        const auto T_at = [&](std::size_t j) {
+            return spectrum.T.empty() ? 1 - spectrum.R[j] : spectrum.T[j];
+        };
+        std::size_t clearest = 0;
+        for (std::size_t j = 0; j < spectrum.log_scale.size(); ++j) {
+            if (spectrum.log_scale[j] != 0) return false;
+            if (size_at(j) < size_at(clearest)) clearest = j;
+        }
+        flux = T_at(clearest) * size_at(clearest);
+        if (!(flux > 0)) return false;
+        for (std::size_t j = 0; j < spectrum.log_scale.size(); j += kFluxStep)
+            if (!(std::abs(T_at(j) - flux / size_at(j)) <= kRoundingOfFlux)) return false;
+        return true;
     }
 
     static void take_better(StackColor& color, const ColorIntegral& integral, double error) {
@@ -482,13 +458,13 @@ private:
                          rounding, on_path_.wavelength_nm().size(), "quadrature"};
     }
 
-    const PanelTree::Start& start_of(std::size_t path) const {
+    const PanelTree::Start& start_of(std::size_t path, bool follows = false) const {
         const std::scoped_lock guard(lock_);
-        std::unique_ptr<PanelTree::Start>& start = starts_[path];
+        std::unique_ptr<PanelTree::Start>& start = starts_[{path, follows}];
         if (start) return *start;
         start = std::make_unique<PanelTree::Start>(
             tree_.start(panels_of(pieces_, path_of_class(path)), request_.tolerance,
-                        request_.evaluations / kPanelPoints / 4));
+                        request_.evaluations / kPanelPoints / 4, follows));
         if (constant_)
             start->points.indices =
                 std::make_unique<IndexTable>(held_, start->points.wavelength_nm);
@@ -558,6 +534,7 @@ private:
     bool keeps_rows_;
     std::vector<double> pieces_;  ///< ends of what is smooth
     bool constant_;               ///< all indices
+    bool is_lossless_ = false;    ///< and without k
     IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
     Needs needs_;
     std::vector<bool> absorbs_, amplifies_;
@@ -567,7 +544,8 @@ private:
     mutable PanelTree tree_;
     mutable Pool<Scratch> scratch_;
     mutable std::mutex lock_;
-    mutable std::map<std::size_t, std::unique_ptr<PanelTree::Start>> starts_;  ///< by path class
+    /// By path class, and whether spectra follow from denominators.
+    mutable std::map<std::pair<std::size_t, bool>, std::unique_ptr<PanelTree::Start>> starts_;
 };
 
 }  // namespace

@@ -119,14 +119,27 @@ Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest
     throw ToleranceError(reason);
 }
 
-/// Writes a grid and the companion that tells where its parts begin, and returns its entry.
-json made_grid(const SceneTable& table, const BakePlace& place) {
+/// A grid's file and the companion that tells where its parts begin.
+struct GridFiles {
+    std::string bytes, companion;
+    json entry;
+};
+
+GridFiles grid_files(const SceneTable& table) {
     GridFile file = grid_file(table.grid->scratches, table.grid->extent);
     file.header["id"] = table.id;
-    const std::string header = file.header.dump(2) + "\n", path = place.folder + "/" + table.file;
-    write_own(path + kCompanion, header);
-    write_own(path, file.bytes);
-    return grid_entry(file.header, table.file, header.size() + file.bytes.size());
+    std::string companion = file.header.dump(2) + "\n";
+    json entry = grid_entry(file.header, table.file, companion.size() + file.bytes.size());
+    return {std::move(file.bytes), std::move(companion), std::move(entry)};
+}
+
+/// Writes a grid with its companion, and returns its entry.
+json made_grid(const SceneTable& table, const BakePlace& place) {
+    GridFiles files = grid_files(table);
+    const std::string path = place.folder + "/" + table.file;
+    write_own(path + kCompanion, files.companion);
+    write_own(path, files.bytes);
+    return std::move(files.entry);
 }
 
 /// Makes one table, writes its file if it needs one, and returns its entry.
@@ -404,8 +417,7 @@ Keeping keeping_of(const schemas::Scene& scene, const ScenePlan& plan, const Sce
 
 json planned_entry(const SceneTable& table) {
     if (table.grid) {
-        const GridFile file = grid_file(table.grid->scratches, table.grid->extent);
-        json entry = grid_entry(file.header, table.file, file.bytes.size());
+        json entry = grid_files(table).entry;
         entry["samples"] = table.grid->scratches.size();
         entry["seconds"] = 0;
         return entry;
@@ -439,7 +451,7 @@ json planned_entry(const SceneTable& table) {
     else
         entry["file"] = table.file;
     entry["samples"] = samples;
-    entry["seconds"] = sizing.count() + estimated_seconds(plan, lut, table.making.threads);
+    entry["seconds"] = sizing.count() + estimated_seconds(plan, lut, table.making);
     return entry;
 }
 

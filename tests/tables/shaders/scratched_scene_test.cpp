@@ -102,6 +102,14 @@ TEST_CASE("a scratched material bakes, a second bake touches nothing, damage is 
     material["surface"]["base"] = "1 | 0.2+3.4i";
     material["surface"]["alpha"] = 0.2;
     write_text(folder / "scene.json", scene_of(material, lights_of(0)).dump());
+    const auto planned_bytes = [&] {
+        const json plan = json::parse(
+            run_irido({"plan", folder / "scene.json", "-o", folder / "t", "-f", "json"}).out);
+        std::vector<double> bytes;
+        for (const json& table : plan["tables"]) bytes.push_back(table["bytes"]);
+        return bytes;
+    };
+    const std::vector<double> bytes_before = planned_bytes();
     const Outcome first = run_irido({"bake", folder / "scene.json", "-o", folder / "t"});
     INFO(first.err);
     REQUIRE(first.status == 0);
@@ -119,6 +127,8 @@ TEST_CASE("a scratched material bakes, a second bake touches nothing, damage is 
     CHECK(metal["losses"][0]["what"] == "product of colours");
     const json& grid = read["tables"][metal["tables"]["grid"].get<std::string>()];
     CHECK(grid["scratches"] == 2);
+    CHECK(planned_bytes() == bytes_before);
+    CHECK(bytes_before.back() == grid["bytes"]);
     const std::string file = folder / "t/" + grid["file"].get<std::string>();
     CHECK(run_irido({"scratches", "--check", file}).out == file + ": ok\n");
     // a byte of a record
