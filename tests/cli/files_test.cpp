@@ -215,7 +215,7 @@ TEST_CASE("output that cannot be written is refused by every command", "[cli][fi
         "materials list",
         "materials show Au -w 500 --quiet",
         "convert" + stack,
-        "bench stability --regime thick --count 1"};
+        "bench stability --regime critical --count 1"};
     const std::vector<std::string> without_output{"plan plain.json --quiet", "validate plain.json",
                                                   "validate --schema",       "lut shader color",
                                                   "manual spectrum",         "completion bash"};
