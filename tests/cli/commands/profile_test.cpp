@@ -127,7 +127,7 @@ TEST_CASE("a field that jumps at a face is drawn as a jump", "[cli][profile]") {
     CHECK(profile({"BK7 | Ag@50 | air", "-w", "633", "--z", "-20,25"}).size() == 2);
 }
 
-TEST_CASE("layers that no light reaches have no field "[cli][profile]") {
+TEST_CASE("layers that no light reaches have no field", "[cli][profile]") {
     const Outcome outcome =
         run_irido({"profile", "1.6 | (1.83@178.8 | 1.07+1.6i@147.9)^500 | 2.7+0.01i@71.5 | 2.66",
                    "-w", "427.8", "-a", "35", "-p", "s", "--summary"});
