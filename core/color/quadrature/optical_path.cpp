@@ -1,0 +1,78 @@
+#include "core/color/quadrature/optical_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/coherent/media.hpp"
+
+namespace irido {
+
+namespace {
+
+/// Periods that light of a group sees at once where it does not see its end: those that make a
+/// band gap. Edges of the gaps are found by halving panels.
+constexpr double kOpaquePeriods = 32;
+
+}  // namespace
+
+double opaque_exponent(double tolerance) {
+    return std::log(100 / tolerance);
+}
+
+void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
+              double opaque, Gaps gaps, Path& path) {
+    for (const Element& element : elements) {
+        if (path.exponent() >= opaque) return;
+        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+            const Complex kz = normal[layer->material];
+            const double exponent = 2 * k0 * std::abs(kz.imag()) * layer->thickness_nm;
+            if (layer->coherent && exponent < opaque)
+                path.length_nm += 2 * layer->thickness_nm * std::abs(kz.real());
+            (kz.real() == 0 ? path.tunnelled : path.absorbed) += exponent;
+        } else {
+            const Group& group = std::get<Group>(element.value);
+            Path period;
+            add_path(group.elements, normal, k0, opaque, gaps, period);
+            const auto repeat = static_cast<double>(group.repeat);
+            const double absorbed = repeat * period.absorbed;
+            const double tunnelled = (gaps == Gaps::attenuate ? repeat : 1) * period.tunnelled;
+            const bool has_end = absorbed + tunnelled < opaque;
+            path.length_nm +=
+                (has_end ? repeat : std::min(repeat, kOpaquePeriods)) * period.length_nm;
+            path.absorbed += absorbed;
+            path.tunnelled += tunnelled;
+        }
+    }
+}
+
+double work_of(std::span<const Element> elements) {
+    double work = 1;
+    for (const Element& element : elements) {
+        const Group* group = std::get_if<Group>(&element.value);
+        const double doublings = group ? std::log2(static_cast<double>(group->repeat)) : 0;
+        work += group ? work_of(group->elements) + 4 * doublings : 1;
+    }
+    return work;
+}
+
+Complex longest_normal(const IndexTable& table, std::size_t material, std::size_t wavelength,
+                       IncidentAngle incidence) {
+    const Complex s =
+        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::s).q2);
+    if (table.extraordinary(material) == material) return s;
+    const Complex p =
+        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::p).q2);
+    return std::abs(p.real()) > std::abs(s.real()) ? p : s;
+}
+
+void add_lengths(const Element& element, double repeat, std::vector<double>& length_nm) {
+    if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+        length_nm[layer->material] += repeat * layer->thickness_nm;
+        return;
+    }
+    const Group& group = std::get<Group>(element.value);
+    for (const Element& inner : group.elements)
+        add_lengths(inner, repeat * static_cast<double>(group.repeat), length_nm);
+}
+
+}  // namespace irido

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "core/coherent/coherent.hpp"
+#include "core/stack/index_table.hpp"
+#include "core/stack/stack.hpp"
+
+namespace irido {
+
+/// Past this exponent of attenuation, one way and of the power, fringes of what is below are less
+/// than a hundredth of the tolerance.
+double opaque_exponent(double tolerance);
+
+/// Twice the optical thickness, nm, of what light passes on its way to faces that it returns from,
+/// and what it loses on its way: exponents of what is absorbed, and of the gaps through which it
+/// tunnels.
+struct Path {
+    double length_nm = 0;
+    double absorbed = 0, tunnelled = 0;
+    double exponent() const { return absorbed + tunnelled; }
+};
+
+/// Gaps that stand in periods attenuate with each of these, or, in bands as wide as a gap of one
+/// period makes them, once.
+enum class Gaps { attenuate, have_bands };
+
+/// Adds the path through elements as far as to what is opaque.
+///   elements  from the incident side
+///   normal    kz/k0 of every material
+///   k0        2 pi / wavelength, 1/nm
+///   opaque    opaque_exponent()
+///   gaps      of groups
+///   path      to add to
+void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
+              double opaque, Gaps gaps, Path& path);
+
+/// Adds the thickness, nm, that an element has of each material, `repeat` times.
+void add_lengths(const Element& element, double repeat, std::vector<double>& length_nm);
+
+/// Layers whose matrices one evaluation takes, a doubling of an absorbing group among them.
+double work_of(std::span<const Element> elements);
+
+/// kz/k0 of the polarization that turns more in a medium.
+///   table       indices of the stack's materials
+///   material    the medium
+///   wavelength  position in the table
+///   incidence   direction of the light in the incident medium
+Complex longest_normal(const IndexTable& table, std::size_t material, std::size_t wavelength,
+                       IncidentAngle incidence);
+
+}  // namespace irido
