@@ -23,7 +23,7 @@ constexpr double kSafety = 2;
 }  // namespace
 
 void LeftOutFringes::add(double wavelength_nm, const FringeMean& mean) {
-    points_.push_back({wavelength_nm, mean.phase, mean.swing_R, mean.swing_T, 0});
+    points_.push_back({wavelength_nm, std::abs(mean.form.turn[0]), mean.swing_R, mean.swing_T, 0});
 }
 
 double LeftOutFringes::path_nm(const Point& from, const Point& to) {

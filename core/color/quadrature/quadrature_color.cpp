@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -12,9 +13,11 @@
 #include "core/coherent/media.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/quadrature/fixed_layers_cache.hpp"
+#include "core/color/quadrature/flux.hpp"
+#include "core/color/quadrature/fringe_sums.hpp"
 #include "core/color/quadrature/integration.hpp"
 #include "core/color/quadrature/left_out_fringes.hpp"
-#include "core/color/quadrature/stack_path.hpp"
+#include "core/color/quadrature/optical_path.hpp"
 #include "core/error.hpp"
 #include "core/math/pool.hpp"
 #include "core/spectrum/spectrum.hpp"
@@ -24,32 +27,30 @@ namespace irido {
 
 namespace {
 
-/// Layers computed for one spectrum before it is given up, about a second's worth of either kernel,
-/// and points that any stack may have.
-/// Means may take longer: where they are tried, points do not resolve the fringes.
+/// Layers computed for one spectrum before it is given up, a second's worth of either kernel, and
+/// points that any stack may have. Means, where points do not resolve the fringes, may take longer.
 constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kMostMeanWork = 1e8,
                  kFewestPoints = 4096;
 
+/// Points at which the waves that means leave out may be looked at.
+constexpr std::size_t kFewestWavePoints = 1U << 15;
+
 /// Points of a panel that is not cut any further.
 constexpr std::size_t kPanelPoints = 129;
-
-/// Optical paths are rounded up to kShortestPath_nm 2^(k/2), k < kPathClasses.
-constexpr double kShortestPath_nm = 125;
-constexpr std::size_t kPathClasses = 128;
-
-std::size_t path_class(double path_nm) {
-    const double k = std::ceil(2 * std::log2(path_nm / kShortestPath_nm));
-    return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(kPathClasses - 1)));
-}
-
-double path_of_class(std::size_t k) {
-    return kShortestPath_nm * std::exp2(static_cast<double>(k) / 2);
-}
 
 /// Fringes of longer paths than kFine_nm, and those that the evaluations do not resolve at
 /// kPointsPerPath a nm, may be left out. A period's mean is as rich as fringes of a path of
 /// kPeriodsOfMean periods.
 constexpr double kFine_nm = 4e6, kPointsPerPath = 0.032, kPeriodsOfMean = 4;
+
+/// Fringes of longer paths are cheaper left out, and added as waves, than followed one by one, if
+/// the rest of the stack has less than kRest of the path.
+constexpr double kWaves_nm = 4e5, kRest = 0.1;
+
+/// Parts of the tolerance: of the means, if what they leave out is bounded or added as waves, and
+/// of the waves. Next to gap edges the means follow a dozen fringes, which may hide between points:
+/// their error is up to kMeanDoubt times the estimate, which such bounds outweigh and waves do not.
+constexpr double kOfMeans = 0.5, kOfMeansWithWaves = 0.01, kOfWaves = 0.25, kMeanDoubt = 40;
 
 /// Layers of a path below this share of the fringes' have no lines as narrow as these.
 constexpr double kSlow = 0.01;
@@ -60,10 +61,6 @@ constexpr double kFollowedWork = 16;
 
 /// Smaller tolerances are within reach of the roundings of interpolation.
 constexpr double kFollowedTolerance = 1e-8;
-
-/// What R or T may be off from flux / |D|^2 where it is that.
-constexpr double kRoundingOfFlux = 1e-10;
-constexpr std::size_t kFluxStep = 5;  ///< between points where that is checked
 
 /// Part of a wavelength within which the slope of a table jumps.
 constexpr double kKinkStep = 1e-7;
@@ -77,15 +74,6 @@ std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double pat
         panels.push_back(
             {{ends[i], ends[i + 1]}, std::numbers::pi * path_nm * (1 / ends[i] - 1 / ends[i + 1])});
     return panels;
-}
-
-/// Wavelengths at which paths are as long as anywhere, more or less.
-std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
-    if (constant) return {support.first_nm, support.last_nm};
-    std::vector<double> wavelengths;
-    for (int i = 0; i <= 4; ++i)
-        wavelengths.push_back(support.first_nm + (support.last_nm - support.first_nm) * i / 4);
-    return wavelengths;
 }
 
 /// Whether a material's k is known between the wavelengths of the survey from what it is there.
@@ -145,9 +133,9 @@ public:
             amplifies_[m] = true;
         }
         needs_.denominators = true;
-        const auto is_true = [](bool is) { return is; };
-        is_lossless_ = constant_ && !keeps_rows_ && std::ranges::none_of(absorbs_, is_true) &&
-                       std::ranges::none_of(amplifies_, is_true);
+        is_lossless_ = constant_ && !keeps_rows_ &&
+                       std::ranges::none_of(absorbs_, std::identity()) &&
+                       std::ranges::none_of(amplifies_, std::identity());
     }
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
@@ -257,10 +245,9 @@ private:
                              work_of(stack.elements) >= kFollowedWork &&
                              limits.tolerance >= kFollowedTolerance;
         const double path_nm = path_of(Gaps::attenuate), longest_nm = path_of(Gaps::have_bands);
-        const bool is_fine = longest_nm > kFine_nm ||
-                             kPointsPerPath * longest_nm > static_cast<double>(limits.evaluations);
+        const bool has_mean = longest_nm > kWaves_nm || is_fine(longest_nm, limits);
         for (StackColor& color : colors) color.error = std::numeric_limits<double>::infinity();
-        if (is_fine && try_mean(stack, incidence, longest_nm, limits, colors, scratch)) return;
+        if (has_mean && try_mean(stack, incidence, longest_nm, limits, colors, scratch)) return;
         const PanelTree::Start& start = start_of(path_class(path_nm), follows);
         IntegrationLimits known = limits;
         Transmission through;
@@ -299,28 +286,7 @@ private:
             take_better(colors[i], scratch.integrals[i], scratch.integrals[i].error);
         const bool done = std::ranges::all_of(
             colors, [&](const StackColor& c) { return c.error <= limits.tolerance; });
-        if (!done && !is_fine) try_mean(stack, incidence, longest_nm, limits, colors, scratch);
-    }
-
-    /// Whether T is flux / |D|^2, as it is where all waves travel.
-    static bool has_flux(const Spectrum& spectrum, double& flux) {
-        const auto size_at = [&](std::size_t j) {
-            return spectrum.denominator_re[j] * spectrum.denominator_re[j] +
-                   spectrum.denominator_im[j] * spectrum.denominator_im[j];
-        };
-        const auto T_at = [&](std::size_t j) {
-            return spectrum.T.empty() ? 1 - spectrum.R[j] : spectrum.T[j];
-        };
-        std::size_t clearest = 0;
-        for (std::size_t j = 0; j < spectrum.log_scale.size(); ++j) {
-            if (spectrum.log_scale[j] != 0) return false;
-            if (size_at(j) < size_at(clearest)) clearest = j;
-        }
-        flux = T_at(clearest) * size_at(clearest);
-        if (!(flux > 0)) return false;
-        for (std::size_t j = 0; j < spectrum.log_scale.size(); j += kFluxStep)
-            if (!(std::abs(T_at(j) - flux / size_at(j)) <= kRoundingOfFlux)) return false;
-        return true;
+        if (!done && !has_mean) try_mean(stack, incidence, longest_nm, limits, colors, scratch);
     }
 
     static void take_better(StackColor& color, const ColorIntegral& integral, double error) {
@@ -328,57 +294,131 @@ private:
             color = {integral.xyz, error, integral.evaluations, "quadrature"};
     }
 
-    /// The mean over the phase of the element of the longest path, where its fringes are too fine
-    /// to be seen; false if it is not known to the tolerance.
+    /// Elements of the longest paths, those of all others, and those of a period.
+    struct FastElements {
+        std::vector<std::size_t> indices;
+        double rest_nm, period_nm;
+    };
+    FastElements fast_elements(const Stack& stack, IncidentAngle incidence, double path_nm,
+                               const IntegrationLimits& limits, Scratch& scratch) const {
+        const auto path_of = [&](std::span<const Element> elements) {
+            return optical_path_nm(elements, incidence, Gaps::have_bands, scratch.normal);
+        };
+        std::vector<double> paths_nm;
+        for (const Element& element : stack.elements) paths_nm.push_back(path_of({&element, 1}));
+        FastElements fast{{}, path_nm, 0};
+        do {
+            const auto i =
+                static_cast<std::size_t>(std::ranges::max_element(paths_nm) - paths_nm.begin());
+            fast.indices.push_back(i);
+            fast.rest_nm = std::max(0.0, fast.rest_nm - paths_nm[i]);
+            paths_nm[i] = 0;
+            if (const Group* group = std::get_if<Group>(&stack.elements[i].value))
+                fast.period_nm += path_of(group->elements);
+        } while (fast.indices.size() < 2 && is_fine(fast.rest_nm, limits));
+        std::ranges::sort(fast.indices);
+        return fast;
+    }
+
+    static bool is_fine(double path_nm, const IntegrationLimits& limits) {
+        return path_nm > kFine_nm ||
+               kPointsPerPath * path_nm > static_cast<double>(limits.evaluations);
+    }
+
+    /// The mean over the phases of the elements of the longest paths, whose fringes are too fine to
+    /// be seen or are added as waves; false if it is not known to the tolerance.
     bool try_mean(const Stack& stack, IncidentAngle incidence, double path_nm,
                   const IntegrationLimits& limits, std::span<StackColor> colors,
                   Scratch& scratch) const {
         if (keeps_rows_ || incidence.cos == 0 || !scratch.power->has_amplitudes() ||
             std::ranges::find(amplifies_, true) != amplifies_.end())
             return false;
-        std::size_t fast = 0;
-        double longest_nm = 0, period_nm = 0;
-        for (std::size_t i = 0; i < stack.elements.size(); ++i) {
-            const auto path_of = [&](std::span<const Element> elements) {
-                return optical_path_nm(elements, incidence, Gaps::have_bands, scratch.normal);
-            };
-            const double nm = path_of({&stack.elements[i], 1});
-            if (nm <= longest_nm) continue;
-            fast = i;
-            longest_nm = nm;
-            const Group* group = std::get_if<Group>(&stack.elements[i].value);
-            period_nm = group ? path_of(group->elements) : 0;
-        }
+        const FastElements fast = fast_elements(stack, incidence, path_nm, limits, scratch);
+        if (!is_fine(path_nm, limits) && fast.rest_nm > kRest * path_nm) return false;
         const PanelTree::Start& start =
-            start_of(path_class(std::max(0.0, path_nm - longest_nm) + kPeriodsOfMean * period_nm));
-        const bool only_edges = period_nm > 0 && path_nm - longest_nm < kSlow * longest_nm;
+            start_of(path_class(fast.rest_nm + kPeriodsOfMean * fast.period_nm));
         const std::size_t polarizations = needs_.s && needs_.p && incidence.cos < 1 ? 2 : 1;
         for (LeftOutFringes& fringes : scratch.left_out) fringes.clear();
         const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
                                     Samples& samples) {
-            fill_with_means(stack, fast, incidence, polarizations, indices_at(parts, scratch),
-                            samples, scratch);
+            fill_with_means(stack, fast.indices, incidence, polarizations,
+                            indices_at(parts, scratch), samples, scratch);
         };
         const auto affordable = static_cast<std::size_t>(
             std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
         scratch.integrals.resize(colors.size());
-        IntegrationLimits half{limits.tolerance / 2, std::min(request_.evaluations, affordable),
-                               limits.simd};
-        if (!constant_) half.index_effects = index_effects(incidence, scratch.effects);
-        integrate_color(sensitivity_, start, polarizations, sample, half, scratch.integration,
+        const bool has_waves = fast.indices.size() > 1 || !is_fine(path_nm, limits);
+        IntegrationLimits of_means{(has_waves ? kOfMeansWithWaves : kOfMeans) * limits.tolerance,
+                                   std::min(request_.evaluations, affordable), limits.simd};
+        if (!constant_) of_means.index_effects = index_effects(incidence, scratch.effects);
+        integrate_color(sensitivity_, start, polarizations, sample, of_means, scratch.integration,
                         scratch.integrals);
-        kinks_of(stack.elements[fast], 1, scratch.kinks);
-        bool done = true;
-        for (std::size_t i = 0; i < colors.size(); ++i) {
-            double error = scratch.integrals[i].error;
-            for (std::size_t k = 0; k < polarizations; ++k)
-                error += (scratch.left_out[k].error(request_.sides[i], tables_, only_edges) +
-                          scratch.left_out[k].at_kinks(request_.sides[i], tables_, scratch.kinks)) /
-                         static_cast<double>(polarizations);
-            done = done && error <= limits.tolerance;
-            take_better(colors[i], scratch.integrals[i], error);
+        std::vector<double> errors(colors.size());
+        for (std::size_t i = 0; i < colors.size(); ++i) errors[i] = scratch.integrals[i].error;
+        std::vector<double> without_waves = errors;
+        for (double& error : errors) error *= kMeanDoubt;
+        const auto are_met = [&](const std::vector<double>& of) {
+            return std::ranges::all_of(of, [&](double error) { return error <= limits.tolerance; });
+        };
+        const bool only_edges = fast.period_nm > 0 && fast.rest_nm < kSlow * path_nm;
+        add_left_out(stack, fast.indices, polarizations, only_edges, scratch, without_waves);
+        if (are_met(errors) && !are_met(without_waves)) {
+            add_waves(stack, fast.indices, incidence, polarizations, limits, scratch, errors);
+        } else {
+            errors = without_waves;
         }
-        return done;
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            take_better(colors[i], scratch.integrals[i], errors[i]);
+        return are_met(errors);
+    }
+
+    /// Adds what fringes may do that are left out to the errors; of two elements it is not known.
+    void add_left_out(const Stack& stack, std::span<const std::size_t> fast,
+                      std::size_t polarizations, bool only_edges, Scratch& scratch,
+                      std::vector<double>& errors) const {
+        if (fast.size() > 1) {
+            std::ranges::fill(errors, std::numeric_limits<double>::infinity());
+            return;
+        }
+        kinks_of(stack.elements[fast[0]], 1, scratch.kinks);
+        for (std::size_t i = 0; i < errors.size(); ++i)
+            for (std::size_t k = 0; k < polarizations; ++k) {
+                LeftOutFringes& fringes = scratch.left_out[k];
+                errors[i] += (fringes.error(request_.sides[i], tables_, only_edges) +
+                              fringes.at_kinks(request_.sides[i], tables_, scratch.kinks)) /
+                             static_cast<double>(polarizations);
+            }
+    }
+
+    /// Adds the waves that the means leave out.
+    void add_waves(const Stack& stack, std::span<const std::size_t> fast, IncidentAngle incidence,
+                   std::size_t polarizations, const IntegrationLimits& limits, Scratch& scratch,
+                   std::vector<double>& errors) const {
+        const std::vector<double> ends = smooth_pieces(held_, sensitivity_.support());
+        for (std::size_t k = 0; k < polarizations; ++k) {
+            const auto polarization = polarization_of(k);
+            const FringeForms forms = [&](std::span<const double> nm, std::span<FringeForm> at) {
+                const IndexTable indices(held_, {nm.begin(), nm.end()});
+                for (std::size_t j = 0; j < nm.size(); ++j) {
+                    set_media(indices, j, incidence, polarization, scratch.media);
+                    at[j] = fringe_form(stack, fast, scratch.media, indices.k0()[j], polarization);
+                }
+            };
+            const std::vector<FringeSum> sums =
+                fringe_sums(sensitivity_, ends, fast.size(), request_.sides, forms,
+                            {kOfWaves * limits.tolerance,
+                             std::max<std::size_t>(limits.evaluations / 8, kFewestWavePoints)});
+            for (std::size_t i = 0; i < errors.size(); ++i) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    scratch.integrals[i].xyz[c] +=
+                        sums[i].xyz[c] / static_cast<double>(polarizations);
+                errors[i] += sums[i].error / static_cast<double>(polarizations);
+            }
+        }
+    }
+
+    Polarization polarization_of(std::size_t k) const {
+        return needs_.s && k == 0 ? Polarization::s : Polarization::p;
     }
 
     /// Rows of the tables of an element's materials.
@@ -401,26 +441,16 @@ private:
         }
     }
 
-    static void add_lengths(const Element& element, double repeat, std::vector<double>& length_nm) {
-        if (const Layer* layer = std::get_if<Layer>(&element.value)) {
-            length_nm[layer->material] += repeat * layer->thickness_nm;
-            return;
-        }
-        const Group& group = std::get<Group>(element.value);
-        for (const Element& inner : group.elements)
-            add_lengths(inner, repeat * static_cast<double>(group.repeat), length_nm);
-    }
-
     /// Means of the polarizations, and their denominators.
-    void fill_with_means(const Stack& stack, std::size_t fast, IncidentAngle incidence,
-                         std::size_t polarizations, const IndexTable& indices, Samples& samples,
-                         Scratch& scratch) const {
+    void fill_with_means(const Stack& stack, std::span<const std::size_t> fast,
+                         IncidentAngle incidence, std::size_t polarizations,
+                         const IndexTable& indices, Samples& samples, Scratch& scratch) const {
         const std::size_t sides = request_.sides.size();
         std::vector<Medium>& media = scratch.media;
         for (std::size_t j = 0; j < samples.points(); ++j) {
             for (std::size_t side = 0; side < sides; ++side) samples.row(side)[j] = 0;
             for (std::size_t k = 0; k < polarizations; ++k) {
-                const auto polarization = needs_.s && k == 0 ? Polarization::s : Polarization::p;
+                const auto polarization = polarization_of(k);
                 set_media(indices, j, incidence, polarization, media);
                 const FringeMean mean =
                     fringe_mean(stack, fast, media, indices.k0()[j], polarization);
@@ -430,9 +460,9 @@ private:
                         (request_.sides[side] == Side::reflected ? mean.R : mean.T) /
                         static_cast<double>(polarizations);
                 const std::size_t row = sides + 3 * k;
-                samples.row(row)[j] = mean.denominator.real();
-                samples.row(row + 1)[j] = mean.denominator.imag();
-                samples.row(row + 2)[j] = mean.log_scale;
+                samples.row(row)[j] = mean.form.denominator.real();
+                samples.row(row + 1)[j] = mean.form.denominator.imag();
+                samples.row(row + 2)[j] = mean.form.log_scale;
             }
         }
     }

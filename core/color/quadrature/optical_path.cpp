@@ -1,4 +1,4 @@
-#include "core/color/quadrature/stack_path.hpp"
+#include "core/color/quadrature/optical_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,26 @@ namespace {
 /// band gap. Edges of the gaps are found by halving panels.
 constexpr double kOpaquePeriods = 32;
 
+constexpr double kShortestPath_nm = 125;
+
 }  // namespace
+
+std::size_t path_class(double path_nm) {
+    const double k = std::ceil(2 * std::log2(path_nm / kShortestPath_nm));
+    return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(kPathClasses - 1)));
+}
+
+double path_of_class(std::size_t k) {
+    return kShortestPath_nm * std::exp2(static_cast<double>(k) / 2);
+}
+
+std::vector<double> path_wavelengths(bool constant, WavelengthRange support) {
+    if (constant) return {support.first_nm, support.last_nm};
+    std::vector<double> wavelengths;
+    for (int i = 0; i <= 4; ++i)
+        wavelengths.push_back(support.first_nm + (support.last_nm - support.first_nm) * i / 4);
+    return wavelengths;
+}
 
 double opaque_exponent(double tolerance) {
     return std::log(100 / tolerance);
@@ -63,6 +82,16 @@ Complex longest_normal(const IndexTable& table, std::size_t material, std::size_
     const Complex p =
         std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::p).q2);
     return std::abs(p.real()) > std::abs(s.real()) ? p : s;
+}
+
+void add_lengths(const Element& element, double repeat, std::vector<double>& length_nm) {
+    if (const Layer* layer = std::get_if<Layer>(&element.value)) {
+        length_nm[layer->material] += repeat * layer->thickness_nm;
+        return;
+    }
+    const Group& group = std::get<Group>(element.value);
+    for (const Element& inner : group.elements)
+        add_lengths(inner, repeat * static_cast<double>(group.repeat), length_nm);
 }
 
 }  // namespace irido

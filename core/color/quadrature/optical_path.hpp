@@ -2,13 +2,25 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
-#include "core/complex.hpp"
-#include "core/spectrum/spectrum.hpp"
+#include "core/coherent/coherent.hpp"
+#include "core/material/material.hpp"
 #include "core/stack/index_table.hpp"
 #include "core/stack/stack.hpp"
 
 namespace irido {
+
+/// Optical paths are rounded up to 125 nm times 2^(k/2), k < kPathClasses.
+constexpr std::size_t kPathClasses = 128;
+
+/// The class of a path, k; paths too long for any are in the last.
+std::size_t path_class(double path_nm);
+double path_of_class(std::size_t k);
+
+/// Wavelengths at which paths are as long as anywhere, more or less.
+///   constant  whether all indices are
+std::vector<double> path_wavelengths(bool constant, WavelengthRange support);
 
 /// Past this exponent of attenuation, one way and of the power, fringes of what is below are less
 /// than a hundredth of the tolerance.
@@ -27,20 +39,27 @@ struct Path {
 /// period makes them, once.
 enum class Gaps { attenuate, have_bands };
 
-/// Adds the path through elements, down to what is `opaque`, an exponent.
-///   elements  from the top
+/// Adds the path through elements as far as to what is opaque.
+///   elements  from the incident side
 ///   normal    kz/k0 of every material
-///   k0        per nm
+///   k0        2 pi / wavelength, 1/nm
 ///   opaque    opaque_exponent()
-///   gaps      how those of groups attenuate
-///   path      is added to
+///   gaps      of groups
+///   path      to add to
 void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
               double opaque, Gaps gaps, Path& path);
+
+/// Adds the thickness, nm, that an element has of each material, `repeat` times.
+void add_lengths(const Element& element, double repeat, std::vector<double>& length_nm);
 
 /// Layers whose matrices one evaluation takes, a doubling of an absorbing group among them.
 double work_of(std::span<const Element> elements);
 
 /// kz/k0 of the polarization that turns more in a medium.
+///   table       indices of the stack's materials
+///   material    the medium
+///   wavelength  position in the table
+///   incidence   direction of the light in the incident medium
 Complex longest_normal(const IndexTable& table, std::size_t material, std::size_t wavelength,
                        IncidentAngle incidence);
 
