@@ -38,6 +38,14 @@ constexpr double kPlannedLost = 0.4;
 
 }  // namespace
 
+std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double path_nm) {
+    std::vector<SpectralPanel> panels;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        panels.push_back(
+            {{ends[i], ends[i + 1]}, std::numbers::pi * path_nm * (1 / ends[i] - 1 / ends[i + 1])});
+    return panels;
+}
+
 const QuadratureRule& PanelTree::Node::rule(std::size_t degree) {
     return *rules_[degree].get(lock_, [&] {
         return std::make_unique<std::shared_ptr<const QuadratureRule>>(

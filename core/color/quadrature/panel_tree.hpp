@@ -24,6 +24,9 @@ struct SpectralPanel {
     double half_turn = 0;
 };
 
+/// Panels between neighbouring wavelengths, nm, for fringes of an optical path, nm.
+std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double path_nm);
+
 /// Wavelengths at which spectra are computed, with the data prepared for them.
 struct SpectralPoints {
     std::vector<double> wavelength_nm;

@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <mutex>
-#include <numbers>
 
 #include "core/coherent/fringe_mean.hpp"
 #include "core/coherent/media.hpp"
@@ -67,14 +66,6 @@ constexpr double kKinkStep = 1e-7;
 
 /// Squares of normal indices below this part of the index' own are taken to be that.
 constexpr double kLeastNormal = 1e-6;
-
-std::vector<SpectralPanel> panels_of(const std::vector<double>& ends, double path_nm) {
-    std::vector<SpectralPanel> panels;
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-        panels.push_back(
-            {{ends[i], ends[i + 1]}, std::numbers::pi * path_nm * (1 / ends[i] - 1 / ends[i + 1])});
-    return panels;
-}
 
 /// Whether a material's k is known between the wavelengths of the survey from what it is there.
 bool is_surveyed(const Material& material) {

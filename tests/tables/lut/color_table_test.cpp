@@ -25,7 +25,7 @@ LutRequest request_of(const VariedExpression& varied, double first, double last,
     request.document = schemas::read_stack({varied.stack, {}});
     request.sensitivity = std::make_shared<Sensitivity>(observer(2), illuminant("D65"));
     request.illuminant = "D65";
-    request.observer = "2";
+    request.observer = std::string("2");
     request.space = &rgb_space(space);
     request.options["cos"] = equally_spaced(0.05, 1, 4);
     request.vary = {{varied.path, equally_spaced(first, last, 5)}};
