@@ -339,7 +339,8 @@ private:
             std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
         scratch.integrals.resize(colors.size());
         const bool has_waves = fast.indices.size() > 1 || !is_fine(path_nm, limits);
-        IntegrationLimits of_means{(has_waves ? kOfMeansWithWaves : kOfMeans) * limits.tolerance,
+        const double part = has_waves ? kOfMeansWithWaves : kOfMeans;
+        IntegrationLimits of_means{std::max(kSmallestTolerance, part * limits.tolerance),
                                    std::min(request_.evaluations, affordable), limits.simd};
         if (!constant_) of_means.index_effects = index_effects(incidence, scratch.effects);
         integrate_color(sensitivity_, start, polarizations, sample, of_means, scratch.integration,
