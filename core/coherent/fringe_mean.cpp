@@ -173,7 +173,10 @@ Parts parts_of(const Stack& stack, std::span<const std::size_t> fast, std::span<
 }
 
 FringeForm form_of(const Parts& parts) {
-    const auto& [in, out, between, waves, fast] = parts;
+    const Wave &in = parts.in, &out = parts.out;
+    const auto& between = parts.between;
+    const auto& waves = parts.waves;
+    const std::size_t fast = parts.fast;
     FringeForm form;
     const auto set = [&](std::size_t i, const FieldPair& v) {
         form.incident.at(i) = (v.b / in.b + v.c / in.c) / 2.0;

@@ -133,7 +133,7 @@ private:
             grow(f, decay);
             put(absorbed, first + 1, f.log_scale);
         };
-        const auto through = [&, k0](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
+        const auto through = [&](std::uint32_t layer, Fields& s, Fields& p) HWY_ATTR {
             if constexpr (kIsShared) {
                 const double *shared = shared_ + layer * kShared, *forms = forms_ + layer * kForms;
                 const Cx c = slots(shared, kCRe);

@@ -142,7 +142,7 @@ struct LayersRun : MediaRun {
         in_batches<kS, kP, kSideBySide>(
             step, s_out, p_out,
             [this, k0](auto count, const std::uint32_t* order, Fields& s, Fields& p)
-                HWY_ATTR { travelling_layers<kS, kP, count()>(order, k0, s, p); });
+                HWY_ATTR { this->template travelling_layers<kS, kP, count()>(order, k0, s, p); });
     }
 
     /// Travelling layers with matrices from share_layers().

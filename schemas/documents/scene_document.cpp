@@ -77,9 +77,9 @@ public:
         return std::move(scene_);
     }
 
-    /// The materials that break no rule, in the default light, with the stacks and surfaces of the
-    /// others among the faults.
-    Scene read_rest(const std::vector<Problem>& problems) {
+    /// The materials that break no rule, in the default light. The faults in the stacks and
+    /// surfaces of the others are added to `lines`.
+    Scene read_rest(const std::vector<Problem>& problems, std::vector<std::string>& lines) {
         scene_.file = file_;
         const auto materials = document_.find("materials");
         if (materials == document_.end() || !materials->is_array()) return std::move(scene_);
@@ -89,10 +89,13 @@ public:
             const bool is_broken = std::ranges::any_of(problems, [&](const Problem& problem) {
                 return (problem.pointer + "/").starts_with(pointer + "/");
             });
-            if (!is_broken)
+            if (!is_broken) {
                 scene_.materials.push_back(material(object, pointer));
-            else if (object.is_object())
-                scene_.materials.push_back(inside_of(object, pointer));
+            } else if (object.is_object()) {
+                const SceneMaterial broken = inside_of(object, pointer);
+                for (const SceneFault& fault : broken.faults)
+                    lines.push_back(fault_text(scene_, broken.name, fault));
+            }
         }
         return std::move(scene_);
     }
@@ -325,7 +328,7 @@ Scene readable_scene(const json& document, const std::string& file, const std::s
     if (broken.empty()) return reader.read();
     for (const Problem& problem : broken)
         problems.emplace_back(InputError(file, problem.pointer, problem.message).what());
-    return reader.read_rest(broken);
+    return reader.read_rest(broken, problems);
 }
 
 Scene read_scene(const json& document, const std::string& file, const std::string& folder) {

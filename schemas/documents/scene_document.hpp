@@ -99,12 +99,12 @@ Scene read_scene(const nlohmann::json& document, const std::string& file,
                  const std::string& folder);
 
 /// Reads what can be read of a scene, for reports of all its problems: if the scene breaks rules of
-/// its own, the settings are the defaults, and a material that breaks them has only the faults of
-/// its stack or surface.
+/// its own, the settings are the defaults, and materials that break them are left out.
 /// document  the scene
 /// file      its name in messages
 /// folder    base of its relative paths
-/// problems  receives those for which read_scene() throws, one line each
+/// problems  receives those for which read_scene() throws, one line each, and those in the stacks
+///           and surfaces of materials that are left out
 Scene readable_scene(const nlohmann::json& document, const std::string& file,
                      const std::string& folder, std::vector<std::string>& problems);
 

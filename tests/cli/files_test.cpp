@@ -244,7 +244,8 @@ TEST_CASE("output that cannot be written is refused by every command", "[cli][fi
     refused("plan plain.json -o /dev/full", "--output: must name a folder (got '/dev/full')");
     refused("plan plain.json -o plain.json", "the plan goes to standard output");
     refused("bake plain.json -o /dev/full", "/dev/full: cannot be created");
-    refused("bands '1 | (1@200 | 1.5@180)^10 | 1' --plot /dev/full", "--plot: must end in");
+    refused("bands '1 | (1@200 | 1.5@180)^10 | 1' -a 0:80:20 --plot /dev/full",
+            "--plot: must end in");
 }
 
 TEST_CASE("inputs that never end are refused", "[cli][files][slow]") {

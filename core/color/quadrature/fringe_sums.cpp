@@ -40,6 +40,9 @@ constexpr double kCorput = 8;
 /// A slope of the phase that varies by a larger factor may have a zero close by.
 constexpr double kSteady = 4;
 
+/// Beats of two elements are looked for up to this order.
+constexpr int kFarthestBeat = 24;
+
 /// Points, differentiation and coefficients of one degree on [-1, 1], at -cos(pi j/degree).
 template <int degree>
 struct ChebyshevGrid {
@@ -187,12 +190,10 @@ public:
         for (std::size_t side = 0; side < sums.size(); ++side) {
             double last = 0;
             for (std::size_t h = 0; h < waves_; ++h) {
-                const auto [m1, m2] = FringeHarmonics::wave(h);
-                const bool is_last = std::max(std::abs(m1), m2) == FringeHarmonics::kMost;
                 for (std::size_t c = 0; c < 3; ++c) {
                     const Complex value = values_[h][side].at(c);
                     sums[side].xyz.at(c) += value.real();
-                    if (is_last) last = std::max(last, std::abs(value));
+                    if (is_last(h)) last = std::max(last, std::abs(value));
                 }
             }
             sums[side].error = error_ + kDoubt * last;
@@ -249,6 +250,8 @@ private:
         for (const FringeForm& form : at_) harmonics_.push_back(fringe_harmonics(form, elements_));
         std::vector<PanelHarmonic> kept;
         double error = 0;
+        std::array<double, 2> pure_sizes{};  ///< of waves of one element, the last
+
         for (std::size_t h = 0; h < waves_; ++h) {
             const auto [m1, m2] = FringeHarmonics::wave(h);
             PanelHarmonic wave{h, m1 * turn[0], {}, {}};
@@ -265,6 +268,8 @@ private:
             }
             if (!(size < kInfinity)) return false;
             if (size == 0) continue;
+            if (is_last(h) && m2 == 0) pure_sizes[0] = size;
+            if (is_last(h) && m1 == 0) pure_sizes[1] = size;
             const double low = wave.slope.minCoeff(), high = wave.slope.maxCoeff();
             const double slowest = low * high > 0 ? std::min(std::abs(low), std::abs(high)) : 0;
             const double fastest = std::max(std::abs(low), std::abs(high));
@@ -299,9 +304,39 @@ private:
             error += unresolved + (std::abs(m1) * rounding[0] + m2 * rounding[1]) * bound;
             kept.push_back(std::move(wave));
         }
+        if (elements_ == 2) error += kDoubt * far_beats(turn, pure_sizes) * light;
         add_panel(panel, kept);
         error_ += error;
         return true;
+    }
+
+    /// Whether the sum does not go beyond the order of a wave.
+    static bool is_last(std::size_t h) {
+        const auto [m1, m2] = FringeHarmonics::wave(h);
+        return std::max(std::abs(m1), m2) == FringeHarmonics::kMost;
+    }
+
+    /// Estimate of the amplitudes of waves of higher order than the sum has, m1 phases of the one
+    /// and m2 of the other, that stand still on a panel: phases that are multiples of one another
+    /// do not average out.
+    ///   turn   phases of the elements
+    ///   sizes  of the waves (kMost, 0) and (0, kMost); each phase more takes a constant factor
+    static double far_beats(const std::array<PanelPoints, 2>& turn,
+                            const std::array<double, 2>& sizes) {
+        const auto turned = [](const PanelPoints& phase) { return phase[kPanelDegree] - phase[0]; };
+        if (turned(turn[1]) == 0) return 0;
+        const double ratio = turned(turn[0]) / turned(turn[1]);
+        double sum = 0;
+        for (int m1 = 1; m1 <= kFarthestBeat; ++m1) {
+            const double m2 = -std::round(m1 * ratio);
+            const double order = std::max<double>(m1, std::abs(m2));
+            if (order <= FringeHarmonics::kMost || order > kFarthestBeat) continue;
+            const PanelPoints beat = m1 * turn[0] + m2 * turn[1];
+            if (beat.maxCoeff() - beat.minCoeff() < kStandsStill * kPanelDegree)
+                sum += std::pow(sizes[0], m1 / double{FringeHarmonics::kMost}) *
+                       std::pow(sizes[1], std::abs(m2) / FringeHarmonics::kMost);
+        }
+        return sum;
     }
 
     void add_panel(WavelengthRange panel, const std::vector<PanelHarmonic>& waves) {

@@ -51,6 +51,9 @@ constexpr double kWaves_nm = 4e5, kRest = 0.1;
 /// their error is up to kMeanDoubt times the estimate, which such bounds outweigh and waves do not.
 constexpr double kOfMeans = 0.5, kOfMeansWithWaves = 0.01, kOfWaves = 0.25, kMeanDoubt = 40;
 
+/// Larger tolerances leave narrow features of the waves unseen, and their errors with them.
+constexpr double kResolved = 1e-6;
+
 /// Layers of a path below this share of the fringes' have no lines as narrow as these.
 constexpr double kSlow = 0.01;
 
@@ -339,8 +342,9 @@ private:
             std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
         scratch.integrals.resize(colors.size());
         const bool has_waves = fast.indices.size() > 1 || !is_fine(path_nm, limits);
-        const double part = has_waves ? kOfMeansWithWaves : kOfMeans;
-        IntegrationLimits of_means{std::max(kSmallestTolerance, part * limits.tolerance),
+        const double of_all = has_waves ? kOfMeansWithWaves * std::min(limits.tolerance, kResolved)
+                                        : kOfMeans * limits.tolerance;
+        IntegrationLimits of_means{std::max(kSmallestTolerance, of_all),
                                    std::min(request_.evaluations, affordable), limits.simd};
         if (!constant_) of_means.index_effects = index_effects(incidence, scratch.effects);
         integrate_color(sensitivity_, start, polarizations, sample, of_means, scratch.integration,
@@ -398,7 +402,7 @@ private:
             };
             const std::vector<FringeSum> sums =
                 fringe_sums(sensitivity_, ends, fast.size(), request_.sides, forms,
-                            {kOfWaves * limits.tolerance,
+                            {kOfWaves * std::min(limits.tolerance, kResolved),
                              std::max<std::size_t>(limits.evaluations / 8, kFewestWavePoints)});
             for (std::size_t i = 0; i < errors.size(); ++i) {
                 for (std::size_t c = 0; c < 3; ++c)

@@ -262,10 +262,8 @@ private:
                        {"type", name_of(table.making.type)},
                        {"mips", table.making.mips},
                        {"format", scene_.format}};
-        for (const auto& [name, value] : request.options) {
-            json& written = inputs["options"][name];
-            std::visit([&](const auto& v) { written = v; }, value);
-        }
+        for (const auto& [name, value] : request.options)
+            std::visit([&, &key = name](const auto& v) { inputs["options"][key] = v; }, value);
         if (table.kind->stack) inputs["stack"] = schemas::canonical_stack(request.document.stack);
         if (table.may_end_early) inputs["may_end_early"] = true;
         for (const VariedValue& vary : request.vary)

@@ -228,7 +228,8 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
     refuse({kPale, "--alpha", "0.1"}, "--alpha applies to stacks only");
     refuse({kPale, "--view-theta", "91"}, "--view-theta: must be in [0, 90] (got 91)");
     refuse({kPale, "--light-theta", "nan"}, "--light-theta");
-    refuse({kPale, "--quantity", "colour"}, "--quantity: must be one of brdf, albedo");
+    refuse({kPale, "--quantity", "colour"},
+           "--quantity of a layered surface: must be one of brdf, albedo");
     refuse({kPale, "--paths", "few"}, "--paths: must be one of single, all");
     refuse({kPale, "--paths", "simulation", "--samples", "1e9"}, "require --output");
     refuse({kPale, "--samples", "10"}, "--samples: requires --paths simulation");

@@ -296,7 +296,7 @@ TEST_CASE("lamps inside a clear shape, around an opaque one or half inside are d
           "[cli][render]") {
     TemporaryFolder folder;
     const auto seen = [&](const std::vector<std::string>& more, const std::string& stack) {
-        std::vector<std::string> all{"--size", "8", "--samples", "4", "-o", folder / "x.exr"};
+        std::vector<std::string> all{"--size", "8,4", "--samples", "4", "-o", folder / "x.exr"};
         all.insert(all.end(), more.begin(), more.end());
         const Outcome outcome = render(all, stack);
         INFO(outcome.err);

@@ -88,7 +88,7 @@ TEST_CASE("a misspelt value of an option is told from what it may be", "[cli][re
         {{"compare", kFilm, "--engine", "gltf", "--white", "comon"}, "common"},
         {{"compare", "--random", "3", "--engine", "gltf", "--base", "dielectic"}, "dielectric"},
         {{"convert", kFilm, "-f", "zmax"}, "zemax"},
-        {{"completion", "bsh"}, "bash"},
+        {{"completion", "bassh"}, "bash"},
         {{"plan", "schemas/examples/scenes/beetle.json", "-f", "jsno"}, "json"},
         {{"render", "schemas/examples/scenes/beetle.json", "--show", "gren", "-o", "x.png"},
          "green"},

@@ -323,9 +323,10 @@ TEST_CASE("auto sums the series where quadrature would take long") {
 }
 
 TEST_CASE("fringes past all resolution are an honest failure", "[slow]") {
-    StackBuilder b;  // two thick layers: averaging over one phase leaves the other's fringes
+    StackBuilder b;  // three thick layers: averaging over two phases leaves the third's fringes
     b.add(b.layer(1.5, 1e9));
     b.add(b.layer(2, 1e9));
+    b.add(b.layer(1.7, 1e9));
     const StackColor result = color(b.over(2.5), 0, Side::reflected, 1e-6);
     CHECK(result.error > 1e-6);
     CHECK(result.evaluations < (1U << 20) + 2048U * 129U + 129U * 64U);

@@ -166,10 +166,10 @@ TEST_CASE("every rule of the scene schema is refused with its place and value", 
     const std::vector<Fault> faults{
         {"/space", "srgbb",
          "/space: must be one of srgb, rec2020, display-p3, acescg, xyz "
-         "(got \"srgbb\")"},
+         "(got \"srgbb\") (did you mean \"srgb\"?)"},
         {"/illuminant", "D55",
          "/illuminant: must be one of D65, D50, A, E, FL2, FL11 "
-         "(got \"D55\")"},
+         "(got \"D55\") (did you mean \"D65\"?)"},
         {"/observer", 4, "/observer: must be 2 or 10 (got 4)"},
         {"/adaptation", true, "/adaptation: must be one of bradford, none (got true)"},
         {"/tolerance", 0.5,
@@ -225,7 +225,7 @@ TEST_CASE("every rule of the scene schema is refused with its place and value", 
         {m + "/thickness_spread_nm", -1, m + "/thickness_spread_nm: must be in [0, 1e6] (got -1)"},
         {m + "/shading", "colour",
          m + "/shading: must be one of color, fourier, bragg, rough-layers, albedo, "
-             "facets, scratches (got \"colour\")"},
+             "facets, scratches (got \"colour\") (did you mean \"color\"?)"},
     };
     for (const Fault& fault : faults) {
         INFO(fault.pointer << " = " << fault.value);

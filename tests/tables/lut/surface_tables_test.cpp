@@ -166,7 +166,7 @@ TEST_CASE("tables of surfaces refuse what they cannot be", "[cli][brdf]") {
     refused({"brdf", pale, "--theta-h", "10,5", "-o", folder / "x.npy"}, "theta_h_deg must ascend");
     refused({"brdf", pale, "--size", "4", "-o", folder / "x.png"}, "--phi-d: a picture shows one");
     refused({"brdf", pale, "--paths", "simulation", "-o", folder / "x.npy"},
-            "--paths: must be single or all");
+            "--paths: must be one of single, all");
     refused({"brdf", "schemas/examples/surfaces/worn-spoon.json", "-o", folder / "x.npy"},
             "must be a layered surface");
     refused({"layered", "-", "-o", folder / "x.ktx2"}, "at least one layer",

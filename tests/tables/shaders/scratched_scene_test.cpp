@@ -128,7 +128,7 @@ TEST_CASE("a scratched material bakes, a second bake touches nothing, damage is 
     const json& grid = read["tables"][metal["tables"]["grid"].get<std::string>()];
     CHECK(grid["scratches"] == 2);
     CHECK(planned_bytes() == bytes_before);
-    CHECK(bytes_before.back() == grid["bytes"]);
+    CHECK(std::ranges::count(bytes_before, grid["bytes"].get<double>()) == 1);
     const std::string file = folder / "t/" + grid["file"].get<std::string>();
     CHECK(run_irido({"scratches", "--check", file}).out == file + ": ok\n");
     // a byte of a record

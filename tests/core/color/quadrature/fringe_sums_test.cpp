@@ -131,3 +131,41 @@ TEST_CASE("two mirrors of a billion periods each have their colour") {
     CHECK(colors[1].error <= 1e-6);
     CHECK(std::abs(colors[0].xyz[1] + colors[1].xyz[1] - 1) < 2e-6);
 }
+
+// Indices are constant and the phases whole multiples of one: R is a function of that, whose mean
+// is Y.
+TEST_CASE("beats of phases that are multiples of one another are in the colour or in its error",
+          "[color][regression]") {
+    struct Case {
+        double n1, n2, substrate;
+        int turns1, turns2;
+    };
+    int answered = 0;
+    for (const Case& c : {Case{1.5, 3, 1, 1, 1},
+                          {1.5, 2, 2.5, 3, 4},
+                          {1.5, 3, 1, 1, 2},
+                          {4, 1.2, 4, 1, 1},
+                          {4, 1, 4, 4, 1},
+                          {3, 1, 3, 7, 1}}) {
+        StackBuilder b;
+        b.add(b.layer(c.n1, 1e8 * c.turns1 / c.n1));
+        b.add(b.layer(c.n2, 1e8 * c.turns2 / c.n2));
+        const StackColor got = colors_of(b.over(c.substrate), 0, 1e-6, 1U << 20).front();
+        const auto face = [](double above, double below) {
+            return Complex((above - below) / (above + below));
+        };
+        constexpr int kPhases = 20000;
+        double mean = 0;
+        for (int i = 0; i < kPhases; ++i) {
+            const double phase = 2 * std::numbers::pi * i / kPhases;
+            Complex r = face(c.n2, c.substrate) * std::polar(1.0, c.turns2 * phase);
+            r = (face(c.n1, c.n2) + r) / (1.0 + face(c.n1, c.n2) * r);
+            r *= std::polar(1.0, c.turns1 * phase);
+            mean += std::norm((face(1, c.n1) + r) / (1.0 + face(1, c.n1) * r)) / kPhases;
+        }
+        CAPTURE(c.n1, c.n2, c.turns1, c.turns2, got.error);
+        CHECK(std::abs(got.xyz[1] - mean) <= got.error + 1e-12);
+        answered += got.error <= 1e-6;
+    }
+    CHECK(answered >= 3);
+}
