@@ -62,11 +62,11 @@ public:
 
 private:
     /// Points [first, end), vectors beginning with `first`.
-    ///   fixed  numbers of their FixedPoints
+    ///   fixed  numbers of their FixedPoints, or nullptr
     void compute_part(std::size_t first, std::size_t end, const double* fixed) {
         for (std::size_t point = first; point < end; point += hn::Lanes(Lanes())) {
             prepare_varying(point);
-            fixed_ = fixed + fixed_place(point - first, run_.fixed_rows);
+            fixed_ = fixed ? fixed + fixed_place(point - first, run_.fixed_rows) : nullptr;
             const std::size_t lanes = std::min(hn::Lanes(Lanes()), end - point);
             if (s_ && p_) {
                 compute<true, true>(point, lanes);
