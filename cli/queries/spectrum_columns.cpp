@@ -59,12 +59,13 @@ public:
 
     /// Appends a power; `offset` is the index of its first point.
     void power(std::vector<double> Spectrum::*quantity, std::size_t offset = 0) const {
-        const double* s = (spectra_.s.*quantity).data() + offset;
-        const double* p = (spectra_.p.*quantity).data() + offset;
+        const double* s = (spectra_.s.*quantity).data();
+        const double* p = (spectra_.p.*quantity).data();
         append([&](char polarization, std::size_t point) {
-            if (polarization == 's') return s[point];
-            if (polarization == 'p') return p[point];
-            return (s[point] + p[point]) / 2;
+            const std::size_t i = offset + point;
+            if (polarization == 's') return s[i];
+            if (polarization == 'p') return p[i];
+            return (s[i] + p[i]) / 2;
         });
     }
 
