@@ -196,7 +196,7 @@ public:
                     if (is_last(h)) last = std::max(last, std::abs(value));
                 }
             }
-            sums[side].error = error_ + kDoubt * last;
+            sums[side].error = kDoubt * (error_ + last);
         }
         return sums;
     }

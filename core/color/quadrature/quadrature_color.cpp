@@ -49,7 +49,7 @@ constexpr double kWaves_nm = 4e5, kRest = 0.1;
 /// Parts of the tolerance: of the means, if what they leave out is bounded or added as waves, and
 /// of the waves. Next to gap edges the means follow a dozen fringes, which may hide between points:
 /// their error is up to kMeanDoubt times the estimate, which such bounds outweigh and waves do not.
-constexpr double kOfMeans = 0.5, kOfMeansWithWaves = 0.01, kOfWaves = 0.25, kMeanDoubt = 40;
+constexpr double kOfMeans = 0.5, kOfMeansWithWaves = 0.01, kOfWaves = 0.1, kMeanDoubt = 40;
 
 /// Larger tolerances leave narrow features of the waves unseen, and their errors with them.
 constexpr double kResolved = 1e-6;
