@@ -144,9 +144,9 @@ double size_of(const Matrix& m) {
 
 /// An absorbing group: its absorption is summed by repeated doubling, in which all terms have one
 /// sign. While light still gets through, the intermediate matrices are closed-form powers; beyond
-/// that only the doubled matrices balance the doubled absorption to the last digit. They lose digits
-/// of the fields' ratio where a period's trace cancels, and doubling doubles the error of their
-/// logarithm; the closed form does neither, and gives both in the end.
+/// that only the doubled matrices balance the doubled absorption to the last digit. They lose
+/// digits of the fields' ratio where a period's trace cancels, and doubling doubles the error of
+/// their logarithm; the closed form does neither, and gives both in the end.
 Slab group_slab(const Group& group, std::span<const Medium> media, double k0,
                 Polarization polarization) {
     const Slab period = slab_of(group.elements, media, k0, polarization);

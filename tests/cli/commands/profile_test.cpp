@@ -136,13 +136,13 @@ TEST_CASE("layers that no light reaches have no field", "[cli][profile]") {
     REQUIRE(table.size() == 1 + 1002);
     double begin = 0;
     for (std::size_t i = 1; i < table.size(); ++i) {
-    // std::stod rejects subnormal numbers
-    const double largest = std::strtod(table[i][6].c_str(), nullptr);
-    const double at = std::strtod(table[i][7].c_str(), nullptr);
-    const double thickness = i > 1001 ? 0 : i == 1001 ? 71.5 : i % 2 == 1 ? 178.8 : 147.9;
-    CAPTURE(i);
-    CHECK((largest >= 0 && largest < 4));
-    CHECK((at > begin - 1e-6 && at < begin + thickness + 1e-6));
-    begin += thickness;
+        // std::stod rejects subnormal numbers
+        const double largest = std::strtod(table[i][6].c_str(), nullptr);
+        const double at = std::strtod(table[i][7].c_str(), nullptr);
+        const double thickness = i > 1001 ? 0 : i == 1001 ? 71.5 : i % 2 == 1 ? 178.8 : 147.9;
+        CAPTURE(i);
+        CHECK((largest >= 0 && largest < 4));
+        CHECK((at > begin - 1e-6 && at < begin + thickness + 1e-6));
+        begin += thickness;
     }
 }
