@@ -6,24 +6,17 @@
 
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
+#include "core/scratch/vectors.hpp"
 
 namespace irido {
 
 namespace {
 
-using Place = std::array<double, 3>;
-
 constexpr double kFarthestLight_mm = 1e12;
 
-double dot(const Place& a, const Place& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Place cross(const Place& a, const Place& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 /// Nothing of a vector without length.
 std::optional<UnitVector> unit_of(const Place& v) {
-    const double length = std::hypot(v[0], v[1], v[2]);
+    const double length = length_of(v);
     if (!(length > 0)) return std::nullopt;
     return UnitVector{v[0] / length, v[1] / length, v[2] / length};
 }
@@ -46,7 +39,7 @@ void LightCone::set_sphere(const SphereLight& light) {
     require_in_range("radius_mm", light.radius_mm, std::numeric_limits<double>::min(),
                      kFarthestLight_mm);
     const Place& c = light.center_mm;
-    const double distance = std::hypot(c[0], c[1], c[2]), sine = light.radius_mm / distance;
+    const double distance = length_of(c), sine = light.radius_mm / distance;
     if (!(sine < 1))
         throw DomainError("radius_mm must be below the distance of center_mm, " +
                           to_text(distance) + " (got " + to_text(light.radius_mm) + ")");

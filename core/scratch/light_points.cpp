@@ -4,36 +4,27 @@
 
 #include "core/math/constants.hpp"
 #include "core/scratch/light_integral.hpp"
+#include "core/scratch/vectors.hpp"
 
 namespace irido {
 
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector minus(const Vector& a, const Vector& b) {
+Place minus(const Place& a, const Place& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vector cross_product(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double length_of(const Vector& a) {
-    return std::hypot(a[0], a[1], a[2]);
 }
 
 /// Points on rings about the axis, at equal parts of 1 - cosine weighted by Gauss's rule.
 std::vector<LightPoint> points_of(const SphereLight& light, int order) {
-    const Vector& c = light.center_mm;
+    const Place& c = light.center_mm;
     const double distance = length_of(c), sine = light.radius_mm / distance;
     const double versine = sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
-    const Vector axis{c[0] / distance, c[1] / distance, c[2] / distance};
-    const Vector aside = std::abs(axis[0]) < 0.9 ? Vector{1, 0, 0} : Vector{0, 1, 0};
-    Vector x = cross_product(axis, aside);
+    const Place axis{c[0] / distance, c[1] / distance, c[2] / distance};
+    const Place aside = std::abs(axis[0]) < 0.9 ? Place{1, 0, 0} : Place{0, 1, 0};
+    Place x = cross(axis, aside);
     const double length = length_of(x);
     for (double& value : x) value /= length;
-    const Vector y = cross_product(axis, x);
+    const Place y = cross(axis, x);
     const int turns = 2 * order;
     std::vector<LightPoint> points;
     for (const RulePoint& ring : legendre_rule(order)) {
@@ -56,18 +47,16 @@ std::vector<LightPoint> points_of(const PolygonLight& light, int order) {
     const std::vector<RulePoint> rule = legendre_rule(order + 1);  // one more for the Jacobian
     std::vector<LightPoint> points;
     for (std::size_t t = 1; t + 1 < corners.size(); ++t) {
-        const Vector one = minus(corners[t], corners[0]), two = minus(corners[t + 1], corners[0]);
-        const Vector normal = cross_product(one, two);  // of twice the area's length
+        const Place one = minus(corners[t], corners[0]), two = minus(corners[t + 1], corners[0]);
+        const Place normal = cross(one, two);  // of twice the area's length
         for (const RulePoint& u : rule)
             for (const RulePoint& v : rule) {
                 const double along = (1 + u.x) / 2, part = (1 + v.x) / 2;
-                Vector place = corners[0];
+                Place place = corners[0];
                 for (std::size_t i = 0; i < 3; ++i)
                     place[i] += along * ((1 - part) * one[i] + part * two[i]);
                 const double distance = length_of(place);
-                const double facing =
-                    std::abs(normal[0] * place[0] + normal[1] * place[1] + normal[2] * place[2]) /
-                    distance;
+                const double facing = std::abs(dot(normal, place)) / distance;
                 points.push_back(
                     {{place[0] / distance, place[1] / distance, place[2] / distance},
                      along * u.weight * v.weight / 4 * facing / (distance * distance)});

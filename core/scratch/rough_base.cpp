@@ -3,14 +3,11 @@
 #include "core/error.hpp"
 #include "core/math/gauss.hpp"
 #include "core/rough/ggx.hpp"
+#include "core/scratch/vectors.hpp"
 
 namespace irido {
 
 namespace {
-
-double cosine_between(const UnitVector& a, const UnitVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 double cosine_of_half(double between) {
     return std::sqrt(std::clamp((1 + between) / 2, 0.0, 1.0));
@@ -155,7 +152,7 @@ private:
 double facet_brdf(double alpha, const UnitVector& light, const UnitVector& view) {
     const double i = light[2], o = view[2];
     if (!(i > 0) || !(o > 0)) return 0;
-    const double half = cosine_of_half(cosine_between(light, view));
+    const double half = cosine_of_half(dot(light, view));
     if (!(half > 0)) return 0;
     return ggx_distribution(alpha, std::min(1.0, (i + o) / (2 * half))) * smith_masking(alpha, i) *
            smith_masking(alpha, o) / (4 * i * o);
@@ -163,8 +160,7 @@ double facet_brdf(double alpha, const UnitVector& light, const UnitVector& view)
 
 CosineRange half_cosines(const LightCone& light, const UnitVector& view) {
     constexpr double kLeast = 1e-6;
-    const double between =
-                     std::acos(std::clamp(cosine_between(light.bound().normal, view), -1.0, 1.0)),
+    const double between = std::acos(std::clamp(dot(light.bound().normal, view), -1.0, 1.0)),
                  reach = std::acos(std::clamp(light.bound().least, -1.0, 1.0));
     const double low = std::cos(std::min(kPi, between + reach) / 2),
                  high = std::cos(std::max(0.0, between - reach) / 2);

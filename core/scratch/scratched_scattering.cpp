@@ -14,6 +14,7 @@
 #include "core/scratch/light_points.hpp"
 #include "core/scratch/rough_base.hpp"
 #include "core/scratch/slit_color.hpp"
+#include "core/scratch/vectors.hpp"
 #include "core/spectrum/spectrum.hpp"
 
 namespace irido {
@@ -23,12 +24,8 @@ namespace {
 constexpr double kNanometres = 1000;  // in a micrometre
 constexpr double kShortest_nm = 1, kLongest_nm = 1e7;
 
-double dot_of(const UnitVector& a, const UnitVector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double half_cosine(const SkyPair& pair) {
-    return std::sqrt(std::clamp((1 + dot_of(pair.light, pair.view)) / 2, 0.0, 1.0));
+    return std::sqrt(std::clamp((1 + dot(pair.light, pair.view)) / 2, 0.0, 1.0));
 }
 
 /// Reflectance of unpolarized light, [angle][wavelength].
