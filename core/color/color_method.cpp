@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/color/fourier/one_film.hpp"
 #include "core/error.hpp"
 
 #define IRIDO_DECLARE(name) extern const ColorMethodKind name;
@@ -19,6 +20,11 @@ std::span<const ColorMethodKind* const> color_methods() {
 }
 #undef IRIDO_DECLARE
 #undef IRIDO_ALL
+
+std::string ColorMethodKind::fault_in(const Stack& stack, const ColorRequest& request) const {
+    if (needs_reflected_film) return reflected_film_fault(name, stack, request);
+    return fault ? fault(stack, request) : "";
+}
 
 const ColorMethodKind* find_color_method(std::string_view name) {
     const auto found = std::ranges::find(color_methods(), name, &ColorMethodKind::name);

@@ -57,8 +57,7 @@ struct ColorMethodKind {
     MethodTrials trials;
     bool needs_reflected_film = false;  ///< takes only light reflected by one film
     bool takes_base_color = false;      ///< ColorMethod::base_color has a meaning
-    /// Why the method does not support a stack or a request, a sentence; "" if it does. nullptr: it
-    /// supports every stack.
+    /// What else the method does not support, as fault_in() says it; nullptr: nothing.
     std::string (*fault)(const Stack& stack, const ColorRequest& request) = nullptr;
     /// Prepares the method, as color_algorithm() does, for a stack without a fault.
     std::unique_ptr<ColorAlgorithm> (*prepare)(const ColorTables& tables, const Stack& stack,
@@ -66,6 +65,9 @@ struct ColorMethodKind {
                                                const ColorRequest& request) = nullptr;
 
     bool takes_number() const { return number.most > 0; }
+
+    /// Why the method does not support a stack or a request, a sentence; "" if it does.
+    std::string fault_in(const Stack& stack, const ColorRequest& request) const;
 };
 
 extern const ColorMethodKind color_method_auto;

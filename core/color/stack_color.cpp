@@ -26,9 +26,8 @@ std::unique_ptr<ColorAlgorithm> color_algorithm(const ColorTables& tables, const
     const ColorMethodKind& kind = *method.kind;
     if (method.base_color && !kind.takes_base_color)
         throw DomainError("method " + std::string(kind.name) + " takes no base colour");
-    if (kind.fault)
-        if (const std::string fault = kind.fault(stack, request); !fault.empty())
-            throw DomainError(fault);
+    if (const std::string fault = kind.fault_in(stack, request); !fault.empty())
+        throw DomainError(fault);
     return kind.prepare(tables, stack, method, request);
 }
 

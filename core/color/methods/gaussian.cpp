@@ -83,10 +83,6 @@ extern constinit const ColorMethodKind color_method_gaussian = {
     .help = {9, "gaussian: the observer as Gaussians"},
     .trials = {.place = 8, .counts = kNoNumber, .what = "Belcour and Barla's Gaussians"},
     .needs_reflected_film = true,
-    .fault =
-        [](const Stack& stack, const ColorRequest& request) {
-            return reflected_film_fault("gaussian", stack, request);
-        },
     .prepare = gaussian_color,
 };
 

@@ -65,10 +65,6 @@ extern constinit const ColorMethodKind color_method_gltf = {
                .what = "the\nformulas of KHR_materials_iridescence"},
     .needs_reflected_film = true,
     .takes_base_color = true,
-    .fault =
-        [](const Stack& stack, const ColorRequest& request) {
-            return reflected_film_fault("gltf", stack, request);
-        },
     .prepare = gltf_color,
 };
 

@@ -105,10 +105,6 @@ extern constinit const ColorMethodKind color_method_smits = {
     .help = {11, "smits: a single round trip"},
     .trials = {.place = 10, .counts = kNoNumber, .what = "two beams"},
     .needs_reflected_film = true,
-    .fault =
-        [](const Stack& stack, const ColorRequest& request) {
-            return reflected_film_fault("smits", stack, request);
-        },
     .prepare = smits_color,
 };
 

@@ -376,7 +376,7 @@ private:
             std::ranges::fill(errors, std::numeric_limits<double>::infinity());
             return;
         }
-        kinks_of(stack.elements[fast[0]], 1, scratch.kinks);
+        kinks_of(stack.elements[fast[0]], scratch.kinks);
         for (std::size_t i = 0; i < errors.size(); ++i)
             for (std::size_t k = 0; k < polarizations; ++k) {
                 LeftOutFringes& fringes = scratch.left_out[k];
@@ -418,12 +418,11 @@ private:
     }
 
     /// Rows of the tables of an element's materials.
-    void kinks_of(const Element& element, double repeat,
-                  std::vector<LeftOutFringes::Kink>& kinks) const {
+    void kinks_of(const Element& element, std::vector<LeftOutFringes::Kink>& kinks) const {
         kinks.clear();
         if (constant_) return;
         std::vector<double> length_nm(held_.materials.size());
-        add_lengths(element, repeat, length_nm);
+        add_lengths(element, 1, length_nm);
         for (std::size_t m = 0; m < length_nm.size(); ++m) {
             if (length_nm[m] == 0) continue;
             const Material& material = held_.materials[m];

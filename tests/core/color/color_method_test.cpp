@@ -72,7 +72,7 @@ TEST_CASE("a colour method takes every stack in which it finds no fault", "[colo
             for (const Side side : {Side::reflected, Side::transmitted}) {
                 const Stack stack = stack_of(layers);
                 const ColorRequest request{.sides = {side}, .tolerance = 1e-4};
-                const std::string fault = method->fault ? method->fault(stack, request) : "";
+                const std::string fault = method->fault_in(stack, request);
                 CAPTURE(method->name, layers, fault);
                 const ColorMethod with_count{method, method->number.fallback};
                 if (!fault.empty()) {

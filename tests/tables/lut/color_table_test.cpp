@@ -68,10 +68,9 @@ TEST_CASE("rows of tables of colours are the stack's colours within the stated t
             const Stack stack = stacks.at(std::span(&request.vary[0].values[v], 1));
             for (std::size_t i = 0; i < 4; ++i) {
                 const double angle_deg = angle_of_cosine(request.list("cos")[i]);
-                const StackColor exact =
-                    stack_color(tables, stack, {find_color_method("quadrature")},
-                                {.tolerance = 1e-9}, std::span(&angle_deg, 1))
-                        .front();
+                const StackColor exact = stack_color(tables, stack, color_method("quadrature"),
+                                                     {.tolerance = 1e-9}, std::span(&angle_deg, 1))
+                                             .front();
                 const double* const value = lut.values.data() + (i * 5 + v) * 3;
                 CHECK(largest_difference({value[0], value[1], value[2]}, exact.xyz) <=
                       tolerance + exact.error);

@@ -24,7 +24,7 @@ std::vector<StackColor> colors_of(const ColorTables& tables, const Stack& stack,
                                   std::span<const double> angles_deg, double tolerance,
                                   Light light) {
     return stack_color(
-        tables, stack, {find_color_method("quadrature")},
+        tables, stack, color_method("quadrature"),
         {.sides = {Side::reflected, Side::transmitted}, .light = light, .tolerance = tolerance},
         angles_deg, 1);
 }

@@ -21,7 +21,7 @@ const ColorTables& d65_tables() {
 
 std::vector<StackColor> colors_of(const Stack& stack, double angle_deg, double tolerance,
                                   std::size_t evaluations) {
-    return stack_color(d65_tables(), stack, {find_color_method("quadrature")},
+    return stack_color(d65_tables(), stack, color_method("quadrature"),
                        {.sides = {Side::reflected, Side::transmitted},
                         .tolerance = tolerance,
                         .evaluations = evaluations},
