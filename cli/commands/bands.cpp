@@ -7,6 +7,7 @@
 #include "cli/options/picture_options.hpp"
 #include "cli/queries/bands_query.hpp"
 #include "core/error.hpp"
+#include "core/keep_once.hpp"
 #include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 #include "tables/files/atomic_file.hpp"
@@ -33,9 +34,7 @@ tables::Figure diagram_of(const BandsQuery& query, const BraggMirror& mirror,
     const std::span<const double> angles = query.angles_deg();
     tables::BandDiagram diagram{
         title, query.first_nm(), query.last_nm(), {angles.begin(), angles.end()}, {}};
-    std::ranges::sort(diagram.angles_deg);
-    diagram.angles_deg.erase(std::unique(diagram.angles_deg.begin(), diagram.angles_deg.end()),
-                             diagram.angles_deg.end());
+    keep_once(diagram.angles_deg);
     constexpr std::array kBoth{Polarization::s, Polarization::p};
     std::map<double, tables::BandDiagram::Gap> gaps;
     for (const double angle_deg : diagram.angles_deg)

@@ -8,6 +8,7 @@
 #include "cli/queries/stack_tables.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/colorimetry/observer.hpp"
+#include "core/keep_once.hpp"
 #include "core/material/linear_value.hpp"
 #include "core/math/adaptive_integral.hpp"
 #include "core/math/constants.hpp"
@@ -73,8 +74,7 @@ std::vector<double> panel_ends(const Stack& stack, const IndexTable& first, Wave
     for (double i = 1; i < parts; ++i)
         ends.push_back(1 /
                        (1 / range.first_nm + i / parts * (1 / range.last_nm - 1 / range.first_nm)));
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    keep_once(ends);
     return ends;
 }
 

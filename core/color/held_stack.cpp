@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/keep_once.hpp"
 
 namespace irido {
 
@@ -61,8 +62,7 @@ std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support, b
         for (const double nm : own)
             if (!std::ranges::binary_search(rows, nm)) add(nm);
     }
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    keep_once(ends);
     return ends;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/keep_once.hpp"
 #include "core/material/linear_value.hpp"
 #include "core/math/gauss.hpp"
 #include "core/math/transform.hpp"
@@ -48,8 +49,7 @@ Sensitivity::Sensitivity(const Observer& observer, const Table& illuminant)
     for (std::size_t i = 0; i < kObserverRows; ++i)
         rows_.push_back(kFirstRow_nm + static_cast<double>(i));
     rows_.insert(rows_.end(), rows.begin(), rows.end());
-    std::ranges::sort(rows_);
-    rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
+    keep_once(rows_);
     const double luminance = integral(support_)[1];
     if (!(luminance > 0))
         throw DomainError("the illuminant must have power where the observer sees it");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/keep_once.hpp"
 #include "core/material/air.hpp"
 #include "core/material/formula.hpp"
 #include "core/material/linear_value.hpp"
@@ -318,8 +319,7 @@ std::vector<double> kinks(const Material& material, WavelengthRange between) {
     const bool holds = material.outside == Outside::clamp;
     std::vector<double> found;
     add_kinks(material, between, holds ? kAllWavelengths : range_of(material), holds, found);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    keep_once(found);
     return found;
 }
 

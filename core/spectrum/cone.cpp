@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/keep_once.hpp"
 #include "core/math/adaptive_integral.hpp"
 #include "core/math/constants.hpp"
 #include "core/math/degrees.hpp"
@@ -66,8 +67,7 @@ std::vector<double> ConeLight::smooth_ends(std::span<const Complex> index, doubl
         const double critical = std::asin(one.real() / n0) - axis_;
         if (critical > ends_.front() && critical < ends_.back()) ends.push_back(critical);
     }
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    keep_once(ends);
     return ends;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/coherent/media.hpp"
 #include "core/error.hpp"
+#include "core/keep_once.hpp"
 #include "core/math/parallel.hpp"
 
 namespace irido {
@@ -276,10 +277,8 @@ public:
             if (with_s) pass(true, false);
             set_extraordinary(table_, wavelength, across, run_);
             pass(false, true);
-            for (auto* redo : {&redo_, &redo_layers_}) {
-                std::ranges::sort(*redo);
-                redo->erase(std::unique(redo->begin(), redo->end()), redo->end());
-            }
+            keep_once(redo_);
+            keep_once(redo_layers_);
         } else {
             pass(with_s, with_p);
         }

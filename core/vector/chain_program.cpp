@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/incoherent/incoherent.hpp"
+#include "core/keep_once.hpp"
 
 namespace irido {
 
@@ -134,11 +135,6 @@ private:
     const PointRun& run_;
     PointRun from_gap_;
 };
-
-void keep_once(std::vector<std::size_t>& points) {
-    std::ranges::sort(points);
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-}
 
 /// Absorption of the layers in one polarization, as ChainLight::layer_absorption().
 class LayersOfPolarization {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/keep_once.hpp"
 #include "tables/pictures/glyphs.hpp"
 #include "tables/pictures/inks.hpp"
 
@@ -270,8 +271,7 @@ std::vector<Point> thinned(const std::vector<Point>& line) {
             if (line[end].y > line[high].y) high = end;
         }
         std::vector<std::size_t> kept{begin, low, high, end - 1};
-        std::ranges::sort(kept);
-        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+        keep_once(kept);
         for (const std::size_t i : kept) out.push_back(line[i]);
         begin = end;
     }

@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 
+#include "core/keep_once.hpp"
+
 namespace irido::tables {
 
 namespace {
@@ -52,9 +54,7 @@ VariedKey varied_key(const Records& records, const RowKey& key) {
     if (result.is_number) {
         const std::vector<double> numbers = column_numbers(records, key.column);
         result.numbers = numbers;
-        std::ranges::sort(result.numbers);
-        result.numbers.erase(std::unique(result.numbers.begin(), result.numbers.end()),
-                             result.numbers.end());
+        keep_once(result.numbers);
         for (std::size_t i = 0; i < rows; ++i)
             result.of_row[i] = static_cast<std::uint32_t>(
                 std::ranges::lower_bound(result.numbers, numbers[i]) - result.numbers.begin());

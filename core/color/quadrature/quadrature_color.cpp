@@ -18,6 +18,7 @@
 #include "core/color/quadrature/left_out_fringes.hpp"
 #include "core/color/quadrature/optical_path.hpp"
 #include "core/error.hpp"
+#include "core/keep_once.hpp"
 #include "core/math/pool.hpp"
 #include "core/spectrum/spectrum.hpp"
 #include "core/spectrum/stack_power.hpp"
@@ -86,8 +87,7 @@ std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const Lay
             throw DomainError("varied layers must be layers of the stack");
         elements.push_back(place[0]);
     }
-    std::ranges::sort(elements);
-    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+    keep_once(elements);
     return elements;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/keep_once.hpp"
 #include "core/math/gauss.hpp"
 
 namespace irido {
@@ -213,8 +214,7 @@ SmoothIndices::SmoothIndices(const Stack& stack, const Sensitivity& sensitivity)
         material_rows_.push_back(table_rows(material, sensitivity.support()));
         rows_.insert(rows_.end(), material_rows_.back().begin(), material_rows_.back().end());
     }
-    std::ranges::sort(rows_);
-    rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
+    keep_once(rows_);
 }
 
 std::span<const double> SmoothIndices::rows_in(WavelengthRange panel) const {

@@ -7,6 +7,7 @@
 #include "core/coherent/coherent.hpp"
 #include "core/color/held_stack.hpp"
 #include "core/color/stack_color.hpp"
+#include "core/keep_once.hpp"
 #include "core/math/constants.hpp"
 #include "core/rough/layered/adding.hpp"
 #include "core/rough/layered/lobe.hpp"
@@ -43,8 +44,7 @@ std::vector<double> pieces_of(const LayeredSurface& surface, WavelengthRange sup
     if (const auto* table = std::get_if<Table>(&surface.base_albedo))
         for (const double nm : table->wavelength_nm)
             if (nm > support.first_nm && nm < support.last_nm) ends.push_back(nm);
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    keep_once(ends);
     return ends;
 }
 
@@ -136,8 +136,7 @@ void LayeredColor::add_first_layer(std::span<const ScatterPair> pairs,
         facets.push_back(mirror_facet(pair.theta_i_deg, pair.theta_o_deg, pair.phi_deg));
         angles.push_back(facets.back().theta_d_deg);
     }
-    std::ranges::sort(angles);
-    angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+    keep_once(angles);
     ColorRequest request;
     request.tolerance = std::max(kSmallestTolerance, tolerance_ / 2);
     request.colors = angles.size();

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace irido {
+
+/// Sorts values, ascending, and keeps each of them once.
+template <class Value>
+void keep_once(std::vector<Value>& values) {
+    std::ranges::sort(values);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace irido
