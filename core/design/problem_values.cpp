@@ -9,6 +9,7 @@
 #include "core/colorimetry/difference.hpp"
 #include "core/design/color_nodes.hpp"
 #include "core/design/material_number.hpp"
+#include "core/design/row_sums.hpp"
 #include "core/design/written_out.hpp"
 #include "core/error.hpp"
 #include "core/material/index_series.hpp"
@@ -279,17 +280,10 @@ void compute_values(const DesignProblem& problem, const Stack& stack, double tol
 
 double objective_of(const DesignProblem& problem, const DesignRows& rows) {
     double sum = 0;
-    std::size_t row = 0;
-    for (const DesignTarget& target : problem.targets) {
-        const std::size_t size = target.quantity == Quantity::lab ? 3 : 1;
-        for (std::size_t e = 0; e < entry_count(target); ++e, row += size) {
-            double square = 0;
-            for (std::size_t i = row; i < row + size; ++i)
-                square += rows.residual[i] * rows.residual[i];
-            sum += rows.weight[row] *
-                   (problem.merit == MeritKind::mean_abs ? std::sqrt(square) : square);
-        }
-    }
+    for_each_entry(problem, rows, [&](std::size_t first, std::size_t, double square) {
+        sum += rows.weight[first] *
+               (problem.merit == MeritKind::mean_abs ? std::sqrt(square) : square);
+    });
     return sum;
 }
 

@@ -12,17 +12,10 @@ namespace {
 void divide_by_lengths(const DesignProblem& problem, const DesignRows& rows,
                        std::vector<double>& factor) {
     constexpr double kLeast = 1e-12;
-    std::size_t row = 0;
-    for (const DesignTarget& target : problem.targets) {
-        const std::size_t size = target.quantity == DesignQuantity::lab ? 3 : 1;
-        for (std::size_t e = 0; e < entry_count(target); ++e, row += size) {
-            double square = 0;
-            for (std::size_t i = row; i < row + size; ++i)
-                square += rows.residual[i] * rows.residual[i];
-            for (std::size_t i = row; i < row + size; ++i)
-                factor[i] /= 2 * std::max(std::sqrt(square), kLeast);
-        }
-    }
+    for_each_entry(problem, rows, [&](std::size_t first, std::size_t size, double square) {
+        for (std::size_t i = first; i < first + size; ++i)
+            factor[i] /= 2 * std::max(std::sqrt(square), kLeast);
+    });
 }
 
 }  // namespace

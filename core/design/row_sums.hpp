@@ -10,6 +10,22 @@ namespace irido {
 /// Sum of a[i] b[i] in a fixed order.
 double sum_of_products(const double* a, const double* b, std::size_t count);
 
+/// Calls work(first, size, square) for every entry of every target: its first row, its number of
+/// rows and the sum of their squared residuals.
+template <class Work>
+void for_each_entry(const DesignProblem& problem, const DesignRows& rows, const Work& work) {
+    std::size_t row = 0;
+    for (const DesignTarget& target : problem.targets) {
+        const std::size_t size = target.quantity == DesignQuantity::lab ? 3 : 1;
+        for (std::size_t e = 0; e < entry_count(target); ++e, row += size) {
+            double square = 0;
+            for (std::size_t i = row; i < row + size; ++i)
+                square += rows.residual[i] * rows.residual[i];
+            work(row, size, square);
+        }
+    }
+}
+
 /// Derivatives of an objective from the rows of a problem; memory is reused.
 class RowSums {
 public:
