@@ -4,7 +4,7 @@
 
 #include "core/color/held_stack.hpp"
 #include "core/error.hpp"
-#include "core/render/scratch_scatterer.hpp"
+#include "core/render/path_tracer.hpp"
 
 namespace irido::cli {
 
@@ -17,16 +17,13 @@ ShownRange range_of(const PictureScene& scene) {
 
 /// Paints with a surface that `surface_of` makes for the picture's wavelengths.
 DrawnPicture trace(PictureScene scene, ColorNodes nodes, const TracedRequest& request,
-                   const std::function<TracedSurface(const TablePlan&, ColorReport&)>& surface_of) {
+                   const std::function<TracedSurface(const TablePlan&)>& surface_of) {
     const PictureNodes all(std::move(nodes), request.light->tables.sensitivity().support(),
                            request.others, request.light->transform);
     const TablePlan plan{&all, request.tolerance, request.execution.threads,
                          request.execution.simd};
     scene.alpha.reset();  // the surface has it
-    ColorReport report;
-    TracedSurface surface = surface_of(plan, report);
-    const bool is_smooth = surface.stack.has_value();
-    const PathTracer tracer(scene, std::move(surface), all, range_of(scene), plan);
+    const PathTracer tracer(scene, surface_of(plan), all, range_of(scene), plan);
     const Painter painter(scene);
     DrawnPicture drawn;
     drawn.is_traced = true;
@@ -34,7 +31,7 @@ DrawnPicture trace(PictureScene scene, ColorNodes nodes, const TracedRequest& re
     drawn.survey.points =
         scene.camera.width * scene.camera.height * std::max<std::size_t>(1, scene.samples);
     drawn.picture = painter.paint(tracer, request.execution.threads, request.progress);
-    drawn.report = is_smooth ? tracer.report() : report;
+    drawn.report = tracer.report();
     return drawn;
 }
 
@@ -53,13 +50,12 @@ DrawnPicture trace_layered(const PictureScene& scene, const LayeredSurface& surf
         throw DomainError(
             "--paths all can be drawn for one layer without a coating, and for a base alone: "
             "others have no closed form");
-    return trace(scene, layered_nodes(scattering, sensitivity, request.light->transform), request,
-                 [&](const TablePlan& plan, ColorReport& report) {
-                     auto scatterer = std::make_unique<LayeredScatterer>(
-                         scattering, request.paths, varied, range_of(scene), plan);
-                     report = scatterer->report();
-                     return TracedSurface{std::move(scatterer), {}};
-                 });
+    return trace(
+        scene, layered_nodes(scattering, sensitivity, request.light->transform), request,
+        [&](const TablePlan& plan) {
+            return TracedSurface{
+                layered_scatterer(scattering, request.paths, varied, range_of(scene), plan), {}};
+        });
 }
 
 DrawnPicture trace_scratched(const PictureScene& scene, ScratchedSurface surface,
@@ -73,10 +69,8 @@ DrawnPicture trace_scratched(const PictureScene& scene, ScratchedSurface surface
     DrawnPicture drawn = trace(
         scene,
         scratched_nodes(surface, sensitivity, request.light->transform, request.execution.simd),
-        request, [&](const TablePlan& plan, ColorReport& report) {
-            auto scatterer = std::make_unique<ScratchScatterer>(surface, plan);
-            report = scatterer->report();
-            return TracedSurface{std::move(scatterer), {}};
+        request, [&](const TablePlan& plan) {
+            return TracedSurface{scratch_scatterer(surface, plan), {}};
         });
     if (!surface.scratches.empty())
         drawn.skipped.push_back(std::to_string(surface.scratches.size()) + " single scratch" +
@@ -110,7 +104,7 @@ DrawnPicture trace_stack(const PictureScene& scene, const SurfaceStack& stack,
     return trace(scene,
                  smooth_nodes(held, range_of(scene), sensitivity, request.light->transform,
                               request.execution.simd),
-                 request, [&](const TablePlan&, ColorReport&) {
+                 request, [&](const TablePlan&) {
                      return TracedSurface{nullptr, held};
                  });
 }

@@ -1,5 +1,3 @@
-#include "core/render/layered_scatterer.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +6,11 @@
 #include "core/math/constants.hpp"
 #include "core/render/as_array.hpp"
 #include "core/render/facet.hpp"
+#include "core/render/reflected_colors.hpp"
+#include "core/render/scatterer.hpp"
+#include "core/render/spectral_table.hpp"
 #include "core/rough/ggx.hpp"
+#include "core/rough/layered/layered_scattering.hpp"
 
 namespace irido {
 
@@ -26,20 +28,48 @@ Vector3 bent(const Vector3& direction, double ratio, double cosine) {
     return {ratio * direction.x, ratio * direction.y, cosine};
 }
 
-}  // namespace
+class LayeredScatterer final : public Scatterer {
+public:
+    LayeredScatterer(const LayeredScattering& scattering, Paths paths, const LayerPlace& varied,
+                     const ShownRange& range, const TablePlan& plan);
 
-GridTable::Distance spectral_distance(const PictureNodes& nodes) {
-    return [&nodes](std::span<const float> a, std::span<const float> b) {
-        return srgb_difference(nodes.rgb(a), nodes.rgb(b));
+    bool mirrors() const override { return coating_.is_there(); }
+    bool scatters() const override { return !parts_.empty(); }
+    void mirror(const FilmPoint& at, std::span<float> s_and_p, Memory& memory) const override;
+    std::optional<Vector3> draw(const Vector3& to, double pick, double u, double v) const override;
+    double density(const Vector3& to, const Vector3& from) const override;
+    void scatter(const Vector3& to, const Vector3& from, double thickness_nm,
+                 std::span<float> spectrum, Memory& memory) const override;
+
+    const ColorReport& report() const override { return report_; }
+
+private:
+    /// A layer, or the base.
+    struct Part {
+        double alpha = 0;                     ///< of a layer
+        std::optional<StackSpectra> spectra;  ///< of a layer
+        std::optional<GridTable> R;           ///< over theta_d; none: computed each time
+        std::optional<GridTable> straight;    ///< tau/G1 of a layer that is crossed
+        bool is_base = false;
     };
-}
+    void add_layer(const LayeredScattering& scattering, std::size_t l, const LayerPlace& varied,
+                   const ShownRange& range, const TablePlan& plan);
+    void set_probabilities();
+    double inside_cosine(double cosine) const;
+    /// Of each part, reached from a cosine outside; sums to 1.
+    double probability(std::size_t part, double cosine) const;
+    void pass(const Part& part, double cosine, std::span<float> spectrum, Memory& memory) const;
 
-void add_table(const GridTable& table, ColorReport& report) {
-    report.cosines = std::max(report.cosines, table.cosines());
-    report.thicknesses = std::max(report.thicknesses, table.thicknesses());
-    report.evaluations += table.evaluations();
-    report.error = std::max(report.error, table.error());
-}
+    Coating coating_;
+    double ratio_;  ///< index outside over that inside
+    std::size_t count_;
+    std::vector<Part> parts_;
+    std::vector<float> base_;  ///< albedo of the base over pi, between all it meets if so asked
+    std::vector<float> probabilities_;  ///< [cosine][part]
+    ColorReport report_;
+};
+
+}  // namespace
 
 ColorNodes layered_nodes(const LayeredScattering& scattering, const Sensitivity& sensitivity,
                          const RgbTransform& to_srgb) {
@@ -125,24 +155,13 @@ void LayeredScatterer::add_layer(const LayeredScattering& scattering, std::size_
     part.spectra.emplace(SurfaceStack{layer.facets().stack(), varied}, plan.nodes->wavelength_nm(),
                          plan.simd);
     const bool is_uniform = varied.empty();
-    part.R.emplace(
-        GridTable::Plan{
-            .range = {0, 1, is_uniform ? 0 : range.least_nm, is_uniform ? 0 : range.largest_nm},
-            .channels = count_,
-            .tolerance = plan.tolerance / 2,
-            .most_samples = kMostTableSamples,
-            .threads = plan.threads},
-        [&](double nm, std::span<const double> cosines, std::span<float> values) {
-            StackSpectra::Memory memory;
-            std::vector<float> powers(4 * count_);
-            for (std::size_t i = 0; i < cosines.size(); ++i) {
-                (*part.spectra)({cosines[i], nm}, powers, memory);
-                as_array(values.subspan(i * count_, count_)) =
-                    0.5F * (as_array(std::span(powers).first(count_)) +
-                            as_array(std::span(powers).subspan(count_, count_)));
-            }
-        },
-        spectral_distance(*plan.nodes));
+    part.R.emplace(GridTable::Plan{.range = {0, 1, is_uniform ? 0 : range.least_nm,
+                                             is_uniform ? 0 : range.largest_nm},
+                                   .channels = count_,
+                                   .tolerance = plan.tolerance / 2,
+                                   .most_samples = kMostTableSamples,
+                                   .threads = plan.threads},
+                   mean_reflectance(*part.spectra), spectral_distance(*plan.nodes));
     if (part.R->is_good())
         add_table(*part.R, report_);
     else
@@ -304,6 +323,12 @@ void LayeredScatterer::scatter(const Vector3& to, const Vector3& from, double th
         pass(part, to_cosine, through, memory);
         pass(part, from_cosine, through, memory);
     }
+}
+
+std::unique_ptr<const Scatterer> layered_scatterer(const LayeredScattering& scattering, Paths paths,
+                                                   const LayerPlace& varied,
+                                                   const ShownRange& range, const TablePlan& plan) {
+    return std::make_unique<LayeredScatterer>(scattering, paths, varied, range, plan);
 }
 
 }  // namespace irido

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/render/color_nodes.hpp"
+#include "core/render/reflected_colors.hpp"
 #include "core/render/stack_spectra.hpp"
 
 namespace irido {

@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "core/render/as_array.hpp"
-#include "core/render/stack_spectra.hpp"
 
 namespace irido {
 

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "core/render/environment_sampler.hpp"
-#include "core/render/layered_scatterer.hpp"
 #include "core/render/noise.hpp"
 #include "core/render/picture_scene.hpp"
+#include "core/render/reflected_colors.hpp"
+#include "core/render/scatterer.hpp"
 #include "core/render/shape.hpp"
+#include "core/render/spectral_table.hpp"
 
 namespace irido {
 
@@ -54,7 +56,10 @@ public:
     std::optional<Triple> operator()(const Ray& ray, const Numbers& numbers,
                                      Scratch& scratch) const;
 
-    const ColorReport& report() const { return report_; }
+    /// How the spectra of the surface are computed.
+    const ColorReport& report() const {
+        return surface_.scatterer ? surface_.scatterer->report() : report_;
+    }
 
 private:
     struct Place {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,6 +9,16 @@
 #include "core/render/vector3.hpp"
 
 namespace irido {
+
+struct ColorNodes;
+struct ColorReport;
+class LayeredScattering;
+enum class Paths;
+class RgbTransform;
+struct ScratchedSurface;
+class Sensitivity;
+struct ShownRange;
+struct TablePlan;
 
 /// How a surface reflects light, at the wavelengths of a picture. Directions are of unit length,
 /// point away from the surface and have z along its normal. Safe from many threads.
@@ -38,6 +49,35 @@ public:
     /// BRDF times the cosine of the light's angle, [wavelength].
     virtual void scatter(const Vector3& to, const Vector3& from, double thickness_nm,
                          std::span<float> spectrum, Memory& memory) const = 0;
+
+    /// How its spectra are computed.
+    virtual const ColorReport& report() const = 0;
 };
+
+/// Rough layers over a Lambertian base, under a smooth coating or none: LayeredScattering from
+/// tables over the angle. Draws a layer as FPB24 eqs. 31 and 35 have it, for one path of all
+/// wavelengths, and a facet among those that are seen; the coating's mirror is apart.
+///   varied  of the stack of the only layer, whose thickness is within the range
+/// Throws DomainError as LayeredScattering does, and if paths are all and not closed.
+std::unique_ptr<const Scatterer> layered_scatterer(const LayeredScattering& scattering, Paths paths,
+                                                   const LayerPlace& varied,
+                                                   const ShownRange& range, const TablePlan& plan);
+
+/// Wavelengths that serve the layers' reflectances, transmittances and their products, as means
+/// over facets that tilt by up to alpha.
+ColorNodes layered_nodes(const LayeredScattering& scattering, const Sensitivity& sensitivity,
+                         const RgbTransform& to_srgb);
+
+/// Fields of scratches in a smooth or rough base, seen on average over all places: what
+/// ensemble_brdf() adds up to, from tables over |xi| and the rise of light and view, with the
+/// balance of scratch_balance(). Angles are counted from x. Single scratches are left out.
+/// The base is already held where its materials are not known. Throws DomainError where grooves are
+/// too wide or too deep for a table.
+std::unique_ptr<const Scatterer> scratch_scatterer(const ScratchedSurface& surface,
+                                                   const TablePlan& plan);
+
+/// Wavelengths that serve the reflectance of the base and the grooves' interference.
+ColorNodes scratched_nodes(const ScratchedSurface& surface, const Sensitivity& sensitivity,
+                           const RgbTransform& to_srgb, SimdLevel simd);
 
 }  // namespace irido

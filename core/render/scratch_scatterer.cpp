@@ -1,5 +1,3 @@
-#include "core/render/scratch_scatterer.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,9 @@
 #include "core/math/constants.hpp"
 #include "core/render/as_array.hpp"
 #include "core/render/facet.hpp"
+#include "core/render/reflected_colors.hpp"
+#include "core/render/scatterer.hpp"
+#include "core/render/spectral_table.hpp"
 #include "core/scratch/diffraction.hpp"
 #include "core/scratch/energy.hpp"
 #include "core/scratch/ensemble.hpp"
@@ -64,6 +65,43 @@ struct FieldSums {
     std::map<double, double> widths, depths;
 };
 
+class ScratchScatterer final : public Scatterer {
+public:
+    ScratchScatterer(const ScratchedSurface& surface, const TablePlan& plan);
+
+    bool mirrors() const override { return base_ && !alpha_; }
+    bool scatters() const override { return !fields_.empty() || alpha_; }
+    void mirror(const FilmPoint& at, std::span<float> s_and_p, Memory& memory) const override;
+    std::optional<Vector3> draw(const Vector3& to, double pick, double u, double v) const override;
+    double density(const Vector3& to, const Vector3& from) const override;
+    void scatter(const Vector3& to, const Vector3& from, double thickness_nm,
+                 std::span<float> spectrum, Memory& memory) const override;
+
+    const ColorReport& report() const override { return report_; }
+
+private:
+    /// Scratches whose angles spread evenly over a range.
+    struct Field {
+        double low, high;                ///< of their angles, rad
+        std::optional<GridTable> power;  ///< BRDF times |xi| over |xi| and the rise, of all angles
+        std::vector<double> sums;        ///< chances of |xi| up to each of equal steps
+    };
+    void add_field(const ScratchField& field, const ScratchOptics& optics, const TablePlan& plan);
+    void add_balance(const ScratchedSurface& surface, const TablePlan& plan);
+    double angle_share(const Field& field, double angle, double size) const;
+    double field_density(const Field& field, const Vector3& to, const Vector3& from) const;
+
+    std::size_t count_;
+    std::vector<float> wavenumber_;  ///< of the nodes, 1/um
+    ScratchOptics optics_;
+    std::optional<double> alpha_;
+    std::optional<StackSpectra> base_;
+    std::optional<GridTable> base_table_;  ///< mean R over theta_d
+    std::optional<GridTable> balance_;     ///< [base, scratches][node] over the view's cosine
+    std::vector<Field> fields_;
+    ColorReport report_;
+};
+
 }  // namespace
 
 ColorNodes scratched_nodes(const ScratchedSurface& surface, const Sensitivity& sensitivity,
@@ -114,23 +152,12 @@ ScratchScatterer::ScratchScatterer(const ScratchedSurface& surface, const TableP
         wavenumber_.push_back(static_cast<float>(kPerMicrometre / nm));
     if (surface.base) {
         base_.emplace(SurfaceStack{*surface.base}, plan.nodes->wavelength_nm(), plan.simd);
-        base_table_.emplace(
-            GridTable::Plan{.range = {0, 1, 0, 0},
-                            .channels = count_,
-                            .tolerance = plan.tolerance / 2,
-                            .most_samples = kMostScratchSamples,
-                            .threads = plan.threads},
-            [&](double, std::span<const double> cosines, std::span<float> values) {
-                StackSpectra::Memory memory;
-                std::vector<float> powers(4 * count_);
-                for (std::size_t i = 0; i < cosines.size(); ++i) {
-                    (*base_)({cosines[i], 0}, powers, memory);
-                    as_array(values.subspan(i * count_, count_)) =
-                        0.5F * (as_array(std::span(powers).first(count_)) +
-                                as_array(std::span(powers).subspan(count_, count_)));
-                }
-            },
-            spectral_distance(*plan.nodes));
+        base_table_.emplace(GridTable::Plan{.range = {0, 1, 0, 0},
+                                            .channels = count_,
+                                            .tolerance = plan.tolerance / 2,
+                                            .most_samples = kMostScratchSamples,
+                                            .threads = plan.threads},
+                            mean_reflectance(*base_), spectral_distance(*plan.nodes));
         if (!base_table_->is_good())
             throw DomainError("reflectances of the scratched base take too large a table");
         add_table(*base_table_, report_);
@@ -342,6 +369,11 @@ void ScratchScatterer::scatter(const Vector3& to, const Vector3& from, double,
     base_table_->lookup(std::sqrt((1 + to.x * from.x + to.y * from.y + to.z * from.z) / 2), 0,
                         values);
     as_array(spectrum) *= as_array(values).max(0.0F);
+}
+
+std::unique_ptr<const Scatterer> scratch_scatterer(const ScratchedSurface& surface,
+                                                   const TablePlan& plan) {
+    return std::make_unique<ScratchScatterer>(surface, plan);
 }
 
 }  // namespace irido

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/spectrum/spectrum.hpp"
+#include "core/stack/index_table.hpp"
 
 namespace irido {
 

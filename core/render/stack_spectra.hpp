@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/render/reflected_colors.hpp"
-#include "core/stack/index_table.hpp"
+#include "core/math/simd_level.hpp"
+#include "core/render/surface_stack.hpp"
 
 namespace irido {
 

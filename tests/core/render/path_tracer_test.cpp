@@ -8,7 +8,7 @@
 #include "core/math/constants.hpp"
 #include "core/math/random.hpp"
 #include "core/render/picture.hpp"
-#include "core/render/scratch_scatterer.hpp"
+#include "core/rough/layered/layered_scattering.hpp"
 #include "core/rough/layered/lobe.hpp"
 #include "core/scratch/scratched_scattering.hpp"
 #include "core/stack/builder.hpp"
@@ -50,9 +50,8 @@ struct Layered {
           nodes(picture_nodes(layered_nodes(scattering, day(), rgb_by_day()), others)),
           plan{&nodes, 0.02, 1, best_simd_level()} {}
 
-    std::unique_ptr<LayeredScatterer> scatterer() const {
-        return std::make_unique<LayeredScatterer>(scattering, Paths::single, LayerPlace{},
-                                                  ShownRange{0, 1, 0, 0}, plan);
+    std::unique_ptr<const Scatterer> scatterer() const {
+        return layered_scatterer(scattering, Paths::single, {}, {0, 1, 0, 0}, plan);
     }
     /// The picture of its surface in a scene.
     Picture draw(const PictureScene& scene) const {
@@ -213,7 +212,7 @@ TEST_CASE("tables of scratches have the mean BRDF of their fields", "[render][sc
     const PictureNodes nodes =
         picture_nodes(scratched_nodes(surface, day(), rgb_by_day(), best_simd_level()));
     const TablePlan plan{&nodes, 0.1, 1, best_simd_level()};
-    const ScratchScatterer scatterer(surface, plan);
+    const std::unique_ptr<const Scatterer> scatterer = scratch_scatterer(surface, plan);
     const ScratchedScattering exact(surface, SurfacePoint{}, {ScratchSum::Kind::ensemble, {}},
                                     Execution(1));
     Scatterer::Memory memory;
@@ -226,7 +225,7 @@ TEST_CASE("tables of scratches have the mean BRDF of their fields", "[render][sc
         expected.clear();
         for (const double value : exact.brdf({&pair, 1}, nodes.wavelength_nm()))
             expected.push_back(static_cast<float>(value * from.z));
-        scatterer.scatter(to, from, 0, spectrum, memory);
+        scatterer->scatter(to, from, 0, spectrum, memory);
         const Triple a = nodes.rgb(spectrum), b = nodes.rgb(expected);
         for (std::size_t c = 0; c < 3; ++c)
             CHECK_THAT(a[c], WithinAbs(b[c], 0.01 * std::abs(b[1]) + 1e-3));
@@ -236,9 +235,9 @@ TEST_CASE("tables of scratches have the mean BRDF of their fields", "[render][sc
     constexpr int kDraws = 40000;
     const Vector3 to = direction_at(20, 0);
     for (int i = 0; i < kDraws; ++i)
-        if (const auto from = scatterer.draw(to, random.uniform(0, 1), random.uniform(0, 1),
-                                             random.uniform(0, 1)))
-            reached += 1 / scatterer.density(to, *from) / kDraws;
+        if (const auto from = scatterer->draw(to, random.uniform(0, 1), random.uniform(0, 1),
+                                              random.uniform(0, 1)))
+            reached += 1 / scatterer->density(to, *from) / kDraws;
     CHECK_THAT(reached, WithinRel(kTwoPi, 0.03));
 }
 
