@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
+#include <cstddef>
 
 namespace irido {
 
@@ -11,24 +11,10 @@ struct GaussNode {
     double weight;
 };
 
-/// Gauss-Legendre rule with an even number `count` of points on [-1, 1], exact for polynomials of
-/// degree below 2 count.
-template <int count>
-const std::array<GaussNode, count>& gauss_legendre() {
-    static_assert(count % 2 == 0);
-    static const std::array<GaussNode, count> rule = [] {
-        using Rule = boost::math::quadrature::gauss<double, count>;
-        std::array<GaussNode, count> nodes{};
-        for (int i = 0; i < count / 2; ++i) {
-            const auto half = static_cast<std::size_t>(i);
-            const auto mirror = static_cast<std::size_t>(count / 2 - 1 - i);
-            const double x = Rule::abscissa()[half], weight = Rule::weights()[half];
-            nodes[count / 2 + half] = {x, weight};
-            nodes[mirror] = {-x, weight};
-        }
-        return nodes;
-    }();
-    return rule;
-}
+/// Gauss-Legendre rule with `count` points on [-1, 1], exact for polynomials of degree below
+/// 2 count.
+///   count  even; one of those at the end of gauss.cpp, the only reader of Boost's tables
+template <std::size_t count>
+const std::array<GaussNode, count>& gauss_legendre();
 
 }  // namespace irido
