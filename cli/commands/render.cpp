@@ -475,9 +475,7 @@ void add_render_command(CLI::App& program, Run& run) {
                      "of a scene: the material to draw [a contact sheet of all]")
         ->type_name("MATERIAL");
     add_output_options(*command, options->output, "png or exr");
-    command->add_option("--bits", options->bits, "bits of a component of .png: 8 or 16 [8]")
-        ->type_name("N");
-    offer(*command, "bits", "8 16");
+    add_bits_option(*command, options->bits);
     command->add_flag("--stats", options->stats,
                       "print on standard error how the colours were computed, and why");
     add_threads_option(*command, options->threads);

@@ -64,9 +64,8 @@ std::size_t bytes_of_entry(const json& entry, const std::string& format) {
     if (entry["kind"] == tables::kGridKind) return entry["bytes"].get<std::size_t>();
     std::size_t channels = entry["channels"].size();
     if (format == "ktx2" && channels % 3 == 0) channels = channels / 3 * 4;
-    const std::string type = entry["dtype"].get<std::string>();
-    const std::size_t bytes = type == "f16" ? 2 : type == "f32" ? 4 : 8;
-    return samples_of_entry(entry) * channels * bytes;
+    const auto type = tables::find_lut_type(entry["dtype"].get<std::string>());
+    return samples_of_entry(entry) * channels * tables::bytes_of(type.value());
 }
 
 /// One line of the plan.

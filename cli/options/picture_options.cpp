@@ -4,16 +4,19 @@
 
 namespace irido::cli {
 
+void add_bits_option(CLI::App& command, std::string& bits) {
+    command.add_option("--bits", bits, "bits of a component of .png: 8 or 16 [8]")->type_name("N");
+    offer(command, "bits", "8 16");
+}
+
 void add_picture_options(CLI::App& command, PictureOptions& options) {
-    command.add_option("--bits", options.bits, "bits of a component of .png: 8 or 16 [8]")
-        ->type_name("N");
+    add_bits_option(command, options.bits);
     command
         .add_option("--gamut", options.gamut,
                     "colours outside sRGB in a picture: clip each component, or compress:\n"
                     "mix with the grey of the same luminance until it fits [clip]")
         ->type_name("NAME");
-    offer(command, "bits", "8 16");
-    offer(command, "gamut", "clip compress");
+    offer(command, "gamut", [] { return names_of(tables::kGamutMappings); });
 }
 
 const tables::PictureFormat* asked_picture(const OutputOptions& output,
@@ -33,25 +36,17 @@ const tables::PictureFormat* asked_picture(const OutputOptions& output,
 }
 
 const tables::PictureFormat& picture_format_of(const std::string& option, const std::string& file) {
-    std::string names;
+    std::vector<std::string> endings;
     for (const tables::PictureFormat* const format : tables::picture_formats()) {
-        const std::string ending = "." + std::string(format->name);
-        if (file.ends_with(ending)) return *format;
-        names += (names.empty()                                ? ""
-                  : format == tables::picture_formats().back() ? " or "
-                                                               : ", ") +
-                 ending;
+        endings.push_back("." + std::string(format->name));
+        if (file.ends_with(endings.back())) return *format;
     }
-    throw UsageError(option + ": must end in " + names + " (got '" + file + "')");
+    throw UsageError(option + ": must end in " + one_of(endings) + " (got '" + file + "')");
 }
 
 tables::GamutMapping parse_gamut(const PictureOptions& options) {
-    using enum tables::GamutMapping;
-    if (options.gamut.empty()) return clip;
-    for (const tables::GamutMapping mapping : {clip, compress})
-        if (name_of(mapping) == options.gamut) return mapping;
-    constexpr std::array<std::string_view, 2> names{"clip", "compress"};
-    throw UsageError("--gamut: " + not_one_of(names, options.gamut));
+    return options.gamut.empty() ? tables::GamutMapping::clip
+                                 : named("--gamut", tables::kGamutMappings, options.gamut);
 }
 
 std::string picture_bytes(const std::function<tables::Figure()>& figure,

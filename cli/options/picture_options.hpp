@@ -16,6 +16,9 @@ struct PictureOptions {
     std::string bits;
 };
 
+/// Adds --bits.
+void add_bits_option(CLI::App& command, std::string& bits);
+
 /// Adds --bits and --gamut.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 

@@ -39,9 +39,12 @@ std::vector<std::size_t> parse_size(std::string text, std::size_t axes) {
 }  // namespace
 
 void add_dtype_option(CLI::App& command, std::string& type, const std::string& usual) {
-    command.add_option("--dtype", type, "number format: f16, f32 or f64 " + usual)
+    const std::vector<std::string_view> names = names_of(tables::kLutTypes);
+    command
+        .add_option("--dtype", type,
+                    "number format: " + one_of({names.begin(), names.end()}) + " " + usual)
         ->type_name("NAME");
-    offer(command, "dtype", "f16 f32 f64");
+    offer(command, "dtype", [] { return names_of(tables::kLutTypes); });
 }
 
 void add_table_size_options(CLI::App& command, TableOptions& options, const std::string& usual) {
@@ -86,11 +89,7 @@ const tables::LutFormat& resolved_lut_format(const OutputOptions& output, bool h
 }
 
 tables::LutType parse_type(std::string_view text) {
-    for (const tables::LutType type :
-         {tables::LutType::f16, tables::LutType::f32, tables::LutType::f64})
-        if (name_of(type) == text) return type;
-    constexpr std::array<std::string_view, 3> names{"f16", "f32", "f64"};
-    throw UsageError("--dtype: " + not_one_of(names, text));
+    return named("--dtype", tables::kLutTypes, text);
 }
 
 tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat* format,

@@ -30,6 +30,13 @@ void offer(const CLI::App& command, std::string_view option, const char* words,
     offer({&command, option, make, use});
 }
 
+std::string one_of(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    return text;
+}
+
 const OfferedWords* words_offered(const CLI::App& command, std::string_view option) {
     const auto& words = all_words();
     const auto last = std::find_if(words.rbegin(), words.rend(), [&](const OfferedWords& w) {

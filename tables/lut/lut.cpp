@@ -18,6 +18,12 @@ std::string_view name_of(LutType type) {
     return type == LutType::f16 ? "f16" : type == LutType::f32 ? "f32" : "f64";
 }
 
+std::optional<LutType> find_lut_type(std::string_view name) {
+    const auto* const found =
+        std::ranges::find(kLutTypes, name, [](LutType type) { return name_of(type); });
+    return found == kLutTypes.end() ? std::nullopt : std::optional(*found);
+}
+
 std::size_t bytes_of(LutType type) {
     return type == LutType::f16 ? 2 : type == LutType::f32 ? 4 : 8;
 }

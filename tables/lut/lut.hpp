@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,8 +12,10 @@ namespace irido::tables {
 
 /// The number format of a table's values in a file.
 enum class LutType { f16, f32, f64 };
+inline constexpr std::array kLutTypes{LutType::f16, LutType::f32, LutType::f64};
 
 std::string_view name_of(LutType type);  ///< f16, f32, f64
+std::optional<LutType> find_lut_type(std::string_view name);
 std::size_t bytes_of(LutType type);
 /// The value as read back from storage: rounded to nearest even, infinite beyond the type's range.
 double rounded(double value, LutType type);

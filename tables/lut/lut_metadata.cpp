@@ -45,10 +45,6 @@ LutAxis axis_from(const json& metadata) {
     return axis;
 }
 
-LutType type_from(const std::string& name) {
-    return name == "f16" ? LutType::f16 : name == "f32" ? LutType::f32 : LutType::f64;
-}
-
 void check_metadata(const json& metadata) {
     static const schemas::Schema schema(json::parse(lut_schema_text()));
     const std::vector<schemas::Problem> problems = schemas::check(schema, metadata);
@@ -128,7 +124,7 @@ Lut lut_from_metadata(std::string_view text) {
     }
     lut.channels = metadata["channels"].get<std::vector<std::string>>();
     lut.mips = metadata.value("mips", false);
-    lut.type = type_from(metadata["dtype"]);
+    lut.type = find_lut_type(metadata["dtype"].get<std::string>()).value();
     for (const char* key : kDerivedKeys) metadata.erase(key);
     lut.facts = std::move(metadata);
     try {

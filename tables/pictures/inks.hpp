@@ -16,6 +16,7 @@ enum class GamutMapping {
 };
 
 /// "clip" or "compress".
+inline constexpr std::array kGamutMappings{GamutMapping::clip, GamutMapping::compress};
 std::string_view name_of(GamutMapping mapping);
 
 /// Converts linear sRGB to inks and counts colours that lie outside sRGB by more than rounding.

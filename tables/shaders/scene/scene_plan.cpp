@@ -218,8 +218,7 @@ private:
     LutMaking making_of(bool is_color) const {
         LutMaking making;
         making.sizing.tolerance = is_color ? scene_.delta_e : scene_.relative;
-        for (const LutType type : {LutType::f16, LutType::f32, LutType::f64})
-            if (name_of(type) == scene_.type) making.type = type;
+        making.type = find_lut_type(scene_.type).value_or(making.type);
         making.mips = scene_.format == "ktx2";
         return making;
     }
