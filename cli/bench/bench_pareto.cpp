@@ -25,17 +25,6 @@ struct ParetoOptions {
     bool quiet = false;
 };
 
-/// All methods in the order of their trials.
-const std::vector<const ColorMethodKind*>& candidates() {
-    static const auto all = [] {
-        std::vector<const ColorMethodKind*> methods(color_methods().begin(), color_methods().end());
-        std::ranges::sort(methods, {},
-                          [](const ColorMethodKind* method) { return method->trials.place; });
-        return methods;
-    }();
-    return all;
-}
-
 struct ParetoRow {
     std::string_view of;  ///< the case
     const ColorMethodKind* method = nullptr;
@@ -47,7 +36,7 @@ struct ParetoRow {
 std::vector<ParetoRow> rows_of(const ColorCase& one, ColorComparison comparison,
                                StepProgress& progress) {
     std::vector<ParetoRow> rows;
-    for (const ColorMethodKind* const method : candidates()) {
+    for (const ColorMethodKind* const method : color_methods()) {
         progress.begin(std::string(one.name) + ", " + std::string(method->name));
         const auto add = [&](std::size_t count, double tolerance) {
             const auto report = comparison.measure({method, count}, tolerance);
@@ -177,7 +166,7 @@ tables::Figure picture(const std::vector<std::vector<ParetoRow>>& cases) {
 /// The methods, with what `parameter` is, for --help.
 std::string methods_text() {
     std::vector<std::string> with_tolerance, at_counts;
-    for (const ColorMethodKind* const method : candidates()) {
+    for (const ColorMethodKind* const method : color_methods()) {
         const MethodTrials& trials = method->trials;
         if (trials.last_power == 0) continue;
         with_tolerance.emplace_back(method->name);
@@ -189,7 +178,7 @@ std::string methods_text() {
     std::string text = joined(with_tolerance, ", ") + " and " + last + " at their tolerances (" +
                        joined(at_counts, ", ") + ", at tolerance 0);\n";
     std::vector<std::string> others;
-    for (const ColorMethodKind* const method : color_methods_for_help()) {
+    for (const ColorMethodKind* const method : color_methods()) {
         if (method->trials.last_power > 0) continue;
         const bool has_parameter = method->trials.counts.size() > 1;
         others.push_back(std::string(method->name) + ": " + std::string(method->trials.what) +
@@ -213,7 +202,7 @@ int run_pareto(const ParetoOptions& options) {
     std::vector<std::vector<ParetoRow>> cases;
     std::vector<ParetoRow> rows;
     const auto chosen = chosen_cases<ColorCase>(options.cases, color_cases(), "pareto");
-    StepProgress progress(options.quiet, chosen.size() * candidates().size());
+    StepProgress progress(options.quiet, chosen.size() * color_methods().size());
     for (const ColorCase& one : chosen) {
         cases.push_back(rows_of(
             one, {tables, color_families(one, count, seed), one.is_set, seconds, simd}, progress));

@@ -64,13 +64,6 @@ std::vector<std::string_view> color_method_names() {
     return names;
 }
 
-std::vector<const ColorMethodKind*> color_methods_for_help() {
-    std::vector<const ColorMethodKind*> methods(color_methods().begin(), color_methods().end());
-    std::ranges::sort(methods, {},
-                      [](const ColorMethodKind* method) { return method->help.place; });
-    return methods;
-}
-
 namespace {
 
 /// The count of a method by its number as typed.
@@ -109,15 +102,18 @@ ColorMethod parse_method(const std::string& text) {
 ColorMethod parse_method(const ColorOptions& options) {
     ColorMethod method = parse_method(options.method);
     const bool has_number = options.method.find('/') != std::string::npos;
-    const auto require = [&](const std::string& flag, std::string_view name) {
-        if (!method.is(name))
-            throw UsageError(flag + ": requires --method " + std::string(name) + " (got '" +
-                             options.method + "')");
+    const auto require = [&](const std::string& flag, auto takes) {
+        if (takes(*method.kind)) return;
+        std::vector<std::string> names;
+        for (const ColorMethodKind* const kind : color_methods())
+            if (takes(*kind)) names.emplace_back(kind->name);
+        throw UsageError(flag + ": requires --method " + one_of(names) + " (got '" +
+                         options.method + "')");
     };
     const auto set_number = [&](const std::string& flag, const std::string& typed,
                                 std::string_view name) {
         if (typed.empty()) return;
-        require(flag, name);
+        require(flag, [name](const ColorMethodKind& kind) { return kind.name == name; });
         if (has_number)
             throw UsageError(flag + ": conflicts with the number in --method (got '" +
                              options.method + "')");
@@ -126,7 +122,7 @@ ColorMethod parse_method(const ColorOptions& options) {
     set_number("--subdivide", options.subdivide, "landmarks");
     set_number("--harmonics", options.harmonics, "bloch");
     if (!options.base_color.empty()) {
-        require("--base-color", "gltf");
+        require("--base-color", [](const ColorMethodKind& kind) { return kind.takes_base_color; });
         method.base_color = parse_base_color(options.base_color);
     }
     return method;
@@ -236,13 +232,13 @@ void add_space_options(CLI::App& command, ColorOptions& options) {
 std::string color_method_help() {
     std::string text;
     bool has_baseline = false, has_film = false;
-    for (const ColorMethodKind* const method : color_methods_for_help()) {
+    for (const ColorMethodKind* const method : color_methods()) {
         const bool is_baseline = method->use == MethodUse::baseline;
         if (is_baseline && !has_baseline) text += ";\napproximate baselines, for comparison:";
         const bool starts_line = method->use == MethodUse::exact || (is_baseline && !has_baseline);
         if (!text.empty()) text += starts_line ? "\n" : "; ";
         if (method->needs_reflected_film && !has_film) text += "for light reflected by one film: ";
-        text += method->help.text;
+        text += method->help;
         has_baseline = has_baseline || is_baseline;
         has_film = has_film || method->needs_reflected_film;
     }

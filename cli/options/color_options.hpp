@@ -58,9 +58,6 @@ ColorMethod parse_method(const std::string& text);
 /// Names of the colour methods, without their numbers.
 std::vector<std::string_view> color_method_names();
 
-/// All methods in the order of their places on help pages.
-std::vector<const ColorMethodKind*> color_methods_for_help();
-
 /// What --help says of every method.
 std::string color_method_help();
 

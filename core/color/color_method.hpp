@@ -22,15 +22,8 @@ struct MethodNumber {
     std::size_t offset = 0;       ///< count less the number: 1 if 0 is a number, too
 };
 
-/// Description of a method for --help.
-struct MethodHelp {
-    int place = 0;          ///< among all methods
-    std::string_view text;  ///< "equal/N: ...", without line breaks
-};
-
 /// The colours by which run time and error of a method are measured, see `irido bench pareto`.
 struct MethodTrials {
-    int place = 0;                          ///< among all methods
     int last_power = 0;                     ///< tolerances 1e-2 to 10^-last_power; 0: none
     std::span<const std::size_t> counts{};  ///< values of ColorMethod::count
     double tolerance_of_counts = 1e-6;      ///< tolerance for these
@@ -50,10 +43,10 @@ enum class MethodUse {
 /// nothing else lists it.
 struct ColorMethodKind {
     std::string_view name;
-    int place = 0;  ///< in lists of names
+    int place = 0;  ///< in lists, on pages and among the rows of trials, from 1 on
     MethodUse use = MethodUse::baseline;
     MethodNumber number{};
-    MethodHelp help;
+    std::string_view help;  ///< "equal/N: ...", without line breaks
     MethodTrials trials;
     bool needs_reflected_film = false;  ///< takes only light reflected by one film
     bool takes_base_color = false;      ///< ColorMethod::base_color has a meaning

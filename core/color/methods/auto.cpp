@@ -98,12 +98,12 @@ extern constinit const ColorMethodKind color_method_auto = {
     .name = "auto",
     .place = 1,
     .use = MethodUse::exact,
-    .help = {1,
-             "auto: the fastest exact method for the number of colours requested (--stats shows "
-             "which): a row of a large sweep of one film may differ from that of a small one, "
-             "within the tolerance; a method given by name computes the same row in every sweep "
-             "[auto]"},
-    .trials = {.place = 5, .last_power = 10},
+    .help =
+        "auto: the fastest exact method for the number of colours requested (--stats shows "
+        "which): a row of a large sweep of one film may differ from that of a small one, "
+        "within the tolerance; a method given by name computes the same row in every sweep "
+        "[auto]",
+    .trials = {.last_power = 10},
     .prepare = automatic_color,
 };
 

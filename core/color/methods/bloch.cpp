@@ -17,11 +17,10 @@ extern constinit const ColorMethodKind color_method_bloch = {
     .place = 5,
     .use = MethodUse::exact,
     .number = {.fewest = 0, .most = 1000, .offset = 1},
-    .help = {5,
-             "bloch: Bloch waves; one group of two layers, all media of constant real index; "
-             "exact, and faster than quadrature from about 100 periods on"},
-    .trials = {.place = 4,
-               .last_power = 8,
+    .help =
+        "bloch: Bloch waves; one group of two layers, all media of constant real index; "
+        "exact, and faster than quadrature from about 100 periods on",
+    .trials = {.last_power = 8,
                .counts = kMeanAlone,
                .tolerance_of_counts = 1e-4,  // the error of the mean alone is larger
                .what = "the mean alone"},

@@ -23,10 +23,8 @@ extern constinit const ColorMethodKind color_method_equal = {
     .name = "equal",
     .place = 7,
     .number = {.fewest = 2, .most = 1e6, .fallback = 32},
-    .help = {7, "equal/N: N equally spaced wavelengths, [2, 1e6] [32]"},
-    .trials = {.place = 6,
-               .counts = kWavelengthCounts,
-               .what = "`parameter` equally spaced wavelengths"},
+    .help = "equal/N: N equally spaced wavelengths, [2, 1e6] [32]",
+    .trials = {.counts = kWavelengthCounts, .what = "`parameter` equally spaced wavelengths"},
     .prepare = equal_color,
 };
 

@@ -79,9 +79,9 @@ std::unique_ptr<ColorAlgorithm> gaussian_color(const ColorTables& tables, const 
 /// Source: BB17 (ACM TOG 36(4), 2017), eqs. 3 to 10, constants of its supplemental code.
 extern constinit const ColorMethodKind color_method_gaussian = {
     .name = "gaussian",
-    .place = 8,
-    .help = {9, "gaussian: the observer as Gaussians"},
-    .trials = {.place = 8, .counts = kNoNumber, .what = "Belcour and Barla's Gaussians"},
+    .place = 9,
+    .help = "gaussian: the observer as Gaussians",
+    .trials = {.counts = kNoNumber, .what = "Belcour and Barla's Gaussians"},
     .needs_reflected_film = true,
     .prepare = gaussian_color,
 };

@@ -58,11 +58,9 @@ std::unique_ptr<ColorAlgorithm> gltf_color(const ColorTables& tables, const Stac
 /// Source: Khronos Group, KHR_materials_iridescence (2022), section Iridescence Fresnel.
 extern constinit const ColorMethodKind color_method_gltf = {
     .name = "gltf",
-    .place = 9,
-    .help = {10, "gltf (-p u): the formulas of KHR_materials_iridescence, as in three.js"},
-    .trials = {.place = 9,
-               .counts = kNoNumber,
-               .what = "the\nformulas of KHR_materials_iridescence"},
+    .place = 10,
+    .help = "gltf (-p u): the formulas of KHR_materials_iridescence, as in three.js",
+    .trials = {.counts = kNoNumber, .what = "the\nformulas of KHR_materials_iridescence"},
     .needs_reflected_film = true,
     .takes_base_color = true,
     .prepare = gltf_color,

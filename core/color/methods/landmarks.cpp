@@ -160,12 +160,10 @@ std::unique_ptr<ColorAlgorithm> landmark_color(const ColorTables& tables, const 
 /// are in the visible range. Source: FPB24 (CGF 43(2), 2024), section 3.2 and appendix B.
 extern constinit const ColorMethodKind color_method_landmarks = {
     .name = "landmarks",
-    .place = 11,
+    .place = 6,
     .number = {.fewest = 1, .most = 1000, .fallback = 1},
-    .help = {6, "landmarks: boxes between the landmarks of such a group (see bands)"},
-    .trials = {.place = 11,
-               .counts = kFirstSubdivisions,
-               .what = "FPB24's boxes, subdivided by `parameter`"},
+    .help = "landmarks: boxes between the landmarks of such a group (see bands)",
+    .trials = {.counts = kFirstSubdivisions, .what = "FPB24's boxes, subdivided by `parameter`"},
     .fault = [](const Stack& stack,
                 const ColorRequest&) { return mirror_fault("landmarks", stack); },
     .prepare = landmark_color,

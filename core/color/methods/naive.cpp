@@ -28,9 +28,9 @@ std::unique_ptr<ColorAlgorithm> naive_color(const ColorTables& tables, const Sta
 /// for Computer Graphics (2013).
 extern constinit const ColorMethodKind color_method_naive = {
     .name = "naive",
-    .place = 6,
-    .help = {8, "naive: 650, 510, 475 nm as R, G, B"},
-    .trials = {.place = 7, .counts = kNoNumber, .what = "650, 510, 475 nm"},
+    .place = 8,
+    .help = "naive: 650, 510, 475 nm as R, G, B",
+    .trials = {.counts = kNoNumber, .what = "650, 510, 475 nm"},
     .prepare = naive_color,
 };
 

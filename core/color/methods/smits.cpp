@@ -101,9 +101,9 @@ std::unique_ptr<ColorAlgorithm> smits_color(const ColorTables& tables, const Sta
 /// Interference Phenomena in Realistic Image Synthesis (1992).
 extern constinit const ColorMethodKind color_method_smits = {
     .name = "smits",
-    .place = 10,
-    .help = {11, "smits: a single round trip"},
-    .trials = {.place = 10, .counts = kNoNumber, .what = "two beams"},
+    .place = 11,
+    .help = "smits: a single round trip",
+    .trials = {.counts = kNoNumber, .what = "two beams"},
     .needs_reflected_film = true,
     .prepare = smits_color,
 };

@@ -31,7 +31,7 @@ TEST_CASE("pages, completions and messages know every colour method", "[cli][col
     for (const ColorMethodKind* const method : color_methods()) {
         const std::string name(method->name);
         CAPTURE(name);
-        CHECK_THAT(color, Contains(on_one_line(std::string(method->help.text))));
+        CHECK_THAT(color, Contains(on_one_line(std::string(method->help))));
         CHECK_THAT(manual, Contains(name));
         CHECK_THAT(pareto, Contains(name));
         CHECK_THAT(unknown, Contains(name));
