@@ -49,11 +49,6 @@ std::vector<Case> chosen_cases(const std::string& text, std::span<const Case> al
     return chosen;
 }
 
-/// Adds --quiet.
-inline void add_quiet_flag(CLI::App& command, bool& quiet) {
-    command.add_flag("--quiet", quiet, "no progress on standard error");
-}
-
 /// The help of --cases.
 template <class Case>
 std::string cases_help(std::span<const Case> all) {

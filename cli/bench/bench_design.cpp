@@ -141,14 +141,14 @@ void add_bench_design(CLI::App& bench, Run& run) {
         ->type_name("N");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(
         *command,
         {"irido bench design -o design.csv", "irido bench design --cases ar8,ar8-45 --seed 7"},
         "Columns: layers and free values; the best merit known (0: an exact answer exists)\n"
         "and the one found; evaluations, time and runs that came to within 1 % of their\n"
         "best; Jacobians per second on one thread.");
-    command->callback([options, &run] { run = [options] { return run_bench_design(*options); }; });
+    set_run(*command, run, options, run_bench_design);
 }
 
 }  // namespace irido::cli

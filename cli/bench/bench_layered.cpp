@@ -443,7 +443,7 @@ void add_bench_layered(CLI::App& bench, Run& run) {
         ->type_name("S");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command);
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(
         *command, {"irido bench layered", "irido bench layered --cases A --samples 1e5 -f json"},
         "240 directions of view under a beam from 30 degrees, on one thread; mirrors at 15\n"
@@ -457,7 +457,7 @@ void add_bench_layered(CLI::App& bench, Run& run) {
         "smape_percent: symmetric mean absolute error, of mirrors against the reference,\n"
         "of colours against exact ones; efficiency: the reference's time / (evaluate_s\n"
         "smape), as FPB24's table 2 has it; delta_e: CIEDE2000 of pi times the BRDF.");
-    command->callback([options, &run] { run = [options] { return run_bench_layered(*options); }; });
+    set_run(*command, run, options, run_bench_layered);
 }
 
 }  // namespace irido::cli

@@ -243,7 +243,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
                      "also plot the rows of every case into FILE (.svg, .png or .pdf)")
         ->type_name("FILE");
     add_output_options(*command, options->output, record_formats_text());
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(
         *command,
         {"irido bench pareto -o pareto.csv --plot pareto.svg",
@@ -260,7 +260,7 @@ void add_bench_pareto(CLI::App& bench, Run& run) {
             "their equal_ns_per_color and times_faster; 0 for other methods, and if more than\n"
             "65536 are needed. worst_stack, worst_angle_deg: where dE2000 is largest; there\n"
             "the method gives worst_hex instead of exact_hex.");
-    command->callback([options, &run] { run = [options] { return run_pareto(*options); }; });
+    set_run(*command, run, options, run_pareto);
 }
 
 }  // namespace irido::cli

@@ -195,7 +195,7 @@ void add_bench_render(CLI::App& bench, Run& run) {
         ->type_name("N");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(
         *command, {"irido bench render", "irido bench render --cases two-layer --size 256"},
         "Methods: exact: every pixel by irido color; irido: the table of irido render; 41, 9\n"
@@ -203,7 +203,7 @@ void add_bench_render(CLI::App& bench, Run& run) {
         "an error.\n"
         "Columns: seconds without starting the program and writing; mean_delta_e and\n"
         "worst_delta_e: CIEDE2000 to exact over all pixels that show the stack.");
-    command->callback([options, &run] { run = [options] { return run_bench_render(*options); }; });
+    set_run(*command, run, options, run_bench_render);
 }
 
 }  // namespace irido::cli

@@ -283,7 +283,7 @@ void add_bench_scene(CLI::App& bench, Run& run) {
         ->type_name("S");
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(
         *command, {"irido bench scene", "irido bench scene vehicle.json --count 10000 -f json"},
         "Methods: irido: a bake into an empty folder; irido again: the same bake repeated;\n"
@@ -296,7 +296,7 @@ void add_bench_scene(CLI::App& bench, Run& run) {
         "shading fourier (tables with other measures are left out), at a single thickness;\n"
         "files_written; worst_delta_e_levels: the same including thickness distributions,\n"
         "whose mip levels are coarser and not held to the tolerance (fixed 256 has none).");
-    command->callback([options, &run] { run = [options] { return run_scene(*options); }; });
+    set_run(*command, run, options, run_scene);
 }
 
 }  // namespace irido::cli

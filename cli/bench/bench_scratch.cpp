@@ -479,7 +479,7 @@ void add_bench_scratch(CLI::App& bench, Run& run) {
         ->add_option("--plot", options->plot, "also plot the rows into FILE (.svg, .png or .pdf)")
         ->type_name("FILE");
     add_output_options(*command, options->output, record_formats_text());
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(*command,
                  {"irido bench scratch", "irido bench scratch --count 5000 --plot scratch.svg"},
                  "Widths 0.8 to 6 um, depths 0.05 to 3 um; wide lights cover 0.2 to 0.8 of q, the\n"
@@ -494,7 +494,7 @@ void add_bench_scratch(CLI::App& bench, Run& run) {
                  "per scratch: grid finds them and takes them as infinite ones, of which it skips\n"
                  "those in the dark; exact-spectrum is per wavelength, of 67, ends and all.\n"
                  "negative: share of colours with a luminance below 0.");
-    command->callback([options, &run] { run = [options] { return run_scratch_bench(*options); }; });
+    set_run(*command, run, options, run_scratch_bench);
 }
 
 }  // namespace irido::cli

@@ -480,7 +480,7 @@ void add_bench_speed(CLI::App& bench, Run& run) {
     offer(*command, "cases", names, OfferedWords::Use::several);
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(
         *command,
         {"irido bench speed -o speed.csv",
@@ -497,7 +497,7 @@ void add_bench_speed(CLI::App& bench, Run& run) {
         "and theta_d of 0:89.75:0.25, in closed form and, as sum_1000, by 1000 samples of\n"
         "psi; worst_F is its largest relative error at 60 points. lut_: points are samples\n"
         "of a table. thread_efficiency: points_per_s over that of one thread times the threads.");
-    command->callback([options, &run] { run = [options] { return run_speed(*options); }; });
+    set_run(*command, run, options, run_speed);
 }
 
 }  // namespace irido::cli

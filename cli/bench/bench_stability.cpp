@@ -126,7 +126,7 @@ void add_bench_stability(CLI::App& bench, Run& run) {
         *command, "regime", [] { return case_names(regimes()); }, OfferedWords::Use::several);
     add_output_options(*command, options->output, record_formats_text());
     add_threads_option(*command, options->threads);
-    add_quiet_flag(*command, options->quiet);
+    add_quiet_option(*command, options->quiet, "no progress");
     set_examples(
         *command,
         {"irido bench stability --count 1000 -o stability.csv",
@@ -139,7 +139,7 @@ void add_bench_stability(CLI::App& bench, Run& run) {
         "2^-53), 100 for relative T, max(1e-9, ...) for relative A, and refusals of passive "
         "stacks.\n"
         "thresholds: stacks refused because they amplify without bound.");
-    command->callback([options, &run] { run = [options] { return run_stability(*options); }; });
+    set_run(*command, run, options, run_stability);
 }
 
 }  // namespace irido::cli

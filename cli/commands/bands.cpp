@@ -105,7 +105,7 @@ void add_bands_command(CLI::App& program, Run& run) {
         ->type_name("FILE");
     add_output_options(*command, options->output,
                        record_formats_text(RecordTarget::stream_or_picture));
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(
         *command,
         {"irido bands \"1 | (1@200 | 1.5@180)^10 | 1\" -a 20 -p p",
@@ -121,7 +121,7 @@ void add_bands_command(CLI::App& program, Run& run) {
         "thickness_sigma_nm are ignored for landmarks, but not for R. An angle past the\n"
         "critical angle of a layer is an error, and so is dispersion so anomalous that the\n"
         "phase of a layer grows with the wavelength.");
-    command->callback([options, &run] { run = [options] { return run_bands(*options); }; });
+    set_run(*command, run, options, run_bands);
 }
 
 }  // namespace irido::cli

@@ -193,7 +193,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
                        record_formats_text(RecordTarget::stream_or_picture));
     add_picture_options(*command, options->picture);
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(
         *command,
         {"irido brdf \"1 | (1@250 | 1.5@250)^10 | 1\" --alpha 0.1 --light-theta 30 "
@@ -206,7 +206,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
          "206.5 --view-theta 20 --view-phi 40 --footprint 150,80,20 --color"},
         "Directions point away from the surface. Rows are every combination, in the order\n"
         "light-theta, light-phi, view-theta, view-phi, wavelength, the last one fastest.");
-    command->callback([options, &run] { run = [options] { return run_brdf(*options); }; });
+    set_run(*command, run, options, run_brdf);
 }
 
 }  // namespace irido::cli

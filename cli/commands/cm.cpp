@@ -43,7 +43,7 @@ void add_cm_command(CLI::App& program, Run& run) {
     options->typed = CmOptions::add(*command);
     add_output_options(*command, options->output,
                        record_formats_text(RecordTarget::stream_or_picture));
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(*command,
                  {"irido cm \"air | 1.42@400 | 1.87+1.182i\" -a 0,50 --orders 0:2:1",
                   "irido cm \"air | SiO2@300 | Si\" -a 0:80:20 -p s --side R,T --at 600",
@@ -52,7 +52,7 @@ void add_cm_command(CLI::App& program, Run& run) {
                  "and the vacuum wavelength L in nm,\n"
                  "    R (or T) = C_0 + 2 sum over m of C_m cos(m (2 pi D / L + phi)).\n"
                  "thickness_sigma_nm is ignored.");
-    command->callback([options, &run] { run = [options] { return run_cm(*options); }; });
+    set_run(*command, run, options, run_cm);
 }
 
 }  // namespace irido::cli

@@ -99,11 +99,11 @@ void add_color_command(CLI::App& program, Run& run) {
     offer(*command, "plot", "chromaticity");
     add_picture_options(*command, options->picture);
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(*command, {"irido color \"air | TiO2@35 | Ti\" -a 0:80:10 --stats",
                             "irido color stack.json -a 0:85:1 --side R,T -o strip.svg",
                             "irido color stack.json -a 0:85:1 --plot chromaticity -o path.svg"});
-    command->callback([options, &run] { run = [options] { return run_color(*options); }; });
+    set_run(*command, run, options, run_color);
 }
 
 }  // namespace irido::cli

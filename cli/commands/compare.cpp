@@ -292,10 +292,7 @@ void add_compare_command(CLI::App& program, Run& run) {
     add_stack_options(*command, options->stack);
     command->get_option("STACK")->required(false);
     add_comparison_options(*command, options->typed.comparison);
-    command
-        ->add_option("-a,--angles", options->typed.angles,
-                     "angles of incidence in the incident medium, degrees, [0, 90] [0]")
-        ->type_name("LIST");
+    add_angles_option(*command, options->typed.angles);
     command
         ->add_option("--vary", options->vary,
                      "vary a value of the stack over a LIST, as in irido sweep; repeatable:\n"
@@ -315,7 +312,7 @@ void add_compare_command(CLI::App& program, Run& run) {
                        record_formats_text(RecordTarget::stream_or_picture));
     add_picture_options(*command, options->picture);
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(
         *command,
         {"irido compare \"air | 1.3@300 | Au\" --engine gltf,cycles -a 0:85:5",
@@ -325,7 +322,7 @@ void add_compare_command(CLI::App& program, Run& run) {
         "Each row has the engine's r, g, b, the exact ones in linear sRGB and their\n"
         "CIEDE2000 difference. Engines take the first layer with its index at 550 nm over\n"
         "the substrate; notes name the properties left out. STACK may be the word list.");
-    command->callback([options, &run] { run = [options] { return run_compare(*options); }; });
+    set_run(*command, run, options, run_compare);
 }
 
 }  // namespace irido::cli

@@ -206,7 +206,7 @@ void add_convert_command(CLI::App& program, Run& run) {
     add_output_options(*command, options->output,
                        "json, expression, zemax, openfilters or csv (files: .json,\n"
                        ".txt, .dat, .ofp, .csv) [json]");
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(*command,
                  {"irido convert \"air | (TiO2@58.5 | SiO2@94.2)^10 | BK7@1mm! | air\"",
                   "irido convert stack.json -f expression",
@@ -216,7 +216,7 @@ void add_convert_command(CLI::App& program, Run& run) {
                  "Paths of material files become relative to FILE. What a format cannot hold\n"
                  "(groups, incoherent layers, the media around, ranges of materials) is noted on\n"
                  "standard error. An OpenFilters project is written with its materials beside it.");
-    command->callback([options, &run] { run = [options] { return run_convert(*options); }; });
+    set_run(*command, run, options, run_convert);
 }
 
 }  // namespace irido::cli

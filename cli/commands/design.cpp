@@ -260,7 +260,7 @@ void add_design_command(CLI::App& program, Run& run) {
                      "write the best of the results of shards, instead of a search")
         ->type_name("FILE");
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");
+    add_quiet_option(*command, options->quiet, "no notes and no progress");
     set_examples(
         *command,
         {"irido design task.json -o best.json --report report.csv --plot best.svg",
@@ -273,7 +273,7 @@ void add_design_command(CLI::App& program, Run& run) {
         "how many of the runs came to within 1 % of the best (reproducibility), and for each\n"
         "value the merit where it is 1 % off. --report: a value counts as met within its sigma,\n"
         "or without any within 0.01 of R, T and A and 1 of all others.");
-    command->callback([options, &run] { run = [options] { return run_design(*options); }; });
+    set_run(*command, run, options, run_design);
 }
 
 }  // namespace irido::cli

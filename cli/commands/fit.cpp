@@ -191,7 +191,7 @@ void add_fit_command(CLI::App& program, Run& run) {
     command->add_option("--plot", options->plot, "a picture of the residuals (.svg, .png, .pdf)")
         ->type_name("FILE");
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");
+    add_quiet_option(*command, options->quiet, "no notes and no progress");
     set_examples(
         *command,
         {"irido fit oxide.json",
@@ -200,7 +200,7 @@ void add_fit_command(CLI::App& program, Run& run) {
         "the given values and, if all bounds are finite, with 100 others inside them (not with\n"
         "--method refine). stderr follows from the sigma of the targets and is not scaled; if\n"
         "none is stated, it is scaled by sqrt(chi2/dof).");
-    command->callback([options, &run] { run = [options] { return run_fit(*options); }; });
+    set_run(*command, run, options, run_fit);
 }
 
 }  // namespace irido::cli

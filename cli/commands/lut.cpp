@@ -200,7 +200,7 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
     if (kind.color) add_picture_options(*command, typed->picture);
     add_table_layout_options(*command, typed->table);
     add_threads_option(*command, typed->threads);
-    command->add_flag("--quiet", typed->quiet, "no notes on standard error");
+    add_quiet_option(*command, typed->quiet);
     std::vector<std::string> examples;
     for (const std::string_view example : kind.examples)
         examples.push_back("irido lut " + std::string(example));
@@ -233,7 +233,7 @@ void add_list(CLI::App& lut, Run& run) {
     const auto output = std::make_shared<OutputOptions>();
     add_output_options(*command, *output, "csv or json [csv]");
     set_examples(*command, {"irido lut list", "irido lut list -f json"});
-    command->callback([output, &run] { run = [output] { return list_kinds(*output); }; });
+    set_run(*command, run, output, list_kinds);
 }
 
 int show_info(const std::string& file) {
@@ -285,7 +285,7 @@ void add_info(CLI::App& lut, Run& run) {
     const auto file = std::make_shared<std::string>();
     info->add_option("FILE", *file, "a file that irido lut wrote")->required();
     set_examples(*info, {"irido lut info film.ktx2", "irido lut info film.exr | jq .error"});
-    info->callback([file, &run] { run = [file] { return show_info(*file); }; });
+    set_run(*info, run, file, show_info);
 }
 
 void add_check(CLI::App& lut, Run& run) {
@@ -295,7 +295,7 @@ void add_check(CLI::App& lut, Run& run) {
     check->add_option("FILE", *files, "files that irido lut wrote")->required();
     set_examples(*check, {"irido lut check film.ktx2", "irido lut check baked/*.exr"},
                  "Prints FILE: ok, or every problem, with exit status 1.");
-    check->callback([files, &run] { run = [files] { return check_files(*files); }; });
+    set_run(*check, run, files, check_files);
 }
 
 void add_shader(CLI::App& lut, Run& run) {

@@ -291,12 +291,12 @@ void add_find(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& opti
         ->type_name("NM");
     add_database_option(*find);
     add_output_options(*find, options->output, record_formats_text());
-    find->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*find, options->quiet);
     set_examples(*find,
                  {"irido materials find silver -w 633", "irido materials find \"johnson 1972\"",
                   "irido materials find gold -w 1550 --database ~/rii"},
                  "film: measured on a film, as far as is known.");
-    find->callback([options, &run] { run = [options] { return run_find(*options); }; });
+    set_run(*find, run, options, run_find);
 }
 
 void add_show(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& options, Run& run) {
@@ -313,11 +313,11 @@ void add_show(CLI::App& materials, const std::shared_ptr<MaterialsOptions>& opti
     offer(*show, "NAME", library_names_and_aliases, OfferedWords::Use::one_or_file);
     add_database_option(*show);
     add_output_options(*show, options->output, record_formats_text());
-    show->add_flag("--quiet", options->quiet, "no source, range or notes on standard error");
+    add_quiet_option(*show, options->quiet, "no source, range or notes");
     set_examples(*show, {"irido materials show Au -w 400:800:100",
                          "irido materials show water -w 589.3 -f json",
                          "irido materials show schemas/examples/materials/N-BK7.yml"});
-    show->callback([options, &run] { run = [options] { return run_show(*options); }; });
+    set_run(*show, run, options, run_show);
 }
 
 }  // namespace
@@ -331,7 +331,7 @@ void add_materials_command(CLI::App& program, Run& run) {
         "list", "List names, ranges in nm, whether 380 to 780 nm is covered, and sources.");
     add_output_options(*list, options->output, record_formats_text());
     set_examples(*list, {"irido materials list", "irido materials list -f json"});
-    list->callback([options, &run] { run = [options] { return run_list(*options); }; });
+    set_run(*list, run, options, run_list);
     add_show(*command, options, run);
     add_find(*command, options, run);
     set_examples(*command, {"irido materials list", "irido materials show Au -w 400:800:100",

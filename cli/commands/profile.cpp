@@ -105,7 +105,7 @@ void add_profile_command(CLI::App& program, Run& run) {
     options->typed = ProfileOptions::add(*command);
     add_output_options(*command, options->output,
                        record_formats_text(RecordTarget::stream_or_picture));
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(
         *command,
         {"irido profile \"BK7 | Ag@50 | air\" -w 633 -a 42.82 -p p --points 400 -o field.png",
@@ -114,7 +114,7 @@ void add_profile_command(CLI::App& program, Run& run) {
         "|E|^2 and its components along x (the surface and the plane of incidence), y and z\n"
         "(the normal) are relative to the incident wave; flux and absorption to its power.\n"
         "Medium 0 is the incident one, the substrate is the last.");
-    command->callback([options, &run] { run = [options] { return run_profile(*options); }; });
+    set_run(*command, run, options, run_profile);
 }
 
 }  // namespace irido::cli

@@ -479,7 +479,7 @@ void add_render_command(CLI::App& program, Run& run) {
     command->add_flag("--stats", options->stats,
                       "print on standard error how the colours were computed, and why");
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");
+    add_quiet_option(*command, options->quiet, "no notes and no progress");
     set_examples(
         *command,
         {"irido render \"air | 1.33@400 | air\" --shape bubble --thickness-noise 100:800,3,1 "
@@ -493,7 +493,7 @@ void add_render_command(CLI::App& program, Run& run) {
         "sphere, of radius 0.9 times half of the smaller side, is seen by parallel rays: at the\n"
         "distance r from its centre the angle is asin(r/R). Walls of a bubble, and a ring that\n"
         "mirrors itself, are multiplied wavelength by wavelength. Pictures do not depend on -j.");
-    command->callback([options, &run] { run = [options] { return run_render(*options); }; });
+    set_run(*command, run, options, run_render);
 }
 
 }  // namespace irido::cli

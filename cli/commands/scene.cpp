@@ -477,7 +477,7 @@ void add_common(CLI::App& command, SceneCommand& typed) {
         ->required();
     add_threads_option(command, typed.threads);
     add_strict_option(command, typed.strict);
-    command.add_flag("--quiet", typed.quiet, "no notes and no progress on standard error");
+    add_quiet_option(command, typed.quiet, "no notes and no progress");
 }
 
 }  // namespace
@@ -505,7 +505,7 @@ void add_plan_command(CLI::App& program, Run& run) {
         "found; mip levels are estimated where a single thickness would be worst. Omissions\n"
         "that the scene itself requests appear with --explain only. The estimated time is\n"
         "printed on standard error.");
-    command->callback([typed, &run] { run = [typed] { return run_plan(*typed); }; });
+    set_run(*command, run, typed, run_plan);
 }
 
 void add_bake_command(CLI::App& program, Run& run) {
@@ -532,7 +532,7 @@ void add_bake_command(CLI::App& program, Run& run) {
         "others are made, the manifest gives the reason and the exit status is 1. Several\n"
         "scenes can share a folder if each has its own --manifest; --prune removes nothing\n"
         "that another manifest lists.");
-    command->callback([typed, &run] { run = [typed] { return run_bake(*typed); }; });
+    set_run(*command, run, typed, run_bake);
 }
 
 }  // namespace irido::cli

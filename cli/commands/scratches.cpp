@@ -201,7 +201,7 @@ void add_scratches_command(CLI::App& program, Run& run) {
     add_output_options(*command, options->output,
                        record_formats_text(RecordTarget::stream_or_picture));
 
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(
         *command,
         {"irido scratches schemas/examples/surfaces/worn-spoon.json --extent 500,500",

@@ -71,13 +71,13 @@ void add_spectrum_command(CLI::App& program, Run& run) {
     add_threads_option(*command, options->threads);
     command->add_flag("--stats", options->stats,
                       "report on standard error how it was computed and what was skipped");
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(*command,
                  {"irido spectrum \"air | SiO2@100 | Si\" -w 380:780:5 -a 0,45 -p s,p",
                   "irido spectrum \"air | SiO2@25 | Si\" -a 70 -p s --columns psi_deg,delta_deg",
                   "irido spectrum stack.json --set layers.0.thickness_nm=420 -o out.npy",
                   "irido spectrum \"air | MgF2@100 | BK7\" -a 0,45 -p s,p -o r.svg"});
-    command->callback([options, &run] { run = [options] { return run_spectrum(*options); }; });
+    set_run(*command, run, options, run_spectrum);
 }
 
 }  // namespace irido::cli

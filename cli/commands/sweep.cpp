@@ -455,7 +455,7 @@ void add_sweep_command(CLI::App& program, Run& run, std::span<char* const> argum
                        record_formats_text(RecordTarget::any_or_picture));
     add_picture_options(*command, options->picture);
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes and no progress on standard error");
+    add_quiet_option(*command, options->quiet, "no notes and no progress");
     set_examples(
         *command,
         {"irido sweep \"air | TiO2@35 | Ti\" --vary layers.0.thickness_nm=0:200:1 --compute color",

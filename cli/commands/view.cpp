@@ -68,7 +68,7 @@ void add_view_command(CLI::App& program, Run& run) {
     add_strict_option(*command, options->light.strict);
     add_output_options(*command, options->output, "html");
     add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_quiet_option(*command, options->quiet);
     set_examples(
         *command,
         {"irido view \"1 | (1@125 | 1.5@375)^20 | 1\" -o explore.html",
@@ -77,7 +77,7 @@ void add_view_command(CLI::App& program, Run& run) {
         "WebGL 2), the colours over the angle, and at the pointer the spectrum, sRGB and CIELAB;\n"
         "sliders change thicknesses, repetitions and constant indices. Its colours are those of\n"
         "irido color within the error that stands on the page.");
-    command->callback([options, &run] { run = [options] { return run_view(*options); }; });
+    set_run(*command, run, options, run_view);
 }
 
 }  // namespace irido::cli

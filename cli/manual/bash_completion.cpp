@@ -108,14 +108,9 @@ complete -F _irido irido
 }  // namespace
 
 std::string bash_completion(const CommandPage& program) {
-    std::vector<std::string> below;
-    std::string cases;
-    for (const CommandPage* page : all_pages(program)) {
-        cases += bash_case(*page);
-        if (page != &program) below.push_back("'" + page->name + "'");
-    }
+    const auto [names, cases] = command_cases(program, bash_case);
     return "# bash completion of irido, made by: irido completion bash\n" + std::string(kBashHead) +
-           joined(below, " | ") + kBashCases + cases + kBashTail;
+           joined(names, " | ") + kBashCases + cases + kBashTail;
 }
 
 }  // namespace irido::cli

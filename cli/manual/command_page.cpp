@@ -115,6 +115,15 @@ std::vector<const CommandPage*> all_pages(const CommandPage& page) {
     return pages;
 }
 
+CommandCases command_cases(const CommandPage& program, std::string (*case_of)(const CommandPage&)) {
+    CommandCases all;
+    for (const CommandPage* page : all_pages(program)) {
+        all.cases += case_of(*page);
+        if (page != &program) all.names.push_back("'" + page->name + "'");
+    }
+    return all;
+}
+
 std::vector<OptionPage> all_options(const CommandPage& page) {
     std::vector<OptionPage> options = page.options;
     for (const OptionGroup& group : page.groups)

@@ -47,6 +47,13 @@ CommandPage command_page(const CLI::App& program);
 /// A page and all pages below it.
 std::vector<const CommandPage*> all_pages(const CommandPage& page);
 
+/// What a completion script says of every command.
+struct CommandCases {
+    std::vector<std::string> names;  ///< of those below the program, in quotes
+    std::string cases;               ///< of all, one after another
+};
+CommandCases command_cases(const CommandPage& program, std::string (*case_of)(const CommandPage&));
+
 /// All options, including those of every group, each spelling once.
 std::vector<OptionPage> all_options(const CommandPage& page);
 

@@ -81,14 +81,9 @@ complete -c irido -f
 }  // namespace
 
 std::string fish_completion(const CommandPage& program) {
-    std::vector<std::string> below;
-    std::string lines;
-    for (const CommandPage* page : all_pages(program)) {
-        lines += fish_lines(*page);
-        if (page != &program) below.push_back("'" + page->name + "'");
-    }
+    const auto [names, cases] = command_cases(program, fish_lines);
     return "# fish completion of irido, made by: irido completion fish\n" + std::string(kFishHead) +
-           joined(below, " ") + kFishCases + lines;
+           joined(names, " ") + kFishCases + cases;
 }
 
 }  // namespace irido::cli

@@ -109,14 +109,9 @@ fi
 }  // namespace
 
 std::string zsh_completion(const CommandPage& program) {
-    std::vector<std::string> below;
-    std::string cases;
-    for (const CommandPage* page : all_pages(program)) {
-        cases += zsh_case(*page);
-        if (page != &program) below.push_back("'" + page->name + "'");
-    }
+    const auto [names, cases] = command_cases(program, zsh_case);
     return "#compdef irido\n# made by: irido completion zsh\n" + std::string(kZshHead) +
-           joined(below, "|") + kZshCases + cases + kZshTail;
+           joined(names, "|") + kZshCases + cases + kZshTail;
 }
 
 }  // namespace irido::cli

@@ -143,6 +143,20 @@ void add_angles_option(CLI::App& command, std::string& angles) {
         ->type_name("LIST");
 }
 
+void add_polarizations_option(CLI::App& command, std::string& polarizations) {
+    command
+        .add_option("-p,--polarization", polarizations,
+                    "s, p, u (unpolarized: the mean of both) or several: s,p [u]")
+        ->type_name("LETTERS");
+    offer(command, "polarization", "s p u", OfferedWords::Use::several);
+}
+
+void add_s_and_p_option(CLI::App& command, std::string& polarizations) {
+    command.add_option("-p,--polarization", polarizations, "s, p or s,p [s,p]")
+        ->type_name("LETTERS");
+    offer(command, "polarization", "s p", OfferedWords::Use::several);
+}
+
 unsigned parse_threads(const std::string& text) {
     const double typed = schemas::parse_number(text).value_or(0);
     if (typed > kMostThreads) return kMostThreads;
@@ -163,6 +177,15 @@ void add_threads_option(CLI::App& command) {
             "-j,--threads", [](const std::string& text) { parse_threads(text); },
             "accepted for uniformity: this command runs on one thread")
         ->type_name("N");
+}
+
+void add_quiet_option(CLI::App& command, bool& quiet, const std::string& what) {
+    command.add_flag("--quiet", quiet, what + " on standard error");
+}
+
+void add_quiet_option(CLI::App& command) {
+    command.add_flag_function(
+        "--quiet", [](std::int64_t) {}, "no notes on standard error");
 }
 
 std::optional<SimdLevel> asked_simd_level() {

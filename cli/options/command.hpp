@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,13 @@ void add_bench_command(CLI::App& program, Run& run);
 void add_manual_command(CLI::App& program, Run& run);
 void add_completion_command(CLI::App& program, Run& run);
 
+/// Makes `run` call `work` with the options if the command is selected.
+template <class Options>
+void set_run(CLI::App& command, Run& run, const std::shared_ptr<Options>& options,
+             int (*work)(const Options&)) {
+    command.callback([&run, options, work] { run = [options, work] { return work(*options); }; });
+}
+
 /// Destination of a command's output, as given on the command line.
 struct OutputOptions {
     std::string file;    ///< "" for standard output, given as - or by default
@@ -80,6 +88,10 @@ std::string record_formats_text(RecordTarget target = RecordTarget::stream);
 /// -a
 void add_angles_option(CLI::App& command, std::string& angles);
 
+/// -p: several of s, p and u; or s, p or both.
+void add_polarizations_option(CLI::App& command, std::string& polarizations);
+void add_s_and_p_option(CLI::App& command, std::string& polarizations);
+
 inline constexpr unsigned kMostThreads = 4096;
 
 /// Parses the number of threads of -j: a whole number of at least 1, limited to kMostThreads.
@@ -89,6 +101,10 @@ unsigned parse_threads(const std::string& text);
 /// Adds -j, or a -j that is ignored, for commands without threads.
 void add_threads_option(CLI::App& command, unsigned& threads);
 void add_threads_option(CLI::App& command);
+
+/// Adds --quiet, which leaves `what` out, or a --quiet that is ignored, for commands without notes.
+void add_quiet_option(CLI::App& command, bool& quiet, const std::string& what = "no notes");
+void add_quiet_option(CLI::App& command);
 
 /// The instruction set named by the environment variable IRIDO_SIMD: plain, baseline, avx2 or
 /// avx512. Throws UsageError for any other name.

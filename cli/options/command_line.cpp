@@ -214,9 +214,7 @@ void add_missing_options(CLI::App& program) {
             continue;
         }
         if (!command->get_option_no_throw("--threads")) add_threads_option(*command);
-        if (!command->get_option_no_throw("--quiet"))
-            command->add_flag_function(
-                "--quiet", [](std::int64_t) {}, "no notes on standard error");
+        if (!command->get_option_no_throw("--quiet")) add_quiet_option(*command);
     }
 }
 

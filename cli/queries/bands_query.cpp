@@ -270,9 +270,7 @@ double BandsQuery::cost_us(const PreparedStack& prepared, const Stack& stack, do
 std::unique_ptr<QueryOptions> BandsOptions::add(CLI::App& command) {
     auto options = std::make_unique<BandsOptions>();
     add_angles_option(command, options->angles);
-    command.add_option("-p,--polarization", options->polarization, "s, p or s,p [s,p]")
-        ->type_name("LETTERS");
-    offer(command, "polarization", "s p", OfferedWords::Use::several);
+    add_s_and_p_option(command, options->polarization);
     command
         .add_option("--range", options->range,
                     "range of vacuum wavelengths, nm, in [1, 1e7] [360:830]")

@@ -181,11 +181,9 @@ double CmQuery::cost_us(const PreparedStack&, const Stack&, double, std::optiona
 std::unique_ptr<QueryOptions> CmOptions::add(CLI::App& command) {
     auto options = std::make_unique<CmOptions>();
     add_angles_option(command, options->angles);
-    command.add_option("-p,--polarization", options->polarization, "s, p or s,p [s,p]")
-        ->type_name("LETTERS");
+    add_s_and_p_option(command, options->polarization);
     command.add_option("--side", options->sides, "R (reflected), T (transmitted) or R,T [R]")
         ->type_name("SIDES");
-    offer(command, "polarization", "s p", OfferedWords::Use::several);
     offer(command, "side", "R T", OfferedWords::Use::several);
     command.add_option("--orders", options->orders, "orders m, whole numbers in [0, 1e6] [0:5:1]")
         ->type_name("LIST");

@@ -225,11 +225,7 @@ std::unique_ptr<QueryOptions> ProfileOptions::add(CLI::App& command) {
         .add_option("-a,--angles", options->angles,
                     "angles of incidence in the incident medium, degrees, [0, 90) [0]")
         ->type_name("LIST");
-    command
-        .add_option("-p,--polarization", options->polarization,
-                    "s, p, u (unpolarized: the mean of both) or several: s,p [u]")
-        ->type_name("LETTERS");
-    offer(command, "polarization", "s p u", OfferedWords::Use::several);
+    add_polarizations_option(command, options->polarization);
     command
         .add_option("--points", options->points,
                     "number of equally spaced depths, from half of the longest wavelength\n"

@@ -511,10 +511,7 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
         ->type_name("LIST");
     add_unit_option(command, options->unit);
     add_angles_option(command, options->angles);
-    command
-        .add_option("-p,--polarization", options->polarization,
-                    "s, p, u (unpolarized: the mean of both) or several: s,p [u]")
-        ->type_name("LETTERS");
+    add_polarizations_option(command, options->polarization);
     command
         .add_option("--columns", options->columns,
                     "additional columns, in the order given:\n"
@@ -545,7 +542,6 @@ std::unique_ptr<QueryOptions> SpectrumOptions::add(CLI::App& command) {
                     "luminosity) or a file of rows nm,weight")
         ->type_name("WEIGHT");
     offer(command, "average", "flat photopic", OfferedWords::Use::one_or_file);
-    offer(command, "polarization", "s p u", OfferedWords::Use::several);
     offer(command, "columns", spectrum_column_names, OfferedWords::Use::several);
     return options;
 }
