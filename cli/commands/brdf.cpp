@@ -176,9 +176,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
                      "another surface of the scatterogram, beside the first; repeatable")
         ->type_name("SURFACE")
         ->allow_extra_args(false);
-    add_light_options(*command, options->query.color);
-    add_strict_option(*command, options->query.color.strict);
-    add_space_options(*command, options->query.color);
+    add_colorimetry_options(*command, options->query.color);
     command
         ->add_option("--tolerance", options->query.color.tolerance,
                      "maximum error of X, Y, Z, relative to the larger of 1 and what a mirror's\n"

@@ -2,7 +2,7 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/commands/lut_brdf.hpp"
+#include "cli/commands/surface_table.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/options/color_options.hpp"
 #include "cli/options/long_work.hpp"
@@ -212,18 +212,13 @@ void add_lut_kind(CLI::App& lut, const tables::LutKind& kind, Run& run) {
 
 int list_kinds(const OutputOptions& output) {
     tables::Column::Texts names, axes, summaries;
-    for (const tables::LutKind* kind : tables::lut_kinds()) {
-        names.emplace_back(kind->name);
-        axes.emplace_back(kind->axes);
-        summaries.emplace_back(kind->summary);
-    }
-    for (const auto& [name, axis, summary] :
-         {std::tuple("brdf", kLutBrdfAxes, kLutBrdfSummary),
-          {"layered", std::string_view("row, theta_deg"), kLutLayeredSummary}}) {
-        names.emplace_back(name);
-        axes.emplace_back(axis);
-        summaries.emplace_back(summary);
-    }
+    const auto add = [&](const auto& kind) {
+        names.emplace_back(kind.name);
+        axes.emplace_back(kind.axes);
+        summaries.emplace_back(kind.summary);
+    };
+    for (const tables::LutKind* kind : tables::lut_kinds()) add(*kind);
+    for (const SurfaceTableKind* kind : surface_table_kinds()) add(*kind);
     write_records({{{"kind", names}, {"axes", axes}, {"summary", summaries}}}, output);
     return 0;
 }
@@ -248,7 +243,9 @@ std::vector<std::string> problems_of_table(const std::string& file) {
         const tables::Lut lut = tables::read_lut(file);
         std::vector<std::string> problems = tables::lut_problems(lut);
         const tables::LutKind* const kind = tables::find_lut_kind(lut.kind);
-        if (!kind && lut.kind != "layered" && lut.kind != "brdf")
+        const bool is_of_surface = std::ranges::any_of(
+            surface_table_kinds(), [&](const auto* one) { return one->name == lut.kind; });
+        if (!kind && !is_of_surface)
             problems.push_back("unknown kind '" + lut.kind + "'");
         else if (kind && problems.empty() && kind->problems)
             problems = kind->problems(lut);
@@ -336,8 +333,8 @@ void add_lut_command(CLI::App& program, Run& run) {
     CLI::App* lut = program.add_subcommand("lut", "Look-up tables for shaders and renderers.");
     lut->require_subcommand(1);
     for (const tables::LutKind* kind : tables::lut_kinds()) add_lut_kind(*lut, *kind, run);
-    add_lut_brdf(*lut, run);
-    add_lut_layered(*lut, run);
+    for (const SurfaceTableKind* kind : surface_table_kinds())
+        kind->add(*lut->add_subcommand(std::string(kind->name), std::string(kind->summary)), run);
     add_list(*lut, run);
     add_info(*lut, run);
     add_check(*lut, run);

@@ -3,14 +3,8 @@
 #include <cmath>
 #include <memory>
 
-#include "cli/commands/lut_brdf.hpp"
-#include "cli/options/picture_options.hpp"
-#include "cli/options/surface_options.hpp"
-#include "cli/options/table_options.hpp"
+#include "cli/commands/surface_table.hpp"
 #include "cli/progress.hpp"
-#include "cli/queries/surface_colors.hpp"
-#include "cli/queries/surface_query.hpp"
-#include "core/color/held_stack.hpp"
 #include "core/math/constants.hpp"
 #include "core/math/degrees.hpp"
 #include "core/rough/walk/rest_table.hpp"
@@ -33,9 +27,7 @@ constexpr double kRestTolerance = 1e-2;
 
 constexpr const char* kBsdfWavelengths = "360:830:10";
 
-struct LutBrdfCommand : TableOutput {
-    SurfaceOptions surface;
-    SurfaceQuery query;
+struct LutBrdfCommand : SurfaceTableOptions {
     std::string wavelengths, phi_d, theta_h, theta_d, exposure;
 };
 
@@ -94,13 +86,6 @@ void resolved_brdf_format(const OutputOptions& output) {
         throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
                          not_one_of(brdf_format_names(), resolved_format(output)));
     }
-}
-
-const LayeredSurface& layered(const schemas::SurfaceDocument& document) {
-    if (const auto* surface = std::get_if<LayeredSurface>(&document.surface)) return *surface;
-    throw schemas::InputError(
-        document.file, "",
-        "must be a layered surface: the BRDF of a scratched one depends on place and azimuth");
 }
 
 /// XYZ of the BRDF of very many pairs.
@@ -170,9 +155,9 @@ double smoothest(const LayeredSurface& surface) {
     return alpha;
 }
 
-std::string bsdf_bytes(const LayeredScattering& scattering,
-                       const schemas::SurfaceDocument& document, const LutBrdfCommand& command,
-                       const SurfaceQuery& query) {
+std::string bsdf_bytes(const LayeredScattering& scattering, const SurfaceTable& table,
+                       const LutBrdfCommand& command) {
+    const schemas::SurfaceDocument& document = table.document();
     tables::MeasuredBsdf bsdf;
     bsdf.description = (document.name.empty() ? document.file : document.name) + ", irido " +
                        tables::this_build().version;
@@ -184,9 +169,8 @@ std::string bsdf_bytes(const LayeredScattering& scattering,
         throw UsageError("--wavelengths: must ascend for a .bsdf file");
     constexpr int kLast = 32;
     for (int t = 0; t <= kLast; ++t) bsdf.theta_i_deg.push_back(89.9 * t / kLast);
-    const Paths paths = parse_paths(query.paths);
     return tables::measured_bsdf(bsdf, [&](std::span<const ScatterPair> pairs) {
-        return scattering.brdf(pairs, bsdf.wavelength_nm, paths);
+        return scattering.brdf(pairs, bsdf.wavelength_nm, table.paths());
     });
 }
 
@@ -194,10 +178,10 @@ std::vector<double> parse_half_angles(const std::string& option, const std::stri
     return typed.empty() ? std::vector<double>() : parse_list(option, typed, 0, 90);
 }
 
-tables::LutPlan plan_of(const PairColors& pairs, const ColorColumns& colors,
-                        const LayeredSurface& surface, const LutBrdfCommand& command,
-                        const SurfaceQuery& query) {
-    const Illumination& light = colors.illumination();
+tables::LutPlan plan_of(const PairColors& pairs, const LayeredSurface& surface,
+                        const SurfaceTable& table, const LutBrdfCommand& command) {
+    const Illumination& light = table.colors().illumination();
+    const SurfaceQuery& query = table.query();
     const bool is_xyz = query.color.space == "xyz";
     tables::LutPlan plan =
         tables::half_angle_plan({parse_half_angles("--theta-h", command.theta_h),
@@ -225,8 +209,9 @@ int write_half_angles(tables::LutPlan plan, const LutBrdfCommand& command,
     if (asked_picture(command.output, command.picture) && plan.axes[0].axis.count() > 1)
         throw UsageError("--phi-d: a picture shows one value (got " +
                          std::to_string(plan.axes[0].axis.count()) + ")");
-    static const tables::LutKind kind{
-        .name = "brdf", .summary = kLutBrdfSummary, .axes = kLutBrdfAxes};
+    static const tables::LutKind kind{.name = surface_table_brdf.name,
+                                      .summary = surface_table_brdf.summary,
+                                      .axes = surface_table_brdf.axes};
     // pi times the BRDF, as of brdf --color: a white diffuser is white
     return make_table(kind, std::move(plan), command, title, true,
                       kPi * std::exp2(exposure_of(command)));
@@ -237,23 +222,14 @@ int run_lut_brdf(const LutBrdfCommand& command) {
     exposure_of(command);  // before the work
     if (kind == BrdfOutput::table && !asked_picture(command.output, command.picture))
         resolved_brdf_format(command.output);
-    SurfaceQuery query = command.query;
-    query.execution = execution_of(command.threads);
-    query.note = [&](const std::string& text) { note(text, command.quiet); };
-    const Paths paths = parse_closed_paths(query.paths);
-    const Crossings crossings = parse_crossings(query.transmission);
-    const ColorColumns colors(query.color);
-    const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
-    check_writable(command.output);
-    const Sensitivity& sensitivity = colors.illumination().tables.sensitivity();
-    LayeredSurface surface = layered(document);
+    const SurfaceTable table(command);
+    const Paths paths = table.paths();
+    const LayeredSurface& asked = table.layered(
+        "must be a layered surface: the BRDF of a scratched one depends on place and "
+        "azimuth");
     try {
-        if (kind != BrdfOutput::bsdf) {
-            report_held_layers(surface, document, sensitivity, query);
-            for (RoughLayer& layer : surface.layers)
-                layer.stack = held_stack(layer.stack, sensitivity);
-        }
-        const LayeredScattering scattering(surface, crossings, query.execution);
+        const LayeredSurface surface = kind == BrdfOutput::bsdf ? asked : table.held(asked);
+        const LayeredScattering scattering = table.scattering(surface);
         if (paths == Paths::all && scattering.layers() > 1)
             throw UsageError(
                 "--paths all: files and tables take it for up to one layer: between several, light "
@@ -265,64 +241,60 @@ int run_lut_brdf(const LutBrdfCommand& command) {
                 "of one layer without a coating or of a base alone; .binary and tables take a "
                 "coating as well");
         if (kind == BrdfOutput::bsdf) {
-            write_bytes(bsdf_bytes(scattering, document, command, query), command.output, true);
+            write_bytes(bsdf_bytes(scattering, table, command), command.output, true);
             return 0;
         }
-        const PairColors pairs(scattering, sensitivity, query, paths, command.quiet);
+        const PairColors pairs(scattering, table.sensitivity(), table.query(), paths,
+                               command.quiet);
         if (kind == BrdfOutput::merl) {
-            write_bytes(merl_bytes(pairs, colors, query), command.output, true);
+            write_bytes(merl_bytes(pairs, table.colors(), table.query()), command.output, true);
             return 0;
         }
-        return write_half_angles(plan_of(pairs, colors, surface, command, query), command,
-                                 title_of(document, command.surface));
+        return write_half_angles(plan_of(pairs, surface, table, command), command,
+                                 title_of(table.document(), command.surface));
     } catch (const DomainError& error) {
-        throw schemas::InputError(document.file, "", error.what());
+        throw schemas::InputError(table.document().file, "", error.what());
     }
 }
 
-}  // namespace
-
-void add_lut_brdf(CLI::App& lut, Run& run) {
-    CLI::App* command = lut.add_subcommand("brdf", std::string(kLutBrdfSummary));
+void add_lut_brdf(CLI::App& command, Run& run) {
     const auto options = std::make_shared<LutBrdfCommand>();
-    add_surface_options(*command, options->surface);
-    add_table_paths_options(*command, options->query.paths, options->query.transmission);
+    add_surface_options(command, options->surface);
+    add_table_paths_options(command, options->query.paths, options->query.transmission);
     command
-        ->add_option("--phi-d", options->phi_d,
-                     "azimuths of the light about the half vector, degrees, [0, 90] [0:90/32]")
+        .add_option("--phi-d", options->phi_d,
+                    "azimuths of the light about the half vector, degrees, [0, 90] [0:90/32]")
         ->type_name("LIST");
     command
-        ->add_option("--theta-h", options->theta_h,
-                     "angles of the half vector, degrees, [0, 90] [128, closest in the lobe]")
+        .add_option("--theta-h", options->theta_h,
+                    "angles of the half vector, degrees, [0, 90] [128, closest in the lobe]")
         ->type_name("LIST");
     command
-        ->add_option("--theta-d", options->theta_d,
-                     "half the angle between the directions, degrees, [0, 90] [0:90/64]")
+        .add_option("--theta-d", options->theta_d,
+                    "half the angle between the directions, degrees, [0, 90] [0:90/64]")
         ->type_name("LIST");
     command
-        ->add_option("-w,--wavelengths", options->wavelengths,
-                     "of .bsdf files, nm, [1, 1e7] [360:830:10]")
+        .add_option("-w,--wavelengths", options->wavelengths,
+                    "of .bsdf files, nm, [1, 1e7] [360:830:10]")
         ->type_name("LIST");
-    add_light_options(*command, options->query.color);
-    add_strict_option(*command, options->query.color.strict);
-    add_space_options(*command, options->query.color);
-    add_table_size_options(*command, options->table, "[f32]");
-    add_output_options(*command, options->output, "binary (merl), bsdf, " + table_formats_text());
-    add_picture_options(*command, options->picture);
+    add_colorimetry_options(command, options->query.color);
+    add_table_size_options(command, options->table, "[f32]");
+    add_output_options(command, options->output, "binary (merl), bsdf, " + table_formats_text());
+    add_picture_options(command, options->picture);
     command
-        ->add_option("--exposure", options->exposure,
-                     "brighten a picture, which shows pi times the BRDF, by 2^EV, [-40, 40] [0]")
+        .add_option("--exposure", options->exposure,
+                    "brighten a picture, which shows pi times the BRDF, by 2^EV, [-40, 40] [0]")
         ->type_name("EV");
-    add_table_layout_options(*command, options->table);
-    add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
+    add_table_layout_options(command, options->table);
+    add_threads_option(command, options->threads);
+    add_quiet_option(command, options->quiet);
     set_examples(
-        *command,
+        command,
         {"irido lut brdf schemas/examples/surfaces/green-on-pale.json -o green.binary",
          "irido lut brdf \"1 | (1@250 | 1.5@250)^10 | 1\" --alpha 0.1 -o mirror.bsdf",
          "irido lut brdf schemas/examples/surfaces/beetle-green.json --tolerance 1 -o beetle.ktx2",
          "irido lut brdf schemas/examples/surfaces/beetle-green.json --phi-d 90 -o beetle.png"},
-        "Axes: " + std::string(kLutBrdfAxes) + ".\n" +
+        "Axes: " + std::string(surface_table_brdf.axes) + ".\n" +
             "Tables hold the BRDF per steradian, without a coating's mirror; phi_d from 0 to 90\n"
             "is all, by symmetry. Samples with a direction below the horizon continue those\n"
             "above. The error, in CIEDE2000 of pi times the BRDF, where brighter than white\n"
@@ -331,7 +303,15 @@ void add_lut_brdf(CLI::App& lut, Run& run) {
             "sRGB,\n"
             "33 MB. .bsdf: the tensor file that Mitsuba's and pbrt's measured materials read,\n"
             "spectral.");
-    command->callback([options, &run] { run = [options] { return run_lut_brdf(*options); }; });
+    set_run(command, run, options, run_lut_brdf);
 }
+
+}  // namespace
+
+constinit const SurfaceTableKind surface_table_brdf{
+    .name = "brdf",
+    .axes = "phi_d_deg, theta_h_deg, theta_d_deg",
+    .summary = "BRDF of a rough layered surface, as a table or as a file that renderers read.",
+    .add = add_lut_brdf};
 
 }  // namespace irido::cli

@@ -2,13 +2,8 @@
 #include <cmath>
 #include <memory>
 
-#include "cli/commands/lut_brdf.hpp"
+#include "cli/commands/surface_table.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/options/surface_options.hpp"
-#include "cli/options/table_options.hpp"
-#include "cli/queries/surface_colors.hpp"
-#include "cli/queries/surface_query.hpp"
-#include "core/color/held_stack.hpp"
 #include "core/rough/walk/layered_nodes.hpp"
 #include "schemas/input_error.hpp"
 
@@ -23,13 +18,8 @@ constexpr std::size_t kMostAngles = 8192, kMostTableLayers = 16;
 /// CIEDE2000, of a table whose nodes and tolerance were not typed.
 constexpr double kUsualDifference = 1;
 
-struct LutLayeredCommand {
-    SurfaceOptions surface;
-    SurfaceQuery query;
-    std::string nodes, size, tolerance, type = "f32";
-    OutputOptions output;
-    unsigned threads = 0;
-    bool quiet = false;
+struct LutLayeredCommand : SurfaceTableOptions {
+    std::string nodes;
 };
 
 /// Rows of colours of theta_d and of straight light by the angle inside: the top layer; then for
@@ -70,31 +60,30 @@ NodeRequest request_of(const LutLayeredCommand& command, tables::LutType type) {
         request.nodes = static_cast<std::size_t>(count);
         if (*request.nodes % 3 != 0)
             throw UsageError("--nodes: must be a multiple of 3 (got " + command.nodes + ")");
-        if (!command.tolerance.empty())
+        if (!command.table.tolerance.empty())
             throw UsageError("--tolerance: cannot be combined with --nodes");
     }
-    if (!command.size.empty())
+    if (!command.table.size.empty())
         request.angles = static_cast<std::size_t>(
-            parse_whole_number("--size", command.size, 2, static_cast<double>(kMostAngles)));
-    request.tolerance = command.tolerance.empty()
+            parse_whole_number("--size", command.table.size, 2, static_cast<double>(kMostAngles)));
+    request.tolerance = command.table.tolerance.empty()
                             ? kUsualDifference
-                            : parse_one_number("--tolerance", command.tolerance, 1e-3, 100);
+                            : parse_one_number("--tolerance", command.table.tolerance, 1e-3, 100);
     request.stored = [type](double value) { return rounded(value, type); };
     return request;
 }
 
-LayeredSurface crossed_surface(const schemas::SurfaceDocument& document) {
-    const auto* read = std::get_if<LayeredSurface>(&document.surface);
-    if (!read) throw schemas::InputError(document.file, "", "must be a layered surface");
-    if (read->layers.empty())
-        throw schemas::InputError(document.file, "/layers", "must have at least one layer");
-    if (read->layers.size() > kMostTableLayers)
+const LayeredSurface& crossed_surface(const SurfaceTable& table) {
+    const LayeredSurface& read = table.layered("must be a layered surface");
+    if (read.layers.empty())
+        throw schemas::InputError(table.document().file, "/layers", "must have at least one layer");
+    if (read.layers.size() > kMostTableLayers)
         throw schemas::InputError(
-            document.file, "/layers",
+            table.document().file, "/layers",
             "must be at most " + std::to_string(kMostTableLayers) +
                 " layers: every layer costs a shader five look-ups for three nodes (got " +
-                std::to_string(read->layers.size()) + ")");
-    return *read;
+                std::to_string(read.layers.size()) + ")");
+    return read;
 }
 
 double hundredths(double value) {
@@ -122,7 +111,7 @@ nlohmann::json facts_of(const FoundNodes& found, const LayeredScattering& scatte
 
 /// Against errors of a table for which no tolerance was typed.
 std::string remedy_of(const LutLayeredCommand& command) {
-    std::string limits = command.size.empty() ? "" : "--size " + command.size;
+    std::string limits = command.table.size.empty() ? "" : "--size " + command.table.size;
     if (!command.nodes.empty())
         limits += (limits.empty() ? "" : " and ") + ("--nodes " + command.nodes);
     if (limits.empty()) return "no number of nodes and angles reaches it for this surface";
@@ -131,38 +120,32 @@ std::string remedy_of(const LutLayeredCommand& command) {
 
 int run_lut_layered(const LutLayeredCommand& command) {
     const tables::LutFormat& format = resolved_lut_format(command.output, false);
-    const tables::LutType type = parse_type(command.type);
+    const tables::LutType type = parse_type(command.table.type);
     const NodeRequest request = request_of(command, type);
-    SurfaceQuery query = command.query;
-    query.execution = execution_of(command.threads);
-    query.note = [&](const std::string& text) { note(text, command.quiet); };
-    const Paths paths = parse_closed_paths(query.paths);
-    const Crossings crossings = parse_crossings(query.transmission);
-    const ColorColumns colors(query.color);
-    const schemas::SurfaceDocument document = read_noted_surface(command.surface, command.quiet);
-    check_writable(command.output);
-    LayeredSurface surface = crossed_surface(document);
-    const ColorTables& tables = colors.illumination().tables;
-    const Sensitivity& sensitivity = tables.sensitivity();
-    report_held_layers(surface, document, sensitivity, query);
+    const SurfaceTable table(command);
+    const Paths paths = table.paths();
+    const SurfaceQuery& query = table.query();
+    const std::string& file = table.document().file;
+    const ColorTables& tables = table.colors().illumination().tables;
+    const LayeredSurface& surface = crossed_surface(table);
     try {
-        for (RoughLayer& layer : surface.layers) layer.stack = held_stack(layer.stack, sensitivity);
-        const LayeredScattering scattering(surface, crossings, query.execution);
+        const LayeredScattering scattering = table.scattering(table.held(surface));
         if (paths == Paths::all && !scattering.is_closed())
             throw UsageError(
                 "--paths all: a table of this kind takes it where it has a closed form, of one "
                 "layer without a coating; lut brdf takes a coating as well");
-        const TabulatedScattering exact(scattering, equal_rule(sensitivity, kTableWavelengths),
-                                        sensitivity.white(), paths, crossings, query.execution);
+        const TabulatedScattering exact(
+            scattering, equal_rule(tables.sensitivity(), kTableWavelengths),
+            tables.sensitivity().white(), paths, scattering.crossings(), query.execution);
         const FoundNodes found = find_nodes(scattering, exact, tables, request, query.execution);
         const std::string error = to_text(hundredths(found.error));
-        if (!command.tolerance.empty() && !(found.error <= request.tolerance)) {
-            print_error(document.file + ": no table of up to " + std::to_string(kMostNodes) +
-                        " nodes reaches " + command.tolerance + " in CIEDE2000: " + error +
+        if (!command.table.tolerance.empty() && !(found.error <= request.tolerance)) {
+            print_error(file + ": no table of up to " + std::to_string(kMostNodes) +
+                        " nodes reaches " + command.table.tolerance + " in CIEDE2000: " + error +
                         " remains");
             return kCheckFailed;
         }
-        tables::Lut lut = table_of(found.table, colors.illumination().transform);
+        tables::Lut lut = table_of(found.table, table.colors().illumination().transform);
         lut.type = type;
         lut.facts = facts_of(found, scattering, query);
         query.note("CIEDE2000 with " + std::to_string(found.table.wavelength_nm.size()) +
@@ -173,47 +156,52 @@ int run_lut_layered(const LutLayeredCommand& command) {
                        remedy_of(command));
         write_table(lut, format, {}, command.output, command.quiet);
     } catch (const DomainError& error) {
-        throw schemas::InputError(document.file, "", error.what());
+        throw schemas::InputError(file, "", error.what());
     }
     return 0;
 }
 
-}  // namespace
-
-void add_lut_layered(CLI::App& lut, Run& run) {
-    CLI::App* command = lut.add_subcommand("layered", std::string(kLutLayeredSummary));
+void add_lut_layered(CLI::App& command, Run& run) {
     const auto options = std::make_shared<LutLayeredCommand>();
-    add_surface_options(*command, options->surface);
+    options->table.type = "f32";
+    add_surface_options(command, options->surface);
     command
-        ->add_option("--nodes", options->nodes,
-                     "wavelengths at which straight light is known, a multiple of 3, [3, 60]\n"
-                     "[the fewest that meet the tolerance]")
+        .add_option("--nodes", options->nodes,
+                    "wavelengths at which straight light is known, a multiple of 3, [3, 60]\n"
+                    "[the fewest that meet the tolerance]")
         ->type_name("N");
     command
-        ->add_option("--tolerance", options->tolerance,
-                     "largest error, CIEDE2000 at random pairs of directions, [0.001, 100] [1];\n"
-                     "exit status 1 if one that is given cannot be met")
+        .add_option("--tolerance", options->table.tolerance,
+                    "largest error, CIEDE2000 at random pairs of directions, [0.001, 100] [1];\n"
+                    "exit status 1 if one that is given cannot be met")
         ->type_name("E");
     command
-        ->add_option("--size", options->size,
-                     "angles from 0 to 90 degrees, [2, 8192] [256, 512 or 1024, by the tolerance]")
+        .add_option("--size", options->table.size,
+                    "angles from 0 to 90 degrees, [2, 8192] [256, 512 or 1024, by the tolerance]")
         ->type_name("N");
-    add_table_paths_options(*command, options->query.paths, options->query.transmission);
-    add_light_options(*command, options->query.color);
-    add_strict_option(*command, options->query.color.strict);
-    add_space_options(*command, options->query.color);
-    add_dtype_option(*command, options->type, "[f32]");
-    add_output_options(*command, options->output, "csv, npy, bin, ktx2 or exr");
-    add_threads_option(*command, options->threads);
-    command->add_flag("--quiet", options->quiet, "no notes on standard error");
-    set_examples(*command,
+    add_table_paths_options(command, options->query.paths, options->query.transmission);
+    add_colorimetry_options(command, options->query.color);
+    add_dtype_option(command, options->table.type, "[f32]");
+    add_output_options(command, options->output, "csv, npy, bin, ktx2 or exr");
+    add_threads_option(command, options->threads);
+    add_quiet_option(command, options->quiet);
+    set_examples(command,
                  {"irido lut layered schemas/examples/surfaces/green-on-pale.json -o green.ktx2",
                   "irido lut layered schemas/examples/surfaces/blue-over-red.json --tolerance 0.5 "
                   "-o blue.exr"},
                  "irido lut shader layered prints the code that reads it. The metadata has the\n"
                  "roughnesses, the number of groups of three nodes, the error in CIEDE2000, and\n"
                  "that of a shader that multiplies colours.");
-    command->callback([options, &run] { run = [options] { return run_lut_layered(*options); }; });
+    set_run(command, run, options, run_lut_layered);
 }
+
+}  // namespace
+
+constinit const SurfaceTableKind surface_table_layered{
+    .name = "layered",
+    .axes = "row, theta_deg",
+    .summary =
+        "All that a shader needs of a rough layered surface: colours, and straight light at nodes.",
+    .add = add_lut_layered};
 
 }  // namespace irido::cli

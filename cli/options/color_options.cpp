@@ -229,6 +229,12 @@ void add_space_options(CLI::App& command, ColorOptions& options) {
     offer(command, "adaptation", "bradford none");
 }
 
+void add_colorimetry_options(CLI::App& command, ColorOptions& options) {
+    add_light_options(command, options);
+    add_strict_option(command, options.strict);
+    add_space_options(command, options);
+}
+
 std::string color_method_help() {
     std::string text;
     bool has_baseline = false, has_film = false;

@@ -41,6 +41,9 @@ void add_light_options(CLI::App& command, ColorOptions& options);
 /// Adds --space, with the default from `options`, and --adaptation.
 void add_space_options(CLI::App& command, ColorOptions& options);
 
+/// Adds --illuminant, --observer, --strict, --space and --adaptation.
+void add_colorimetry_options(CLI::App& command, ColorOptions& options);
+
 /// Adds all options of a colour.
 void add_color_options(CLI::App& command, ColorOptions& options);
 

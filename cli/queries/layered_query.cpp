@@ -179,9 +179,8 @@ SurfaceRows simulated_colors(const LayeredSurface& surface,
     const ColorColumns columns(query.color);
     const Sensitivity& sensitivity = columns.illumination().tables.sensitivity();
     report_held_layers(surface, document, sensitivity, query);
-    LayeredSurface held = surface;
-    for (RoughLayer& layer : held.layers) layer.stack = held_stack(layer.stack, sensitivity);
-    const LayeredScattering scattering(std::move(held), crossings, query.execution);
+    const LayeredScattering scattering(held_surface(surface, sensitivity), crossings,
+                                       query.execution);
     const SampleRule rule = equal_rule(sensitivity, kWavelengths);
     LayeredSimulation simulation(scattering, plan.request, rule.wavelength_nm, query.execution);
     const bool is_brdf = query.quantity == "brdf";

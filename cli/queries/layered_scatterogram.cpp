@@ -4,7 +4,6 @@
 
 #include "cli/queries/surface_colors.hpp"
 #include "cli/queries/surface_query.hpp"
-#include "core/color/held_stack.hpp"
 #include "core/math/constants.hpp"
 #include "core/rough/layered/adding.hpp"
 #include "core/rough/layered/layered_color.hpp"
@@ -32,9 +31,8 @@ struct DiscColors {
 
 DiscColors disc_colors(const LayeredSurface& surface, const SurfaceQuery& query,
                        double light_theta_deg, const Sensitivity& sensitivity) {
-    LayeredSurface held = surface;
-    for (RoughLayer& layer : held.layers) layer.stack = held_stack(layer.stack, sensitivity);
-    const LayeredScattering scattering(held, parse_crossings(query.transmission), query.execution);
+    const LayeredScattering scattering(held_surface(surface, sensitivity),
+                                       parse_crossings(query.transmission), query.execution);
     const Paths asked = parse_paths(query.paths);
     const bool is_added = asked == Paths::all && !scattering.is_closed();
     const Paths paths = is_added ? Paths::single : asked;

@@ -35,12 +35,6 @@ DrawnPicture trace(PictureScene scene, ColorNodes nodes, const TracedRequest& re
     return drawn;
 }
 
-/// Layers whose materials hold their end values where they are not known.
-LayeredSurface held_surface(LayeredSurface surface, const Sensitivity& sensitivity) {
-    for (RoughLayer& layer : surface.layers) layer.stack = held_stack(layer.stack, sensitivity);
-    return surface;
-}
-
 DrawnPicture trace_layered(const PictureScene& scene, const LayeredSurface& surface,
                            const LayerPlace& varied, const TracedRequest& request) {
     const Sensitivity& sensitivity = request.light->tables.sensitivity();

@@ -29,11 +29,6 @@ constexpr double kAddingTolerance = 1e-3;
 /// Most wavelengths for one colour.
 constexpr std::size_t kMostWavelengths = 1U << 14U;
 
-LayeredSurface held_surface(LayeredSurface surface, const Sensitivity& sensitivity) {
-    for (RoughLayer& layer : surface.layers) layer.stack = held_stack(layer.stack, sensitivity);
-    return surface;
-}
-
 /// Boundaries of the ranges in which all materials and the base are smooth.
 std::vector<double> pieces_of(const LayeredSurface& surface, WavelengthRange support) {
     std::vector<double> ends{support.first_nm, support.last_nm};

@@ -7,6 +7,8 @@
 
 namespace irido {
 
+class Sensitivity;
+
 /// A rough layer: facets of GGX roughness, each of which is the stack.
 struct RoughLayer {
     Stack stack;              ///< its incident medium is the medium inside the surface
@@ -23,5 +25,9 @@ struct LayeredSurface {
 
     bool is_coated() const { return outside.model != inside.model; }
 };
+
+/// The surface with all materials of its layers clamped outside their range. Throws DomainError as
+/// held_stack() does.
+LayeredSurface held_surface(LayeredSurface surface, const Sensitivity& sensitivity);
 
 }  // namespace irido
