@@ -32,9 +32,7 @@ Seen seen(const std::string& example, const std::string& angle,
     std::vector<std::string> arguments{"color", "schemas/examples/" + example + ".json", "-a",
                                        angle};
     for (const std::string& value : more) arguments.insert(arguments.end(), {"--set", value});
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     const std::vector<std::string> row = parse_csv(outcome.out).at(1);
     const auto three = [&](std::size_t first) {
         return Triple{std::stod(row.at(first)), std::stod(row.at(first + 1)),

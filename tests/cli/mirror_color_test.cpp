@@ -14,9 +14,7 @@ const std::string kMirror = "1 | (1@101 | 1.5@143)^20 | 1";
 
 std::vector<std::string> row_of(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "color");
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     return parse_csv(outcome.out).at(1);
 }
 

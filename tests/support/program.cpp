@@ -62,13 +62,28 @@ Outcome run_shell(const std::string& command, const std::string& folder) {
             read_file(captured / "out"), read_file(captured / "err")};
 }
 
-Outcome run_irido(const std::vector<std::string>& arguments, const std::string& input,
-                  const std::string& folder) {
+Words operator+(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+Outcome run_irido(const Words& arguments, const std::string& input, const std::string& folder) {
     const TemporaryFolder stage;
     write_text(stage / "in", input);
     std::string command = "\"$IRIDO\"";
     for (const std::string& argument : arguments) command += " " + in_quotes(argument);
     return run_shell(command + " < " + in_quotes(stage / "in"), folder);
+}
+
+Outcome done(const Words& arguments, const std::string& input, const std::string& folder) {
+    Outcome outcome = run_irido(arguments, input, folder);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return outcome;
+}
+
+std::string out_of(const Words& arguments) {
+    return done(arguments).out;
 }
 
 void check_refused(const Outcome& outcome, const std::string& error) {

@@ -5,6 +5,11 @@
 
 namespace irido::test {
 
+using Words = std::vector<std::string>;
+
+/// The words of both.
+Words operator+(Words words, const Words& more);
+
 /// Output and exit status of a run of the program.
 struct Outcome {
     int status = -1;
@@ -12,8 +17,13 @@ struct Outcome {
 };
 
 /// Runs the built irido with these arguments in `folder`, with `input` on standard input.
-Outcome run_irido(const std::vector<std::string>& arguments, const std::string& input = "",
+Outcome run_irido(const Words& arguments, const std::string& input = "",
                   const std::string& folder = IRIDO_SOURCE_DIR);
+
+/// The same for a run that must succeed, or only its output.
+Outcome done(const Words& arguments, const std::string& input = "",
+             const std::string& folder = IRIDO_SOURCE_DIR);
+std::string out_of(const Words& arguments);
 
 /// Runs a shell command in `folder`; $IRIDO is the built program.
 Outcome run_shell(const std::string& command, const std::string& folder);

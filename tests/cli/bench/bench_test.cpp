@@ -184,9 +184,7 @@ TEST_CASE("bench scene compares a bake with tables of everything", "[cli][bench]
     write_text(folder / "one.json", R"({"materials": [
         {"name": "a", "stack": "1 | 1.33@300 | 1.5+3i", "angles_deg": [0, 70],
          "vary": {"layers.0.thickness_nm": [280, 300]}, "shading": "color"}]})");
-    const Outcome outcome = run_irido({"bench", "scene", folder / "one.json", "-n", "200"});
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done({"bench", "scene", folder / "one.json", "-n", "200"});
     const auto rows = parse_csv(outcome.out);
     REQUIRE(rows.size() == 4);
     CHECK(rows[0] == std::vector<std::string>{"case", "method", "tables", "bytes", "seconds",

@@ -16,9 +16,7 @@ double number(const std::string& text) {
 
 std::vector<std::vector<std::string>> bands(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "bands");
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     return parse_csv(outcome.out);
 }
 
@@ -217,12 +215,10 @@ TEST_CASE("landmarks that are not unique are refused", "[cli][bands][refused]") 
 }
 
 TEST_CASE("periods of spread thicknesses are counted as far as they can be", "[cli][bands][slow]") {
-    const Outcome outcome = run_irido({"bands", "-", "-p", "s", "--gaps"}, R"({"incident": 1,
+    const Outcome outcome = done({"bands", "-", "-p", "s", "--gaps"}, R"({"incident": 1,
         "layers": [{"repeat": 5, "layers": [
             {"material": 1, "thickness_nm": 200, "thickness_sigma_nm": 5},
             {"material": 1.5, "thickness_nm": 180}]}], "substrate": 1})");
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
     const auto rows = parse_csv(outcome.out);
     const auto column = static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), "N_95") -
                                                  rows[0].begin());

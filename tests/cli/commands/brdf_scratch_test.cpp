@@ -22,9 +22,7 @@ json vertical(const json& scratch) {
 std::vector<std::vector<std::string>> rows_of(const json& document,
                                               std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"brdf", "-"});
-    const Outcome outcome = run_irido(arguments, document.dump());
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments, document.dump());
     return parse_csv(outcome.out);
 }
 

@@ -13,9 +13,7 @@ const std::string kPale = "schemas/examples/surfaces/green-on-pale.json";
 std::vector<std::vector<std::string>> rows_of(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"brdf"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     return parse_csv(outcome.out);
 }
 

@@ -18,9 +18,7 @@ const std::string kTerms =
 
 std::vector<Row> colored(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "color");
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     const auto table = parse_csv(outcome.out);
     std::vector<Row> rows;
     for (std::size_t i = 1; i < table.size(); ++i)

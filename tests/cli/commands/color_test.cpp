@@ -10,9 +10,7 @@ using Catch::Matchers::StartsWith;
 namespace {
 
 std::vector<std::string> row_of(const std::vector<std::string>& arguments, std::size_t row = 1) {
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     const auto rows = parse_csv(outcome.out);
     REQUIRE(rows.size() > row);
     return rows[row];

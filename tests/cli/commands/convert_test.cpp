@@ -11,20 +11,6 @@ using nlohmann::json;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
-Words operator+(Words a, const Words& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
-Outcome done(const Words& arguments) {
-    Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
-    return outcome;
-}
-
 json converted(const Words& arguments) {
     return json::parse(done(Words{"convert"} + arguments).out);
 }

@@ -14,9 +14,7 @@ const std::string kCoating = "1 | 1.45@96.1 | 2.35@115.7 | 1.45@49.5 | 2.35@24.6
 json designed(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"design"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     return json::parse(outcome.out);
 }
 
@@ -24,9 +22,7 @@ json designed(const std::vector<std::string>& more) {
 double rms_of_spectrum(const std::string& stack, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"spectrum", "-"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_irido(arguments, stack);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments, stack);
     const auto rows = parse_csv(outcome.out);
     double sum = 0;
     for (std::size_t i = 1; i < rows.size(); ++i) sum += std::pow(std::stod(rows[i][3]), 2);
@@ -81,11 +77,9 @@ TEST_CASE("links move together, fixed values stay", "[cli][design]") {
                  { "path": "layers.2.thickness_nm", "bounds": [10, 300], "link": "low" },
                  { "path": "layers.1.material.n", "bounds": [2, 2.5], "name": "index" }],
         "targets": [{ "quantity": "R", "wavelengths_nm": [450, 550, 650], "target": 0.1 }] })");
-    const Outcome outcome = run_irido(
+    const Outcome outcome = done(
         {"design", "task.json", "-o", "out.json", "--report", "report.csv", "--plot", "plot.svg"},
         "", folder.path());
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
     CHECK(outcome.out.empty());
     CHECK(outcome.err.find("to which it is linked") != std::string::npos);
     const json result = json::parse(read_file(folder / "out.json"));

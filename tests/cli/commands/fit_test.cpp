@@ -10,10 +10,8 @@ namespace {
 
 /// A table of the program's own output with reproducible noise.
 std::string measured(const std::string& stack, const std::string& angles, double noise) {
-    const Outcome outcome = run_irido({"spectrum", stack, "-w", "400:800:10", "-a", angles, "-p",
-                                       "s", "--columns", "psi_deg,delta_deg"});
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done({"spectrum", stack, "-w", "400:800:10", "-a", angles, "-p", "s",
+                                  "--columns", "psi_deg,delta_deg"});
     const auto rows = parse_csv(outcome.out);
     std::string text = "wavelength_nm,angle_deg,psi_deg,delta_deg\n";
     double phase = 0;
@@ -46,11 +44,9 @@ TEST_CASE("a fit finds thickness and dispersion, and how well they are known", "
         "substrate": { "n": 3.88, "k": 0.02 } })");
     write_text(folder / "data.csv", measured(folder / "truth.json", "65,70,75", 0.02));
     write_text(folder / "task.json", oxide_task(""));
-    const Outcome outcome = run_irido(
-        {"fit", "task.json", "--correlation", "-o", "fitted.json", "--plot", "residuals.svg"}, "",
-        folder.path());
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome =
+        done({"fit", "task.json", "--correlation", "-o", "fitted.json", "--plot", "residuals.svg"},
+             "", folder.path());
     const auto rows = parse_csv(outcome.out);
     REQUIRE(rows.size() == 6);
     CHECK(rows[0] == std::vector<std::string>{"parameter", "value", "stderr",
@@ -78,9 +74,7 @@ TEST_CASE("standard errors follow from the stated noise", "[cli][fit]") {
     write_text(folder / "task.json", R"({ "stack": { "incident": 1, "layers": [],
         "substrate": { "n": 1.6 } }, "free": [{ "path": "substrate.n", "name": "n" }],
         "targets": [{ "quantity": "R", "file": "data.csv", "sigma": 0.001 }] })");
-    const Outcome outcome = run_irido({"fit", "task.json", "--quiet"}, "", folder.path());
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done({"fit", "task.json", "--quiet"}, "", folder.path());
     const auto rows = parse_csv(outcome.out);
     const double r = std::sqrt((0.041 + 0.039 + 0.0405) / 3), n = (1 + r) / (1 - r);
     CHECK(std::stod(rows[1][1]) == Approx(n).epsilon(1e-9));
@@ -112,9 +106,7 @@ TEST_CASE("what the data do not tell is said", "[cli][fit]") {
     write_text(folder / "task.json", R"({ "stack": "1 | 1.5@100 | 1.5@50 | 1.5",
         "free": [{ "path": "layers.*.thickness_nm", "bounds": [0, 300] }],
         "targets": [{ "quantity": "R", "file": "data.csv" }] })");
-    const Outcome outcome = run_irido({"fit", "task.json"}, "", folder.path());
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done({"fit", "task.json"}, "", folder.path());
     CHECK(outcome.out.find("nan") == std::string::npos);
     CHECK(outcome.out.find("inf") == std::string::npos);
     CHECK(outcome.err.find("the data do not determine layers.0.thickness_nm") != std::string::npos);

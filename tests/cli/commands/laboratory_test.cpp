@@ -13,9 +13,7 @@ namespace {
 using Row = std::map<std::string, std::string>;
 
 std::vector<Row> rows_of(const std::vector<std::string>& arguments, const std::string& input = "") {
-    const Outcome outcome = run_irido(arguments, input);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments, input);
     const auto table = parse_csv(outcome.out);
     std::vector<Row> rows;
     for (std::size_t i = 1; i < table.size(); ++i) {

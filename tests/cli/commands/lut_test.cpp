@@ -407,9 +407,7 @@ TEST_CASE("a remapped film vanishes where it is thin", "[cli][lut]") {
         std::vector<std::string> arguments{"lut",     "color", film,      "--cos", "1,0.5",
                                            "--space", "xyz",   "--dtype", "f64"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const Outcome outcome = run_irido(arguments);
-        INFO(outcome.err);
-        REQUIRE(outcome.status == 0);
+        const Outcome outcome = done(arguments);
         std::vector<double> values;
         for (const auto& row : parse_csv(outcome.out))
             if (row != parse_csv(outcome.out).front())

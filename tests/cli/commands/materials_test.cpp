@@ -9,20 +9,7 @@ using namespace irido::test;
 
 namespace {
 
-using Words = std::vector<std::string>;
 using Table = std::vector<std::vector<std::string>>;
-
-Words operator+(Words a, const Words& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
-Outcome done(const Words& arguments) {
-    Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
-    return outcome;
-}
 
 /// The first cell of each row.
 std::set<std::string> names_in(const std::string& csv) {

@@ -13,13 +13,6 @@ namespace {
 const std::string kFilm = "air | MgF2@100 | BK7";
 const std::string kMirror = "1 | (1@125 | 1.5@375)^20 | 1";
 
-using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-}
-
 /// Command lines that draw pictures, without -o.
 std::vector<Words> drawings() {
     return {{"spectrum", kFilm, "-w", "400:700:20", "-a", "0,45", "-p", "s,p"},

@@ -14,9 +14,7 @@ namespace {
 std::vector<std::vector<double>> profile(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"profile"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
+    const Outcome outcome = done(arguments);
     const auto table = parse_csv(outcome.out);
     CHECK(table[0] == std::vector<std::string>{"wavelength_nm", "angle_deg", "polarization", "z_nm",
                                                "medium", "E2", "Ex2", "Ey2", "Ez2",

@@ -9,20 +9,7 @@ using namespace irido::test;
 
 namespace {
 
-using Words = std::vector<std::string>;
 using Table = std::vector<std::vector<std::string>>;
-
-Words operator+(Words a, const Words& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
-std::string out_of(const Words& arguments) {
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
-    return outcome.out;
-}
 
 std::vector<double> column_of(const Table& table, const std::string& name) {
     const auto found = std::find(table[0].begin(), table[0].end(), name);

@@ -14,23 +14,9 @@ using namespace irido::test;
 namespace {
 
 using Table = std::vector<std::vector<std::string>>;
-using Words = std::vector<std::string>;
-
 const std::string kFilm = "1 | 1.5@100 | 1.9+1.5i";
 const std::string kMirror = "1 | (1@200 | 1.5@180)^10 | 1";
 const Words kFormats{"csv", "json", "npy", "h5"};
-
-Words operator+(Words a, const Words& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
-std::string out_of(const Words& arguments) {
-    const Outcome outcome = run_irido(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
-    return outcome.out;
-}
 
 Table rows_of(const Words& arguments) {
     return parse_csv(out_of(arguments));
