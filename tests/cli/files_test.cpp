@@ -191,7 +191,7 @@ TEST_CASE("links to files, devices, pipes and files without a name are written t
         expected);
 }
 
-TEST_CASE("output that cannot be written is refused by every command", "[cli][files]") {
+TEST_CASE("output that cannot be written is refused by every command", "[cli][files][slow]") {
     const InputFolder folder;
     const std::string examples = IRIDO_SOURCE_DIR "/schemas/examples/";
     const std::string stack = " '" + kWithMetal + "' ",

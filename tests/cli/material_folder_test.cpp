@@ -115,7 +115,7 @@ const std::vector<RefusedFile>& refused_files() {
 
 }  // namespace
 
-TEST_CASE("a folder of material files as people have them", "[cli][materials]") {
+TEST_CASE("a folder of material files as people have them", "[cli][materials][slow]") {
     const TemporaryFolder folder;
     for (const ReadFile& file : read_files()) {
         CAPTURE(file.name);

@@ -203,7 +203,7 @@ TEST_CASE("bench scene compares a bake with tables of everything", "[cli][bench]
     check_refused(run_irido({"bench", "scene", "missing.json"}), "missing.json");
 }
 
-TEST_CASE("bench layered measures ways to evaluate mirrors and films", "[cli][bench]") {
+TEST_CASE("bench layered measures ways to evaluate mirrors and films", "[cli][bench][slow]") {
     const Outcome outcome =
         run_irido({"bench", "layered", "--cases", "A", "--samples", "500", "--budget", "0"});
     INFO(outcome.err);

@@ -169,7 +169,7 @@ TEST_CASE("bash completes commands, options, words and files", "[cli][manual]") 
     }
 }
 
-TEST_CASE("values from fixed lists are completed in every command", "[cli][manual]") {
+TEST_CASE("values from fixed lists are completed in every command", "[cli][manual][slow]") {
     static const std::regex option(
         R"(\n  (?:-\w,)?(--[\w-]+) \[?(?:NAMES?|FORMAT|METHOD|LETTERS?|SIDES|DEGREES|COMMAND)\b\]?(?!=))");
     std::vector<std::string> lines;

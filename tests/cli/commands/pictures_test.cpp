@@ -28,7 +28,7 @@ std::vector<Words> drawings() {
 
 }  // namespace
 
-TEST_CASE("every command with rows draws them, the same bytes again", "[cli][pictures]") {
+TEST_CASE("every command with rows draws them, the same bytes again", "[cli][pictures][slow]") {
     for (const Words& words : drawings()) {
         CAPTURE(words);
         for (const auto& [format, head] :
@@ -153,7 +153,7 @@ TEST_CASE("sixteen bits", "[cli][pictures]") {
     }
 }
 
-TEST_CASE("what cannot be drawn leaves nothing behind", "[cli][pictures][refused]") {
+TEST_CASE("what cannot be drawn leaves nothing behind", "[cli][pictures][refused][slow]") {
     const TemporaryFolder folder;
     const std::string file = folder / "x.svg", png = folder / "x.png";
     const auto refused = [&](const Words& words, const std::string& error) {

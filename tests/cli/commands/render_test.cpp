@@ -147,7 +147,7 @@ TEST_CASE("a contact sheet has a labelled picture for every value", "[cli][rende
                   "layers.7");
 }
 
-TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][render]") {
+TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][render][slow]") {
     TemporaryFolder folder;
     const std::string file = folder / "x.png";
     const auto refused = [&](std::vector<std::string> more, const std::string& error,

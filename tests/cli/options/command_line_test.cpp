@@ -135,7 +135,8 @@ TEST_CASE("every command takes -j and --quiet", "[cli]") {
                   "--threads: must be in [1, 4096] (got 0)");
 }
 
-TEST_CASE("every command that clamps materials in colours refuses to with --strict", "[cli]") {
+TEST_CASE("every command that clamps materials in colours refuses to with --strict",
+          "[cli][slow]") {
     const TemporaryFolder folder;
     write_text(folder / "m.csv", "nm,n\n400,1.5\n700,1.5\n");
     write_text(folder / "surface.json",

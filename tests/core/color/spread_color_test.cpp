@@ -96,7 +96,7 @@ TEST_CASE("two spread layers are a mean over both", "[color]") {
     }
 }
 
-TEST_CASE("two wide spreads between metals are a mean of colours", "[color]") {
+TEST_CASE("two wide spreads between metals are a mean of colours", "[color][slow]") {
     StackBuilder b;
     const std::size_t silver = b.material(find_material("Ag")->material);
     b.add(StackBuilder::layer_of(silver, 20));
@@ -133,7 +133,7 @@ TEST_CASE("repetitions of a group share the deviation of a layer", "[color]") {
     CHECK(largest_difference(of_colors.xyz, of_spectra.xyz) <= of_colors.error + of_spectra.error);
 }
 
-TEST_CASE("narrow resonances at grazing angles are resolved over the thickness", "[color]") {
+TEST_CASE("narrow resonances at grazing angles are resolved over the thickness", "[color][slow]") {
     StackBuilder b;
     const std::size_t titania = b.material(find_material("TiO2")->material);
     const std::size_t fluoride = b.material(find_material("MgF2")->material);

@@ -212,7 +212,7 @@ TEST_CASE("a table costs what the question needs, not what its rows are") {
     CHECK(evaluations(dense, 1e-6) < 400);
 }
 
-TEST_CASE("dispersive mirrors of very many periods have means over their fringes") {
+TEST_CASE("dispersive mirrors of very many periods have means over their fringes", "[slow]") {
     const auto mirror = [](std::uint64_t periods) {
         StackBuilder b;
         const std::size_t high = b.material(find_material("TiO2")->material);

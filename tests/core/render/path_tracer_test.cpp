@@ -148,7 +148,7 @@ TEST_CASE("lamps are drawn evenly over the directions in which they are seen", "
                       Contains("convex"));
 }
 
-TEST_CASE("tables of a layered surface have the BRDF of irido brdf", "[render][layered]") {
+TEST_CASE("tables of a layered surface have the BRDF of irido brdf", "[render][layered][slow]") {
     for (const char* const json : {kCoatedGreen, kBlueOnRed}) {
         const Layered layered(surface_of(json));
         const auto scatterer = layered.scatterer();
@@ -206,7 +206,7 @@ TEST_CASE("draws of layered surfaces add up to their albedo", "[render][layered]
     }
 }
 
-TEST_CASE("tables of scratches have the mean BRDF of their fields", "[render][scratch]") {
+TEST_CASE("tables of scratches have the mean BRDF of their fields", "[render][scratch][slow]") {
     ScratchedSurface surface = worn_silver();
     surface.alpha = 0.1;
     const PictureNodes nodes =

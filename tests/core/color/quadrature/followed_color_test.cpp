@@ -79,7 +79,7 @@ TEST_CASE("polynomials are the same at the points of other degrees and of halves
     }
 }
 
-TEST_CASE("colours from interpolated denominators are those of sampled spectra") {
+TEST_CASE("colours from interpolated denominators are those of sampled spectra", "[slow]") {
     const Sensitivity sensitivity(observer(2), illuminant("D65"));
     const ColorTables tables(sensitivity);
     Random random(41);

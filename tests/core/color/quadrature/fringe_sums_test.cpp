@@ -135,7 +135,7 @@ TEST_CASE("two mirrors of a billion periods each have their colour") {
 // Indices are constant and the phases whole multiples of one: R is a function of that, whose mean
 // is Y.
 TEST_CASE("beats of phases that are multiples of one another are in the colour or in its error",
-          "[color][regression]") {
+          "[color][regression][slow]") {
     struct Case {
         double n1, n2, substrate;
         int turns1, turns2;
