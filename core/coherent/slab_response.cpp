@@ -70,6 +70,29 @@ double mixed_power(const Wave& in, Complex r) {
     return y0.imag() == 0 ? 0 : -2 * (y0.imag() / y0.real()) * r.imag();
 }
 
+Complex divisor_of(Complex sum, Complex difference) {
+    if (std::norm(sum) > 0) return sum;
+    return difference == 0.0 ? 1 : difference;
+}
+
+Power balanced(Power power, double mixed, const FluxBalance& flux) {
+    power.A += mixed;
+    if (flux.at_pole && power.R == 0 && power.T == 0 && power.A == 0) return {1, 0, 0};
+    const double sum_of_powers = power.R + power.T + power.A;
+    const bool opaque = flux.absorbs && power.T <= kOpaque;
+    const bool balances = mixed == 0 && flux.out >= 0 && power.A >= 0 && sum_of_powers > 0;
+    if (flux.at_pole ? !balances : !std::isfinite(sum_of_powers))
+        throw DomainError("the stack amplifies without bound at this wavelength and angle");
+    if (opaque && power.R + power.T <= 1 && power.A > kSubtractableIfOpaque) {
+        power.A = 1 - power.R - power.T;
+    } else if (balances) {
+        power = {power.R / sum_of_powers, power.T / sum_of_powers, power.A / sum_of_powers};
+    } else if (std::abs(power.A) > kSubtractable) {
+        power.A = 1 - power.R - power.T;
+    }
+    return power;
+}
+
 Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
     // fields at the top; r = (Y0 b - c)/(Y0 b + c) with Y0 = in.c/in.b, multiplied through by in.b
     const Matrix& m = slab.matrix;
@@ -78,31 +101,19 @@ Response slab_response(const Wave& in, const Slab& slab, const Wave& out) {
     const Complex sum = in.c * b + in.b * c, difference = in.c * b - in.b * c;
     Response response{{1, 0, 0}, -1, 0, sum, m.log_scale};
     if (in.flux == 0 && sum == 0.0) return response;
-    response.r = difference / sum;
-    response.t = 2.0 * in.c * out.b / sum * m.identity();
+    const Complex divisor = in.flux == 0 ? sum : divisor_of(sum, difference);
+    response.denominator = divisor;
+    response.r = difference / divisor;
+    response.t = 2.0 * in.c * out.b / divisor * m.identity();
     if (in.flux == 0) return response;
-    const double unit = 4 * std::norm(in.b) * std::norm(in.c) / (std::norm(sum) * in.flux);
-    Power& power = response.power;
-    power.R = std::norm(difference) / std::norm(sum);
-    power.T = times_exp(unit * out.flux, -2 * m.log_scale);
+    const double unit = 4 * std::norm(in.b) * std::norm(in.c) / (std::norm(divisor) * in.flux);
+    Power power{std::norm(difference) / std::norm(divisor),
+                times_exp(unit * out.flux, -2 * m.log_scale), 0};
     if (slab.absorbs)
         power.A = times_exp(unit * absorbed_flux(slab.absorbed, out.b, out.c),
                             2 * slab.absorbed.log_scale);
-    const double mixed = mixed_power(in, response.r);
-    power.A += mixed;
-    const double sum_of_powers = power.R + power.T + power.A;
-    const bool opaque = slab.absorbs && power.T <= kOpaque;
-    const bool balances = mixed == 0 && out.flux >= 0 && power.A >= 0 && sum_of_powers > 0;
-    if (opaque && power.A > kSubtractableIfOpaque) {
-        power.A = 1 - power.R - power.T;
-    } else if (balances) {
-        // rounding errors of the common denominator show up in the sum of the three: divide by it
-        power = {power.R / sum_of_powers, power.T / sum_of_powers, power.A / sum_of_powers};
-    } else if (std::abs(power.A) > kSubtractable) {
-        power.A = 1 - power.R - power.T;
-    }
-    if (!std::isfinite(power.R + power.T + power.A))
-        throw DomainError("the stack amplifies without bound at this wavelength and angle");
+    response.power =
+        balanced(power, mixed_power(in, response.r), {slab.absorbs, divisor != sum, out.flux});
     return response;
 }
 

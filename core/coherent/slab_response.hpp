@@ -36,6 +36,27 @@ Wave onward_wave(const Medium& layer, Polarization polarization);
 /// slab, where the powers are infinite.
 Response slab_response(const Wave& in, const Slab& slab, const Wave& out);
 
+/// The number that reflection and transmission are divided by. At a pole, which without gain is a
+/// resonance that light hardly reaches, rounding may leave nothing of `sum`; as all powers are
+/// divided by it and balanced(), any number does then.
+///   sum, difference  of the incident and the reflected wave's parts of the fields at the top
+Complex divisor_of(Complex sum, Complex difference);
+
+/// What balanced() has to know of a slab and the wave below it.
+struct FluxBalance {
+    bool absorbs;  ///< or amplifies
+    bool at_pole;  ///< divisor_of() is not the sum
+    double out;    ///< of the transmitted wave
+};
+
+/// Powers that add up to 1: rounding errors of the common divisor, all there is to them near a pole
+/// without gain, show up in the sum of the three. If nothing at all is left, light is reflected
+/// before it gets there. Throws DomainError where gain makes them infinite.
+///   power  A without `mixed`
+///   mixed  mixed_power()
+///   flux   see there
+Power balanced(Power power, double mixed, const FluxBalance& flux);
+
 /// Interference (cross) flux of the incident and reflected waves in an absorbing medium above the
 /// slab, as a fraction of the incident power: part of A, but not of any layer's absorption.
 double mixed_power(const Wave& in, Complex r);

@@ -20,6 +20,10 @@ constexpr double kReach = 8;
 /// A Gaussian phase of this standard deviation, radians, is any phase: exp(-9^2/2) = 3e-18.
 constexpr double kForgottenPhase = 9;
 
+/// Absorbers of a thickness, in radians, that is gone before its phase is: with any other phase
+/// they would gain light. Their part of what forgets the phase is below rounding.
+constexpr double kOwnPhase = 1;
+
 /// From this standard deviation on a wrapped Gaussian takes fewer points than a long one.
 constexpr double kWrappedPhase = 0.8;
 
@@ -352,6 +356,10 @@ private:
             cut_ ? 0 : s_.mean_nm - kReach * s_.sigma_nm, s_.mean_nm + kReach * s_.sigma_nm,
             [&](double d) { return density_nm(d) - (cut_ ? edge_density(d) : 0); },
             [&](double d, std::span<double> values) {
+                if (d * turn_ < kOwnPhase) {
+                    std::ranges::fill(values, 0);
+                    return Complex(1);
+                }
                 mean_of_phases(
                     kAnyPhase,
                     [&](double phase, std::span<double> at) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/math/imaginary.hpp"
 
 namespace irido {
@@ -114,16 +113,15 @@ Response ThicknessSweep::operator()(double thickness_nm, double phase) const {
     const LayerTurn& turn = at.turn;
     const Complex sum = turn.cos * cos_.sum + turn.sd * sd_.sum;
     const Complex difference = turn.cos * cos_.difference + turn.sd * sd_.difference;
+    const Complex divisor = divisor_of(sum, difference);
     const double log_scale = above_.matrix.log_scale + turn.log_scale + below_log_scale_;
-    const double unit = unit_ / std::norm(sum);
-    Response response{{}, difference / sum, 0, sum, log_scale};
-    Power& power = response.power;
-    power.R = std::norm(difference) / std::norm(sum);
-    power.T = times_exp(unit * out_flux_, -2 * log_scale);
-    if (absorbs_) power.A = absorbed(at, unit);
-    power.A += mixed_power(in_, response.r);
-    if (!std::isfinite(power.R + power.T + power.A))
-        throw DomainError("the stack amplifies without bound at this wavelength and angle");
+    const double unit = unit_ / std::norm(divisor);
+    Response response{{}, difference / divisor, 0, divisor, log_scale};
+    const Power power{std::norm(difference) / std::norm(divisor),
+                      times_exp(unit * out_flux_, -2 * log_scale),
+                      absorbs_ ? absorbed(at, unit) : 0};
+    response.power =
+        balanced(power, mixed_power(in_, response.r), {absorbs_, divisor != sum, out_flux_});
     return response;
 }
 
