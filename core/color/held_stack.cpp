@@ -77,4 +77,22 @@ bool is_real(const Material& material) {
     return k && std::ranges::all_of(k->value, [](double value) { return value == 0; });
 }
 
+bool is_surveyed(const Material& material) {
+    const std::span<const Material> parts = parts_of(material);
+    if (!parts.empty()) return std::ranges::all_of(parts, is_surveyed);
+    const auto* index = std::get_if<RefractiveIndex>(&material.model);
+    return index != nullptr && !std::holds_alternative<Formula>(index->k);
+}
+
+std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const LayerPlace> varied) {
+    std::vector<std::size_t> elements;
+    for (const LayerPlace& place : varied) {
+        if (place.empty() || place[0] >= stack.elements.size())
+            throw DomainError("varied layers must be layers of the stack");
+        elements.push_back(place[0]);
+    }
+    keep_once(elements);
+    return elements;
+}
+
 }  // namespace irido

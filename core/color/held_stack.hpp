@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/colorimetry/sensitivity.hpp"
@@ -31,5 +32,11 @@ std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support,
 
 /// Whether k is 0 at every wavelength.
 bool is_real(const Material& material);
+
+/// Whether a material's k is known between the smooth_pieces() from what it is there.
+bool is_surveyed(const Material& material);
+
+/// The elements that hold varied layers, ascending. Throws DomainError if there is no such layer.
+std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const LayerPlace> varied);
 
 }  // namespace irido

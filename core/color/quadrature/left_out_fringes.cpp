@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/color/quadrature/optical_path.hpp"
+
 namespace irido {
 
 namespace {
@@ -16,6 +18,9 @@ constexpr double kManyTurns = 100;
 
 /// Wavelengths that differ by roundings are one.
 constexpr double kSame = 1e-11;
+
+/// Part of a wavelength within which the slope of a table jumps.
+constexpr double kKinkStep = 1e-7;
 
 /// Of bounds that look at a few points.
 constexpr double kSafety = 2;
@@ -83,6 +88,23 @@ double LeftOutFringes::at_kinks(Side side, const ColorTables& tables,
         squares += part * part;
     }
     return kDeviations * std::sqrt(squares);
+}
+
+void kinks_of(const Element& element, const Stack& held, WavelengthRange support,
+              std::vector<LeftOutFringes::Kink>& kinks) {
+    std::vector<double> length_nm(held.materials.size());
+    add_lengths(element, 1, length_nm);
+    for (std::size_t m = 0; m < length_nm.size(); ++m) {
+        if (length_nm[m] == 0) continue;
+        const Material& material = held.materials[m];
+        for (const double nm : table_rows(material, support)) {
+            const double step = kKinkStep * nm;
+            const double jump = index_at(material, nm + step).real() +
+                                index_at(material, nm - step).real() -
+                                2 * index_at(material, nm).real();
+            kinks.push_back({nm, 2 * length_nm[m] * nm * std::abs(jump) / step});
+        }
+    }
 }
 
 }  // namespace irido

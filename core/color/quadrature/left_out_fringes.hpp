@@ -47,4 +47,12 @@ private:
     std::vector<Point> points_;
 };
 
+/// Adds the rows of the tables of an element's materials.
+///   element  of a stack
+///   held     its materials
+///   support  wavelengths
+///   kinks    to add to
+void kinks_of(const Element& element, const Stack& held, WavelengthRange support,
+              std::vector<LeftOutFringes::Kink>& kinks);
+
 }  // namespace irido

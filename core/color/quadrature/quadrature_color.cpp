@@ -17,8 +17,8 @@
 #include "core/color/quadrature/integration.hpp"
 #include "core/color/quadrature/left_out_fringes.hpp"
 #include "core/color/quadrature/optical_path.hpp"
+#include "core/color/quadrature/sampled_fringes.hpp"
 #include "core/error.hpp"
-#include "core/keep_once.hpp"
 #include "core/math/pool.hpp"
 #include "core/spectrum/spectrum.hpp"
 #include "core/spectrum/stack_power.hpp"
@@ -65,31 +65,10 @@ constexpr double kFollowedWork = 16;
 /// Smaller tolerances are within reach of the roundings of interpolation.
 constexpr double kFollowedTolerance = 1e-8;
 
-/// Part of a wavelength within which the slope of a table jumps.
-constexpr double kKinkStep = 1e-7;
-
-/// Squares of normal indices below this part of the index' own are taken to be that.
-constexpr double kLeastNormal = 1e-6;
-
-/// Whether a material's k is known between the wavelengths of the survey from what it is there.
-bool is_surveyed(const Material& material) {
-    const std::span<const Material> parts = parts_of(material);
-    if (!parts.empty()) return std::ranges::all_of(parts, is_surveyed);
-    const auto* index = std::get_if<RefractiveIndex>(&material.model);
-    return index != nullptr && !std::holds_alternative<Formula>(index->k);
-}
-
-/// The elements that hold varied layers, ascending.
-std::vector<std::size_t> varied_elements(const Stack& stack, std::span<const LayerPlace> varied) {
-    std::vector<std::size_t> elements;
-    for (const LayerPlace& place : varied) {
-        if (place.empty() || place[0] >= stack.elements.size())
-            throw DomainError("varied layers must be layers of the stack");
-        elements.push_back(place[0]);
-    }
-    keep_once(elements);
-    return elements;
-}
+/// Fringes of a path are sampled if there may be so many points for each; and the points that there
+/// may be, by the layers computed and by the limit on evaluations.
+constexpr double kSamplesOfFringe = 16, kMostSampledWork = 4e8;
+constexpr std::size_t kSamplesOfEvaluation = 8;
 
 class QuadratureColor : public ColorAlgorithm {
 public:
@@ -211,23 +190,6 @@ private:
         return longest;
     }
 
-    /// Of IntegrationLimits.
-    std::span<const double> index_effects(IncidentAngle incidence,
-                                          std::vector<double>& effects) const {
-        effects.assign(on_path_.materials(), 0);
-        for (std::size_t m = 0; m < effects.size(); ++m) {
-            if (!smooth_.is_tabulated(m)) continue;
-            for (std::size_t w = 0; w < on_path_.wavelength_nm().size(); ++w) {
-                const Medium here =
-                    medium(on_path_.index(m, w), on_path_.n(on_path_.incident(), w), incidence);
-                effects[m] = std::max(
-                    effects[m], std::sqrt(std::abs(here.eps)) /
-                                    std::max(std::abs(here.q2), kLeastNormal * std::abs(here.eps)));
-            }
-        }
-        return effects;
-    }
-
     void integrate(const SpectrumKernel& kernel, const Stack& stack, IncidentAngle incidence,
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
@@ -242,13 +204,17 @@ private:
         const bool has_mean = longest_nm > kWaves_nm || is_fine(longest_nm, limits);
         for (StackColor& color : colors) color.error = std::numeric_limits<double>::infinity();
         if (has_mean && try_mean(stack, incidence, longest_nm, limits, colors, scratch)) return;
+        // more fringes than can be followed
+        const bool has_samples = kPointsPerPath * path_nm > static_cast<double>(limits.evaluations);
+        if (has_samples && try_samples(stack, incidence, longest_nm, limits, colors, scratch))
+            return;
         const PanelTree::Start& start = start_of(path_class(path_nm), follows);
         IntegrationLimits known = limits;
         Transmission through;
         through.sides = request_.sides;
         if (follows) known.transmission = &through;
         bool is_first = follows;
-        if (!constant_) known.index_effects = index_effects(incidence, scratch.effects);
+        if (!constant_) known.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
         const bool with_p = needs_.p && !(with_s && incidence.cos == 1);
@@ -278,9 +244,14 @@ private:
                         scratch.integration, scratch.integrals);
         for (std::size_t i = 0; i < colors.size(); ++i)
             take_better(colors[i], scratch.integrals[i], scratch.integrals[i].error);
-        const bool done = std::ranges::all_of(
-            colors, [&](const StackColor& c) { return c.error <= limits.tolerance; });
-        if (!done && !has_mean) try_mean(stack, incidence, longest_nm, limits, colors, scratch);
+        const auto is_done = [&] {
+            return std::ranges::all_of(
+                colors, [&](const StackColor& c) { return c.error <= limits.tolerance; });
+        };
+        if (!is_done() && !has_mean)
+            try_mean(stack, incidence, longest_nm, limits, colors, scratch);
+        if (!is_done() && has_mean && !has_samples)
+            try_samples(stack, incidence, longest_nm, limits, colors, scratch);
     }
 
     static void take_better(StackColor& color, const ColorIntegral& integral, double error) {
@@ -294,7 +265,8 @@ private:
         double rest_nm, period_nm;
     };
     FastElements fast_elements(const Stack& stack, IncidentAngle incidence, double path_nm,
-                               const IntegrationLimits& limits, Scratch& scratch) const {
+                               const IntegrationLimits& limits, Scratch& scratch,
+                               std::size_t most = 2) const {
         const auto path_of = [&](std::span<const Element> elements) {
             return optical_path_nm(elements, incidence, Gaps::have_bands, scratch.normal);
         };
@@ -309,9 +281,50 @@ private:
             paths_nm[i] = 0;
             if (const Group* group = std::get_if<Group>(&stack.elements[i].value))
                 fast.period_nm += path_of(group->elements);
-        } while (fast.indices.size() < 2 && is_fine(fast.rest_nm, limits));
+        } while (fast.indices.size() < most && is_fine(fast.rest_nm, limits));
         std::ranges::sort(fast.indices);
         return fast;
+    }
+
+    /// Whether the stack has a fringe_form().
+    bool has_forms(IncidentAngle incidence, const Scratch& scratch) const {
+        return !keeps_rows_ && incidence.cos > 0 && scratch.power->has_amplitudes() &&
+               std::ranges::find(amplifies_, true) == amplifies_.end();
+    }
+
+    /// Sums over fringes that are too many to be followed one by one, of all elements or of all but
+    /// the one of the longest path; false if they are not known to the tolerance.
+    bool try_samples(const Stack& stack, IncidentAngle incidence, double path_nm,
+                     const IntegrationLimits& limits, std::span<StackColor> colors,
+                     Scratch& scratch) const {
+        if (!has_forms(incidence, scratch)) return false;
+        const double most =
+            std::min(static_cast<double>(kSamplesOfEvaluation * request_.evaluations),
+                     kMostSampledWork / work_of(stack.elements));
+        const WavelengthRange range = sensitivity_.support();
+        const double longest_nm =
+            most / (kSamplesOfFringe * (1 / range.first_nm - 1 / range.last_nm));
+        FastElements fast{{}, path_nm, 0};
+        double left_out = 0;
+        if (path_nm > longest_nm) {
+            fast = fast_elements(stack, incidence, path_nm, limits, scratch, 1);
+            left_out = tables_.decay()(path_nm - fast.rest_nm);
+        }
+        const double sampled_nm = fast.rest_nm + fast.period_nm;
+        if (sampled_nm > longest_nm) return false;
+        std::vector<Polarization> polarizations;
+        if (needs_.s) polarizations.push_back(Polarization::s);
+        if (needs_.p && (!needs_.s || incidence.cos < 1)) polarizations.push_back(Polarization::p);
+        const std::vector<SampledSum> sums = sampled_fringes(
+            sensitivity_, {held_, stack, incidence, polarizations, fast.indices}, request_.sides,
+            {limits.tolerance - left_out, static_cast<std::size_t>(most), sampled_nm});
+        bool is_met = true;
+        for (std::size_t i = 0; i < colors.size(); ++i) {
+            const double error = sums[i].error + left_out;
+            take_better(colors[i], {sums[i].xyz, error, sums[i].evaluations}, error);
+            is_met = is_met && error <= limits.tolerance;
+        }
+        return is_met;
     }
 
     static bool is_fine(double path_nm, const IntegrationLimits& limits) {
@@ -324,9 +337,7 @@ private:
     bool try_mean(const Stack& stack, IncidentAngle incidence, double path_nm,
                   const IntegrationLimits& limits, std::span<StackColor> colors,
                   Scratch& scratch) const {
-        if (keeps_rows_ || incidence.cos == 0 || !scratch.power->has_amplitudes() ||
-            std::ranges::find(amplifies_, true) != amplifies_.end())
-            return false;
+        if (!has_forms(incidence, scratch)) return false;
         const FastElements fast = fast_elements(stack, incidence, path_nm, limits, scratch);
         if (!is_fine(path_nm, limits) && fast.rest_nm > kRest * path_nm) return false;
         const PanelTree::Start& start =
@@ -340,13 +351,17 @@ private:
         };
         const auto affordable = static_cast<std::size_t>(
             std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
+        if (kPointsPerPath * (fast.rest_nm + kPeriodsOfMean * fast.period_nm) >
+            static_cast<double>(affordable))
+            return false;
         scratch.integrals.resize(colors.size());
         const bool has_waves = fast.indices.size() > 1 || !is_fine(path_nm, limits);
         const double of_all = has_waves ? kOfMeansWithWaves * std::min(limits.tolerance, kResolved)
                                         : kOfMeans * limits.tolerance;
         IntegrationLimits of_means{std::max(kSmallestTolerance, of_all),
                                    std::min(request_.evaluations, affordable), limits.simd};
-        if (!constant_) of_means.index_effects = index_effects(incidence, scratch.effects);
+        if (!constant_)
+            of_means.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
         integrate_color(sensitivity_, start, polarizations, sample, of_means, scratch.integration,
                         scratch.integrals);
         std::vector<double> errors(colors.size());
@@ -376,7 +391,9 @@ private:
             std::ranges::fill(errors, std::numeric_limits<double>::infinity());
             return;
         }
-        kinks_of(stack.elements[fast[0]], scratch.kinks);
+        scratch.kinks.clear();
+        if (!constant_)
+            kinks_of(stack.elements[fast[0]], held_, sensitivity_.support(), scratch.kinks);
         for (std::size_t i = 0; i < errors.size(); ++i)
             for (std::size_t k = 0; k < polarizations; ++k) {
                 LeftOutFringes& fringes = scratch.left_out[k];
@@ -415,25 +432,6 @@ private:
 
     Polarization polarization_of(std::size_t k) const {
         return needs_.s && k == 0 ? Polarization::s : Polarization::p;
-    }
-
-    /// Rows of the tables of an element's materials.
-    void kinks_of(const Element& element, std::vector<LeftOutFringes::Kink>& kinks) const {
-        kinks.clear();
-        if (constant_) return;
-        std::vector<double> length_nm(held_.materials.size());
-        add_lengths(element, 1, length_nm);
-        for (std::size_t m = 0; m < length_nm.size(); ++m) {
-            if (length_nm[m] == 0) continue;
-            const Material& material = held_.materials[m];
-            for (const double nm : table_rows(material, sensitivity_.support())) {
-                const double step = kKinkStep * nm;
-                const double jump = index_at(material, nm + step).real() +
-                                    index_at(material, nm - step).real() -
-                                    2 * index_at(material, nm).real();
-                kinks.push_back({nm, 2 * length_nm[m] * nm * std::abs(jump) / step});
-            }
-        }
     }
 
     /// Means of the polarizations, and their denominators.

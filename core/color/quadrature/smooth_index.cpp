@@ -17,6 +17,9 @@ namespace {
 /// smooth curve does over a panel, and too few to follow the kinks of a dense table.
 constexpr std::size_t kLargestDegree = 8;
 
+/// Squares of normal indices below this part of the index' own are taken to be that.
+constexpr double kLeastNormal = 1e-6;
+
 /// Least weight of a wavelength in the fit, of the mean.
 constexpr double kLeastWeight = 1e-3;
 
@@ -245,6 +248,21 @@ std::vector<double> SmoothIndices::inverse_indices(WavelengthRange panel) const 
         inverse.push_back(
             1 / std::abs(index_at(material, 2 / (1 / panel.first_nm + 1 / panel.last_nm))));
     return inverse;
+}
+
+std::span<const double> SmoothIndices::effects(const IndexTable& table, IncidentAngle incidence,
+                                               std::vector<double>& effects) const {
+    effects.assign(table.materials(), 0);
+    for (std::size_t m = 0; m < effects.size(); ++m) {
+        if (!is_tabulated(m)) continue;
+        for (std::size_t w = 0; w < table.wavelength_nm().size(); ++w) {
+            const Medium here = medium(table.index(m, w), table.n(table.incident(), w), incidence);
+            effects[m] = std::max(
+                effects[m], std::sqrt(std::abs(here.eps)) /
+                                std::max(std::abs(here.q2), kLeastNormal * std::abs(here.eps)));
+        }
+    }
+    return effects;
 }
 
 }  // namespace irido

@@ -81,6 +81,10 @@ public:
     double middle_row(WavelengthRange panel) const;
     /// Of a panel that has rows.
     std::unique_ptr<const IndexFit> fit(WavelengthRange panel) const;
+    /// Per material the largest |n| / |kz/k0|^2 at the wavelengths of a table, 0 without rows, in
+    /// `effects`, which is returned: see IntegrationLimits.
+    std::span<const double> effects(const IndexTable& table, IncidentAngle incidence,
+                                    std::vector<double>& effects) const;
     /// 1/|n| of every material in the middle of a panel.
     std::vector<double> inverse_indices(WavelengthRange panel) const;
 
