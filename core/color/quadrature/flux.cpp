@@ -1,5 +1,6 @@
 #include "core/color/quadrature/flux.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -21,15 +22,16 @@ bool has_flux(const Spectrum& spectrum, double& flux) {
     const auto T_at = [&](std::size_t j) {
         return spectrum.T.empty() ? 1 - spectrum.R[j] : spectrum.T[j];
     };
+    const auto is_zero = [](double scale) { return scale == 0; };
+    if (!std::ranges::all_of(spectrum.log_scale, is_zero)) return false;
+    double least = size_at(0);
+    for (std::size_t j = 1; j < spectrum.log_scale.size(); ++j) least = std::min(least, size_at(j));
     std::size_t clearest = 0;
-    for (std::size_t j = 0; j < spectrum.log_scale.size(); ++j) {
-        if (spectrum.log_scale[j] != 0) return false;
-        if (size_at(j) < size_at(clearest)) clearest = j;
-    }
+    while (size_at(clearest) > least) ++clearest;
     flux = T_at(clearest) * size_at(clearest);
     if (!(flux > 0)) return false;
     for (std::size_t j = 0; j < spectrum.log_scale.size(); j += kFluxStep)
-        if (!(std::abs(T_at(j) - flux / size_at(j)) <= kRoundingOfFlux)) return false;
+        if (!(std::abs(T_at(j) * size_at(j) - flux) <= kRoundingOfFlux * size_at(j))) return false;
     return true;
 }
 

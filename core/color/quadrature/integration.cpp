@@ -63,6 +63,10 @@ const std::vector<double>& slope_rows(std::size_t degree) {
     return all[degree];
 }
 
+double square(double x) {
+    return x * x;
+}
+
 /// |a| < factor |b|, by squares where these decide it: roots take long.
 bool is_smaller(Complex a, Complex b, double factor) {
     const double a2 = std::norm(a), b2 = std::norm(b) * factor * factor;
@@ -227,10 +231,13 @@ private:
 
     /// The panel's samples begin at the point `first`.
     void settle_or_refine(Job job, const Samples& samples, std::size_t first) {
-        const Outcome outcome = settle(job, samples, first);
+        Outcome outcome = settle(job, samples, first);
         if (outcome == Outcome::settled && job.known) leave(std::move(*job.known));
         if (outcome != Outcome::settled && knows_denominators(job, samples, first))
-            return refine_known(std::move(job), outcome, samples);
+            return refine_known(std::move(job), outcome);
+        // twice the degree may be what the denominators need, and finer points of these cost little
+        if (outcome == Outcome::halves && follows() && job.degree < kKnownDegree)
+            outcome = Outcome::twice_the_degree;
         switch (outcome) {
             case Outcome::settled:
                 return;
@@ -253,19 +260,22 @@ private:
         }
     }
 
+    /// Whether spectra follow from denominators.
+    bool follows() const { return limits_.transmission && limits_.transmission->holds; }
+
     /// Whether the denominators of a panel are known between its samples, which begin at the point
     /// `first`, as well as the error allowed needs; keeps them in the job then.
     bool knows_denominators(Job& job, const Samples& samples, std::size_t first) {
         if (job.known) return true;
-        const Transmission* through = limits_.transmission;
-        if (!through || !through->holds) return false;
+        if (!follows()) return false;
+        const Transmission* const through = limits_.transmission;
         const QuadratureRule& rule = job.rule();
         double unseen = 0;
         for (std::size_t d = 0; d < denominators_; ++d) {
             // T <= 1 has |D|^2 >= flux, so that |dT| = 2 flux |dD| / |D|^3 <= 2 |dD| / sqrt(flux)
             const std::size_t row = integrals_.size() + 3 * d;
-            const double off = std::hypot(last_two(rule, samples.row(row) + first),
-                                          last_two(rule, samples.row(row + 1) + first));
+            const double off = std::sqrt(square(last_two(rule, samples.row(row) + first)) +
+                                         square(last_two(rule, samples.row(row + 1) + first)));
             unseen += 2 * off / std::sqrt(through->flux[d]) / static_cast<double>(denominators_);
         }
         const Triple allowed = budget(rule, job.share);
@@ -294,35 +304,30 @@ private:
     /// Settles or refines a panel of known denominators at the points of its degree.
     void follow(Job job) {
         Samples samples = room();
-        fill_known(job, resampling(job.known_degree, job.degree), kDegrees[job.degree] + 1,
-                   samples);
+        fill_known(job, samples);
         settle_or_refine(std::move(job), samples, 0);
         leave(std::move(samples));
     }
 
     /// Samples that follow from a panel's denominators.
-    void fill_known(const Job& job, const Resampling& by, std::size_t points, Samples& samples) {
+    void fill_known(const Job& job, Samples& samples) {
+        const std::size_t points = kDegrees[job.degree] + 1;
         samples.resize(integrals_.size(), denominators_, points);
         followed_ += points;
-        memory_.transmitted.resize(by.stride);
-        resample(by, *job.known, samples, integrals_.size(), memory_.transmitted.data());
-        const double mean = 1 / static_cast<double>(denominators_);
-        for (std::size_t k = 0; k < integrals_.size(); ++k) {
-            const bool reflects = limits_.transmission->sides[k] == Side::reflected;
-            double* const row = samples.row(k);
-            for (std::size_t j = 0; j < points; ++j) {
-                const double T = std::min(1.0, mean * memory_.transmitted[j]);
-                row[j] = reflects ? 1 - T : T;
-            }
-        }
+        Powers powers{1 / static_cast<double>(denominators_)};
+        for (std::size_t k = 0; k < integrals_.size(); ++k)
+            (limits_.transmission->sides[k] == Side::reflected ? powers.R : powers.T) =
+                samples.row(k);
+        resample(resampling(job.known_degree, job.degree), *job.known, samples, integrals_.size(),
+                 powers);
     }
 
     /// Both parts of every denominator at other points.
-    ///   from         denominators only
-    ///   to           with `spectra` rows before the denominators
-    ///   transmitted  nullptr, or the sum of T of the denominators
+    ///   from    denominators only
+    ///   to      with `spectra` rows before the denominators
+    ///   powers  that follow
     void resample(const Resampling& by, const Samples& from, Samples& to, std::size_t spectra,
-                  double* transmitted) const {
+                  const Powers& powers) const {
         std::array<const double*, 4> in{};
         std::array<double*, 4> out{};
         for (std::size_t d = 0; d < denominators_; ++d) {
@@ -333,33 +338,23 @@ private:
             std::fill_n(to.row(spectra + 3 * d + 2), to.points(), 0.0);
         }
         resampled_denominators(by.columns.data(), by.inputs, by.stride, denominators_, in.data(),
-                               out.data(), limits_.transmission->flux.data(), transmitted,
-                               limits_.simd);
+                               out.data(), limits_.transmission->flux.data(), powers, limits_.simd);
     }
 
-    ///   samples  of the panel, or of several if these were computed
-    void refine_known(Job job, Outcome outcome, const Samples& samples) {
-        if (outcome == Outcome::twice_the_degree) {
-            const std::size_t count = kDegrees[job.degree];
-            ++job.degree;
-            if (samples.points() != count + 1) return follow(std::move(job));
-            Samples added = room(), merged = room();
-            fill_known(job, resampling_to_added(job.known_degree, job.degree), count, added);
-            merge(samples, added, 0, count, merged);
-            leave(std::move(added));
-            settle_or_refine(std::move(job), merged, 0);
-            return leave(std::move(merged));
+    void refine_known(Job job, Outcome outcome) {
+        if (outcome == Outcome::twice_the_degree || job.degree < kKnownDegree) {
+            job.degree = std::max(job.degree + 1, kKnownDegree);
+            return follow(std::move(job));
         }
         for (std::size_t half = 0; half < 2; ++half) {
             PanelTree::Node& node = job.node->half(half);
-            Job part{&node, node.seeing(std::max<std::size_t>(job.degree, 1) - 1),
-                     job.node->half_turn(half, job.half_turn), job.share / 2};
+            Job part{&node, job.degree - 1, job.node->half_turn(half, job.half_turn),
+                     job.share / 2};
             part.known_degree = job.known_degree;
             part.unseen = job.unseen;
             part.known = room();
             part.known->resize(0, denominators_, kDegrees[job.known_degree] + 1);
-            resample(resampling_of_half(job.known_degree, half), *job.known, *part.known, 0,
-                     nullptr);
+            resample(resampling_of_half(job.known_degree, half), *job.known, *part.known, 0, {});
             follow(std::move(part));
         }
         leave(std::move(*job.known));
@@ -456,7 +451,7 @@ private:
                                const Triple& error, const Triple& allowed) {
         if (rule.middle == 0) return true;
         // coefficients fall as much again in the next half of the degree, and in the one after it
-        const double fall = std::pow(rule.fall_seen(sums), 2);
+        const double fall = square(rule.fall_seen(sums));
         for (std::size_t c = 0; c < 3; ++c)
             if (error[c] > kHopeful * fall * allowed[c]) return false;
         return true;

@@ -64,7 +64,7 @@ struct IntegrationMemory {
     std::vector<bool> marked;
     std::vector<Job> now, next;
     std::vector<const SpectralPoints*> parts;
-    std::vector<double> reference, sums, transmitted;
+    std::vector<double> reference, sums;
     std::vector<Triple> errors, panel_errors;
     std::vector<Samples> spare;
 };

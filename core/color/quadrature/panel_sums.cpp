@@ -1,6 +1,8 @@
 // Compiled once for every instruction set: this file includes itself through foreach_target.h.
 #include "core/color/quadrature/panel_sums.hpp"
 
+#include <utility>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/color/quadrature/panel_sums.cpp"
 #include "core/math/vector_targets.hpp"
@@ -13,76 +15,84 @@ HWY_BEFORE_NAMESPACE();
 namespace irido::HWY_NAMESPACE {
 namespace {
 
-template <std::size_t kRows>
-void some_row_sums(const double* rows, std::size_t stride, const double* values, V reference,
-                   double* sums) {
-    V sum[kRows];
-    for (std::size_t r = 0; r < kRows; ++r) sum[r] = constant(0);
+// Sums are named by constants, not by loop variables: so they stay in registers.
+
+template <std::size_t... kRow>
+void some_row_sums(std::index_sequence<kRow...>, const double* rows, std::size_t stride,
+                   const double* values, V reference, double* sums) {
+    V sum[] = {(static_cast<void>(kRow), constant(0))...};
     for (std::size_t j = 0; j < stride; j += hn::Lanes(Lanes())) {
         const V value = hn::Sub(hn::LoadU(Lanes(), values + j), reference);
-        for (std::size_t r = 0; r < kRows; ++r)
-            sum[r] = hn::MulAdd(hn::LoadU(Lanes(), rows + r * stride + j), value, sum[r]);
+        ((sum[kRow] = hn::MulAdd(hn::LoadU(Lanes(), rows + kRow * stride + j), value, sum[kRow])),
+         ...);
     }
-    for (std::size_t r = 0; r < kRows; ++r) sums[r] = hn::GetLane(hn::SumOfLanes(Lanes(), sum[r]));
+    ((sums[kRow] = hn::GetLane(hn::SumOfLanes(Lanes(), sum[kRow]))), ...);
 }
 
-/// Of kVectors vectors of points: parts of kCount denominators, and their transmittances.
-template <std::size_t kCount, std::size_t kVectors>
-void some_resampled(const double* columns, std::size_t inputs, std::size_t stride,
-                    const double* const* from, double* const* to, const double* flux,
-                    double* transmitted) {
+/// What follows from denominators at one vector of points: T, or its mean over two.
+void store_power(V sum, const Powers& powers, std::size_t j) {
+    const V T = hn::Min(constant(1), hn::Mul(constant(powers.scale), sum));
+    if (powers.T) hn::StoreU(T, Lanes(), powers.T + j);
+    if (powers.R) hn::StoreU(hn::Sub(constant(1), T), Lanes(), powers.R + j);
+}
+
+/// Of one or two vectors of points from `j` on: parts of the denominators, real and imaginary ones
+/// in turn, and powers.
+template <bool kTwo, std::size_t... kPart>
+void some_resampled(std::index_sequence<kPart...>, const double* columns, std::size_t inputs,
+                    std::size_t stride, const double* const* from, double* const* to,
+                    const double* flux, const Powers& powers, std::size_t j) {
     const std::size_t lanes = hn::Lanes(Lanes());
-    V part[2 * kCount][kVectors];
-    for (auto& of_part : part)
-        for (V& sum : of_part) sum = constant(0);
-    for (std::size_t i = 0; i < inputs; ++i) {
-        V column[kVectors];
-        for (std::size_t v = 0; v < kVectors; ++v)
-            column[v] = hn::LoadU(Lanes(), columns + i * stride + v * lanes);
-        for (std::size_t r = 0; r < 2 * kCount; ++r) {
-            const V value = constant(from[r][i]);
-            for (std::size_t v = 0; v < kVectors; ++v)
-                part[r][v] = hn::MulAdd(column[v], value, part[r][v]);
+    V first[] = {(static_cast<void>(kPart), constant(0))...};
+    V second[] = {(static_cast<void>(kPart), constant(0))...};
+    const double* column = columns + j;
+    for (std::size_t i = 0; i < inputs; ++i, column += stride) {
+        const V here = hn::LoadU(Lanes(), column);
+        ((first[kPart] = hn::MulAdd(here, constant(from[kPart][i]), first[kPart])), ...);
+        if constexpr (kTwo) {
+            const V there = hn::LoadU(Lanes(), column + lanes);
+            ((second[kPart] = hn::MulAdd(there, constant(from[kPart][i]), second[kPart])), ...);
         }
     }
-    for (std::size_t v = 0; v < kVectors; ++v) {
-        V sum = constant(0);
-        for (std::size_t d = 0; d < kCount; ++d) {
-            const V re = part[2 * d][v], im = part[2 * d + 1][v];
-            hn::StoreU(re, Lanes(), to[2 * d] + v * lanes);
-            hn::StoreU(im, Lanes(), to[2 * d + 1] + v * lanes);
+    const auto finish = [&](const V* part, std::size_t at) {
+        (hn::StoreU(part[kPart], Lanes(), to[kPart] + at), ...);
+        if (!powers.T && !powers.R) return;
+        const auto of_one = [&](std::size_t d) {
             // past the points both are 0
-            const V size = hn::Max(hn::MulAdd(re, re, hn::Mul(im, im)), constant(1e-300));
-            if (transmitted) sum = hn::Add(sum, hn::Div(constant(flux[d]), size));
-        }
-        if (transmitted) hn::StoreU(sum, Lanes(), transmitted + v * lanes);
-    }
+            const V size =
+                hn::MulAdd(part[2 * d], part[2 * d], hn::Mul(part[2 * d + 1], part[2 * d + 1]));
+            return hn::Div(constant(flux[d]), hn::Max(size, constant(1e-300)));
+        };
+        V sum = of_one(0);
+        if constexpr (sizeof...(kPart) == 4) sum = hn::Add(sum, of_one(1));
+        store_power(sum, powers, at);
+    };
+    finish(first, j);
+    if constexpr (kTwo) finish(second, j + lanes);
 }
 
 template <std::size_t kCount>
 void resampled(const double* columns, std::size_t inputs, std::size_t stride,
                const double* const* from, double* const* to, const double* flux,
-               double* transmitted) {
+               const Powers& powers) {
+    constexpr std::make_index_sequence<2 * kCount> parts;
     const std::size_t lanes = hn::Lanes(Lanes());
-    double* at[2 * kCount];
     std::size_t j = 0;
-    const auto step = [&](auto run) {
-        for (std::size_t r = 0; r < 2 * kCount; ++r) at[r] = to[r] + j;
-        run(columns + j, inputs, stride, from, at, flux, transmitted ? transmitted + j : nullptr);
-    };
-    for (; j + 2 * lanes <= stride; j += 2 * lanes) step(some_resampled<kCount, 2>);
-    for (; j < stride; j += lanes) step(some_resampled<kCount, 1>);
+    for (; j + 2 * lanes <= stride; j += 2 * lanes)
+        some_resampled<true>(parts, columns, inputs, stride, from, to, flux, powers, j);
+    for (; j < stride; j += lanes)
+        some_resampled<false>(parts, columns, inputs, stride, from, to, flux, powers, j);
 }
 
 }  // namespace
 
 void all_resampled(const double* columns, std::size_t inputs, std::size_t stride,
                    std::size_t denominators, const double* const* from, double* const* to,
-                   const double* flux, double* transmitted) {
+                   const double* flux, const Powers& powers) {
     if (denominators == 2) {
-        resampled<2>(columns, inputs, stride, from, to, flux, transmitted);
+        resampled<2>(columns, inputs, stride, from, to, flux, powers);
     } else {
-        resampled<1>(columns, inputs, stride, from, to, flux, transmitted);
+        resampled<1>(columns, inputs, stride, from, to, flux, powers);
     }
 }
 
@@ -90,12 +100,13 @@ void all_row_sums(const double* rows, std::size_t count, std::size_t stride, con
                   double reference, double* sums) {
     const V reference_v = constant(reference);
     std::size_t r = 0;
-    for (; r + 6 <= count; r += 6)
-        some_row_sums<6>(rows + r * stride, stride, values, reference_v, sums + r);
-    for (; r + 2 <= count; r += 2)
-        some_row_sums<2>(rows + r * stride, stride, values, reference_v, sums + r);
-    for (; r < count; ++r)
-        some_row_sums<1>(rows + r * stride, stride, values, reference_v, sums + r);
+    const auto some = [&](auto which) {
+        some_row_sums(which, rows + r * stride, stride, values, reference_v, sums + r);
+        r += which.size();
+    };
+    while (r + 6 <= count) some(std::make_index_sequence<6>());
+    while (r + 2 <= count) some(std::make_index_sequence<2>());
+    while (r < count) some(std::make_index_sequence<1>());
 }
 
 double steepest(const double* re, const double* im, const double* log_scale,
@@ -133,9 +144,9 @@ void row_sums(const double* rows, std::size_t count, std::size_t stride, const d
 
 void resampled_denominators(const double* columns, std::size_t inputs, std::size_t stride,
                             std::size_t denominators, const double* const* from, double* const* to,
-                            const double* flux, double* transmitted, SimdLevel level) {
+                            const double* flux, const Powers& powers, SimdLevel level) {
     IRIDO_DISPATCH(level, all_resampled)
-    (columns, inputs, stride, denominators, from, to, flux, transmitted);
+    (columns, inputs, stride, denominators, from, to, flux, powers);
 }
 
 double steepness(const double* re, const double* im, const double* log_scale,

@@ -17,17 +17,24 @@ namespace irido {
 void row_sums(const double* rows, std::size_t count, std::size_t stride, const double* values,
               double reference, double* sums, SimdLevel level);
 
-/// One or two complex functions D at other points, by a matrix, and the sum of flux / |D|^2.
+/// Where powers go that follow from denominators: T = scale times the sum of flux / |D|^2, at most
+/// 1, and R = 1 - T. nullptr where one is not needed.
+struct Powers {
+    double scale = 1;
+    double *R = nullptr, *T = nullptr;
+};
+
+/// One or two complex functions D at other points, by a matrix, and powers that follow.
 ///   columns       of a Resampling, with `inputs` and `stride`
 ///   denominators  number of functions, 1 or 2
 ///   from          real and imaginary part of each, `inputs` numbers
 ///   to            the same at the other points, `stride` numbers
 ///   flux          of each
-///   transmitted   the sum, `stride` numbers; nullptr if it is not needed
+///   powers        `stride` numbers each; past the points R is 0 and T is 1
 ///   level         instruction set
 void resampled_denominators(const double* columns, std::size_t inputs, std::size_t stride,
                             std::size_t denominators, const double* const* from, double* const* to,
-                            const double* flux, double* transmitted, SimdLevel level);
+                            const double* flux, const Powers& powers, SimdLevel level);
 
 /// Largest |D'|/|D| of a complex function D = exp(l) d between neighbouring points, as its
 /// differences show it: (|d_(j+1) - d_j| / min(|d_j|, |d_(j+1)|) + |l_(j+1) - l_j|) / (x_j -

@@ -60,17 +60,6 @@ const Resampling& resampling(std::size_t from, std::size_t to) {
     });
 }
 
-const Resampling& resampling_to_added(std::size_t from, std::size_t to) {
-    static std::array<std::array<Known, kDegrees.size()>, kDegrees.size()> known;
-    static std::mutex lock;
-    return known.at(from).at(to).get(lock, [&] {
-        auto matrix = std::make_unique<Resampling>(empty_resampling(from, kDegrees.at(to) / 2));
-        for (std::size_t j = 0; j < kDegrees[to] / 2; ++j)
-            fill_row(*matrix, j, chebyshev_point(2 * j + 1, kDegrees[to]));
-        return matrix;
-    });
-}
-
 const Resampling& resampling_of_half(std::size_t degree, std::size_t half) {
     static std::array<std::array<Known, 2>, kDegrees.size()> known;
     static std::mutex lock;

@@ -15,9 +15,6 @@ struct Resampling {
 /// From the points of one degree to those of another, both indices into kDegrees.
 const Resampling& resampling(std::size_t from, std::size_t to);
 
-/// To every second point only, which the degree before does not have.
-const Resampling& resampling_to_added(std::size_t from, std::size_t to);
-
 /// From the points of a panel to those, of the same degree, of its first half, x in [0, 1], or of
 /// its second.
 const Resampling& resampling_of_half(std::size_t degree, std::size_t half);

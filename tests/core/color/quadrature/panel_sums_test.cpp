@@ -95,3 +95,49 @@ TEST_CASE("the steepness bounds the logarithmic slope, however a function is sca
               largest);
     }
 }
+
+TEST_CASE("denominators at other points, and the powers that follow, are those of a plain loop") {
+    Random random(5);
+    for (const SimdLevel level : kSimdLevels) {
+        if (!is_available(level)) continue;
+        for (const std::size_t denominators : {1, 2})
+            for (const std::size_t inputs : {5, 17})
+                for (const std::size_t stride : {8, 16, 40}) {
+                    CAPTURE(name_of(level), denominators, inputs, stride);
+                    const auto columns = random_numbers(inputs * stride, random);
+                    std::vector<std::vector<double>> in, out(4, std::vector<double>(stride));
+                    std::vector<const double*> from;
+                    std::vector<double*> to;
+                    for (std::size_t r = 0; r < 4; ++r)
+                        in.push_back(random_numbers(inputs, random));
+                    for (std::size_t r = 0; r < 4; ++r) from.push_back(in[r].data());
+                    for (std::size_t r = 0; r < 4; ++r) to.push_back(out[r].data());
+                    const std::vector<double> flux{0.3, 0.7};
+                    std::vector<double> R(stride, 2), T(stride, 2);
+                    const double scale = 1 / static_cast<double>(denominators);
+                    resampled_denominators(columns.data(), inputs, stride, denominators,
+                                           from.data(), to.data(), flux.data(),
+                                           {scale, R.data(), T.data()}, level);
+                    std::vector<std::vector<double>> again = out;
+                    for (std::size_t r = 0; r < 4; ++r) to[r] = again[r].data();
+                    resampled_denominators(columns.data(), inputs, stride, denominators,
+                                           from.data(), to.data(), flux.data(), {}, level);
+                    CHECK(again == out);
+                    for (std::size_t j = 0; j < stride; ++j) {
+                        std::vector<double> part(4);
+                        for (std::size_t r = 0; r < 2 * denominators; ++r) {
+                            for (std::size_t i = 0; i < inputs; ++i)
+                                part[r] += columns[i * stride + j] * in[r][i];
+                            CHECK(std::abs(out[r][j] - part[r]) < 1e-14);
+                        }
+                        double sum = 0;
+                        for (std::size_t d = 0; d < denominators; ++d)
+                            sum += flux[d] /
+                                   (part[2 * d] * part[2 * d] + part[2 * d + 1] * part[2 * d + 1]);
+                        const double most = std::min(1.0, scale * sum);
+                        CHECK(std::abs(T[j] - most) < 1e-10);
+                        CHECK(R[j] == 1 - T[j]);
+                    }
+                }
+    }
+}
