@@ -27,9 +27,9 @@ namespace irido {
 
 namespace {
 
-/// Layers computed for one spectrum before it is given up, a second's worth of either kernel, and
+/// Layers computed for one spectrum before it is given up, some seconds of either kernel, and
 /// points that any stack may have. Means, where points do not resolve the fringes, may take longer.
-constexpr double kMostVectorWork = 1e9, kMostPlainWork = 2e7, kMostMeanWork = 1e8,
+constexpr double kMostVectorWork = 1e10, kMostPlainWork = 2e7, kMostMeanWork = 1e8,
                  kFewestPoints = 4096;
 
 /// Points at which the waves that means leave out may be looked at.
@@ -340,8 +340,11 @@ private:
         if (!has_forms(incidence, scratch)) return false;
         const FastElements fast = fast_elements(stack, incidence, path_nm, limits, scratch);
         if (!is_fine(path_nm, limits) && fast.rest_nm > kRest * path_nm) return false;
-        const PanelTree::Start& start =
-            start_of(path_class(fast.rest_nm + kPeriodsOfMean * fast.period_nm));
+        const auto affordable = static_cast<std::size_t>(
+            std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
+        const double mean_nm = fast.rest_nm + kPeriodsOfMean * fast.period_nm;
+        if (kPointsPerPath * mean_nm > static_cast<double>(affordable)) return false;
+        const PanelTree::Start& start = start_of(path_class(mean_nm));
         const std::size_t polarizations = needs_.s && needs_.p && incidence.cos < 1 ? 2 : 1;
         for (LeftOutFringes& fringes : scratch.left_out) fringes.clear();
         const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
@@ -349,11 +352,6 @@ private:
             fill_with_means(stack, fast.indices, incidence, polarizations,
                             indices_at(parts, scratch), samples, scratch);
         };
-        const auto affordable = static_cast<std::size_t>(
-            std::max(kFewestPoints, kMostMeanWork / work_of(stack.elements)));
-        if (kPointsPerPath * (fast.rest_nm + kPeriodsOfMean * fast.period_nm) >
-            static_cast<double>(affordable))
-            return false;
         scratch.integrals.resize(colors.size());
         const bool has_waves = fast.indices.size() > 1 || !is_fine(path_nm, limits);
         const double of_all = has_waves ? kOfMeansWithWaves * std::min(limits.tolerance, kResolved)

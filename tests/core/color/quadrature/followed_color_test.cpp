@@ -99,3 +99,22 @@ TEST_CASE("colours from interpolated denominators are those of sampled spectra",
     }
     CHECK(10 * fewer > all);
 }
+
+TEST_CASE("ten thousand layers have the colour that very many wavelengths give", "[slow]") {
+    const Sensitivity sensitivity(observer(2), illuminant("D65"));
+    const ColorTables tables(sensitivity);
+    Random random(43);
+    StackBuilder b;
+    for (std::size_t i = 0; i < 10000; ++i)
+        b.add(b.layer(i % 2 == 0 ? 1.5 : 1.5 + 0.1 * random.uniform(0, 1),
+                      50 + 100 * random.uniform(0, 1)));
+    const Stack stack = b.over(1.52);
+    const std::vector<double> angles_deg{0};
+    const ColorRequest request{.tolerance = 1e-4};
+    const StackColor color =
+        stack_color(tables, stack, color_method("quadrature"), request, angles_deg, 1).front();
+    const StackColor equal =
+        stack_color(tables, stack, color_method("equal", 200000), request, angles_deg, 1).front();
+    CHECK(color.error <= request.tolerance);
+    CHECK(largest_difference(color.xyz, equal.xyz) < 2 * request.tolerance);
+}
