@@ -70,6 +70,10 @@ constexpr double kFollowedTolerance = 1e-8;
 constexpr double kSamplesOfFringe = 16, kMostSampledWork = 4e8;
 constexpr std::size_t kSamplesOfEvaluation = 8;
 
+/// Samples are of means over an element whose path is longer than all others by this factor: its
+/// phase may be a multiple of others', and their waves of that order are too weak to beat with it.
+constexpr double kFarBeats = 1000;
+
 class QuadratureColor : public ColorAlgorithm {
 public:
     QuadratureColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request)
@@ -308,6 +312,7 @@ private:
         double left_out = 0;
         if (path_nm > longest_nm) {
             fast = fast_elements(stack, incidence, path_nm, limits, scratch, 1);
+            if (kFarBeats * fast.rest_nm > path_nm) return false;
             left_out = tables_.decay()(path_nm - fast.rest_nm);
         }
         const double sampled_nm = fast.rest_nm + fast.period_nm;
