@@ -169,3 +169,38 @@ TEST_CASE("beats of phases that are multiples of one another are in the colour o
     }
     CHECK(answered >= 3);
 }
+
+TEST_CASE("beats of random layers with phases that are multiples of one another are in the error",
+          "[color][slow]") {
+    Random random(12);
+    int answered = 0;
+    for (int i = 0; i < 24; ++i) {
+        const std::size_t count = 2 + random.below(2);
+        StackBuilder b;
+        std::vector<double> n{1};
+        std::vector<int> turns{0};
+        for (std::size_t j = 0; j < count; ++j) {
+            n.push_back(random.uniform(1, 4));
+            turns.push_back(static_cast<int>(1 + random.below(9)));
+            b.add(b.layer(n.back(), std::pow(10.0, 6 + i % 3) * turns.back() / n.back()));
+        }
+        n.push_back(random.uniform(1, 4));
+        const Stack stack = b.over(n.back());
+        const StackColor got = colors_of(stack, 0, 1e-6, 1U << 18).front();
+        constexpr int kPhases = 20000;
+        double mean = 0;
+        for (int k = 0; k < kPhases; ++k) {
+            Complex r = 0;
+            for (std::size_t j = count + 1; j-- > 0;) {
+                const double face = (n[j] - n[j + 1]) / (n[j] + n[j + 1]);
+                r = (face + r) / (1.0 + face * r);
+                r *= std::polar(1.0, 2 * std::numbers::pi * k * turns[j] / kPhases);
+            }
+            mean += std::norm(r) / kPhases;
+        }
+        CAPTURE(i, oracle::text_of(stack), got.error);
+        CHECK(std::abs(got.xyz[1] - mean) <= got.error + 1e-8);
+        answered += got.error <= 1e-6;
+    }
+    CHECK(answered >= 4);
+}
