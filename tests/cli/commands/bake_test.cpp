@@ -532,7 +532,7 @@ TEST_CASE("the manifest alone says all that an engine loads", "[cli][bake]") {
     CHECK(manifest["materials"]["film"]["tables"] == manifest["materials"]["same"]["tables"]);
 }
 
-TEST_CASE("other formats bake and are kept", "[cli][bake]") {
+TEST_CASE("other formats bake and are kept", "[cli][bake][slow]") {
     for (const std::string format : {"exr", "npy", "bin", "csv"}) {
         json scene = json::parse(kScene);
         scene["format"] = format;

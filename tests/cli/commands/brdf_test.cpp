@@ -174,7 +174,7 @@ TEST_CASE("shards of a simulation are joined", "[cli][brdf]") {
     check_refused(run_irido({"brdf", "--merge", a, other}), "is a shard of another request");
 }
 
-TEST_CASE("shards in any number join to the bytes of a single run", "[cli][brdf]") {
+TEST_CASE("shards in any number join to the bytes of a single run", "[cli][brdf][slow]") {
     const TemporaryFolder folder;
     const std::vector<std::vector<std::string>> requests{
         {"--quantity", "albedo", "--light-theta", "0,60", "-w", "450", "--facets", "filter"},

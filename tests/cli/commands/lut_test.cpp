@@ -235,7 +235,7 @@ TEST_CASE("fringes that are gone end a table early, and it says so", "[cli][lut]
     CHECK(info(folder / "u.npy")["axes"][1]["count"] == 1);
 }
 
-TEST_CASE("tables have the same bytes from run to run and thread to thread", "[cli][lut]") {
+TEST_CASE("tables have the same bytes from run to run and thread to thread", "[cli][lut][slow]") {
     TemporaryFolder folder;
     for (const std::string format : {"csv", "npy", "bin", "ktx2", "exr"}) {
         std::vector<std::string> bytes;

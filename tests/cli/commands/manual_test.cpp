@@ -81,7 +81,7 @@ std::vector<std::string> completed(const std::vector<std::string>& lines) {
 }  // namespace
 
 TEST_CASE("every command has a purpose, examples, a manual page and a place in the docs' index",
-          "[cli][manual]") {
+          "[cli][manual][slow]") {
     const std::string index = read_file(IRIDO_SOURCE_DIR "/docs/README.md");
     const std::vector<Page> pages = all_manual_pages();
     CHECK(pages.size() > 25);
@@ -99,7 +99,8 @@ TEST_CASE("every command has a purpose, examples, a manual page and a place in t
     }
 }
 
-TEST_CASE("help and manual pages say what a LIST is where an option takes one", "[cli][manual]") {
+TEST_CASE("help and manual pages say what a LIST is where an option takes one",
+          "[cli][manual][slow]") {
     static const std::regex takes(R"(\n  -[^\n ]* (\S+=)?LIST\b)");
     std::size_t lists = 0;
     for (const Page& page : all_manual_pages()) {

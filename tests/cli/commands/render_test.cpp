@@ -241,7 +241,7 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
             "radiance must be finite and not below 0 (got nan in row 0, column 1)");
 }
 
-TEST_CASE("a surface in white surroundings has the albedo of irido brdf", "[cli][render]") {
+TEST_CASE("a surface in white surroundings has the albedo of irido brdf", "[cli][render][slow]") {
     TemporaryFolder folder;
     const std::string file = folder / "surface.json";
     const auto check = [&](const std::string& document, const std::vector<std::string>& more) {

@@ -174,7 +174,7 @@ TEST_CASE("tables of a layered surface have the BRDF of irido brdf", "[render][l
     }
 }
 
-TEST_CASE("draws of layered surfaces add up to their albedo", "[render][layered]") {
+TEST_CASE("draws of layered surfaces add up to their albedo", "[render][layered][slow]") {
     for (const char* const json : {kCoatedGreen, kBlueOnRed}) {
         const Layered layered(surface_of(json));
         const auto scatterer = layered.scatterer();

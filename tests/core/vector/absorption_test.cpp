@@ -88,7 +88,7 @@ Material partly_absorbing() {
 
 }  // namespace
 
-TEST_CASE("every instruction set finds what each layer absorbs") {
+TEST_CASE("every instruction set finds what each layer absorbs", "[slow]") {
     for (int regime = 0; regime < static_cast<int>(Regime::count); ++regime) {
         Random random(static_cast<std::uint64_t>(regime) + 5);
         for (int i = 0; i < 60; ++i) {

@@ -51,7 +51,7 @@ const std::vector<VariedExpression>& expressions() {
 }  // namespace
 
 TEST_CASE("rows of tables of colours are the stack's colours within the stated tolerance",
-          "[lut]") {
+          "[lut][slow]") {
     Random random(7);
     for (const VariedExpression& varied : expressions()) {
         const double first = 20 + random.uniform(0, 40), last = first + random.uniform(0, 60);

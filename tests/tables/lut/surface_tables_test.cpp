@@ -147,7 +147,7 @@ TEST_CASE("lut brdf writes half-angle tables with their error", "[cli][brdf][slo
                    WithinAbs(row[std::string(1, "rgb"[c])].get<double>(), 2e-3));
 }
 
-TEST_CASE("tables of surfaces refuse what they cannot be", "[cli][brdf]") {
+TEST_CASE("tables of surfaces refuse what they cannot be", "[cli][brdf][slow]") {
     const TemporaryFolder folder;
     const std::string pale = "schemas/examples/surfaces/green-on-pale.json";
     const auto refused = [&](std::vector<std::string> words, const std::string& error,
