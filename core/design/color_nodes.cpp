@@ -26,7 +26,7 @@ constexpr std::array<Level, kColorLevels> kLevels{{{false, 1, 32},
                                                    {true, 8, 64},
                                                    {true, 16, 128}}};
 
-void append(const QuadratureRule& rule, ColorNodes& nodes) {
+void append(const QuadratureRule& rule, QuadratureNodes& nodes) {
     for (std::size_t j = 0; j < rule.points; ++j) {
         nodes.wavelength_nm.push_back(rule.wavelength_nm[j]);
         for (std::size_t c = 0; c < 3; ++c)
@@ -43,7 +43,7 @@ Triple numbers_of(const Triple& lab, const Triple& target) {
 
 }  // namespace
 
-ColorNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_t level) {
+QuadratureNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_t level) {
     const auto [with_rows, base_parts, base_degree] = kLevels.at(level);
     const std::vector<double> ends =
         smooth_pieces(stack, tables.sensitivity().support(), with_rows);
@@ -53,7 +53,7 @@ ColorNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_
         degree = 128;
         parts = std::size_t{4} << (level - 4);
     }
-    ColorNodes nodes;
+    QuadratureNodes nodes;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i)
         for (std::size_t p = 0; p < parts; ++p) {
             const double a = 1 / ends[i], b = 1 / ends[i + 1], n = static_cast<double>(parts);

@@ -10,7 +10,7 @@
 namespace irido {
 
 /// Quadrature X_k = sum over nodes of weight[k] R, linear in R: derivatives are the same sums.
-struct ColorNodes {
+struct QuadratureNodes {
     std::vector<double> wavelength_nm;
     std::array<std::vector<double>, 3> weight;
 };
@@ -20,7 +20,7 @@ inline constexpr std::size_t kColorLevels = 9;
 /// Nodes of product quadrature (see PanelRule) over the support of the weighted colour-matching
 /// functions, finer at every level in [0, kColorLevels). The first levels ignore kinks in tabulated
 /// materials of the stack.
-ColorNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_t level);
+QuadratureNodes color_nodes(const Stack& stack, const ColorTables& tables, std::size_t level);
 
 /// Colour tables for one observer and illuminant, shared by all models. Thread-safe.
 std::shared_ptr<const ColorTables> color_tables_of(int observer_deg, const Table& illuminant);

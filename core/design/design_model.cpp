@@ -147,7 +147,7 @@ private:
         levels_[level_] = std::make_unique<Level>();
         Level& level = *levels_[level_];
         for (const Lit& lit : lights_) {
-            ColorNodes nodes = color_nodes(stack_, *lit.tables, level_);
+            QuadratureNodes nodes = color_nodes(stack_, *lit.tables, level_);
             level.lights.push_back(
                 {std::move(nodes.weight),
                  std::make_unique<IndexGrid>(held_stack(stack_, lit.tables->sensitivity()),
