@@ -102,6 +102,31 @@ TEST_CASE("each room has its namespace", "[architecture]") {
 }
 
 // Each may include those listed before it, and itself. Only the main program includes all.
+// The linker keeps one copy of what two types of a name have in common, for both.
+TEST_CASE("types of one namespace have different names", "[architecture]") {
+    static const std::regex opens(R"re(^(?:inline )?namespace ?([\w:]*) \{$)re");
+    static const std::regex type(R"re(^(?:struct|class) (\w+)(?: final)?(?: :.*)? \{)re");
+    std::map<std::string, std::string> home;
+    for (const std::string& room : kRooms) {
+        for (const std::string& file : sources_below(room)) {
+            if (!file.ends_with(".hpp")) continue;
+            std::ifstream stream(fs::path(IRIDO_SOURCE_DIR) / file);
+            std::string space, before;
+            std::smatch match;
+            for (std::string line; std::getline(stream, line); before = line) {
+                if (std::regex_search(line, match, opens)) space += "::" + match[1].str();
+                // arguments are part of a template's name
+                if (before.starts_with("template") || !std::regex_search(line, match, type))
+                    continue;
+                const auto [other, is_new] = home.emplace(space + "::" + match[1].str(), file);
+                CAPTURE(match[1].str(), file, other->second);
+                CHECK(is_new);
+            }
+        }
+    }
+    CHECK(home.size() > 300);
+}
+
 TEST_CASE("includes run one way between the rooms inside a room", "[architecture]") {
     const std::map<std::string, std::vector<std::string>> order{
         {"core",
