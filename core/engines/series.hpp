@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/engines/engine_film.hpp"
+#include "core/math/square.hpp"
 
 /// Building blocks that several engines share, with the constants of their sources.
 namespace irido {
@@ -13,9 +14,6 @@ inline constexpr ColorMatrix kShaderRgb{{{3.2404542, -1.5371385, -0.4985314},
                                          {-0.9692660, 1.8760108, 0.0415560},
                                          {0.0556434, -0.2040259, 1.0572252}}};
 
-constexpr double square(double x) {
-    return x * x;
-}
 constexpr double fifth_power(double x) {
     return x * x * x * x * x;
 }

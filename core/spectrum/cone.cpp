@@ -9,6 +9,7 @@
 #include "core/math/constants.hpp"
 #include "core/math/degrees.hpp"
 #include "core/math/gauss.hpp"
+#include "core/math/square.hpp"
 
 namespace irido {
 
@@ -16,10 +17,6 @@ namespace {
 
 /// Wavelengths that are integrated together.
 constexpr std::size_t kTogether = 2048;
-
-double square(double x) {
-    return x * x;
-}
 
 }  // namespace
 

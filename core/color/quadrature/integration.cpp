@@ -10,6 +10,7 @@
 #include "core/color/quadrature/resampling.hpp"
 #include "core/complex.hpp"
 #include "core/error.hpp"
+#include "core/math/square.hpp"
 #include "core/math/transform.hpp"
 
 namespace irido {
@@ -61,10 +62,6 @@ const std::vector<double>& slope_rows(std::size_t degree) {
         return rows;
     }();
     return all[degree];
-}
-
-double square(double x) {
-    return x * x;
 }
 
 /// |a| < factor |b|, by squares where these decide it: roots take long.

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace irido {
+
+constexpr double square(double x) {
+    return x * x;
+}
+
+}  // namespace irido
