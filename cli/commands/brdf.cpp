@@ -142,7 +142,7 @@ void add_brdf_command(CLI::App& program, Run& run) {
     command
         ->add_option("--merge", options->query.merge,
                      "join the CSV files of all shards of one command, in any order, into what\n"
-                     "it writes without --shard; without a SURFACE the files alone say of what")
+                     "it writes without --shard; without a SURFACE the files record of what")
         ->type_name("FILE");
     command
         ->add_option("--transmission", options->query.transmission,

@@ -137,16 +137,6 @@ json design_member(const schemas::DesignTask& task, const SearchResult& result, 
     return design;
 }
 
-void check_outputs(const DesignCommand& command) {
-    check_writable(command.output);
-    check_plot(command.plot, command.output);
-    std::vector<std::string> files;
-    for (const std::string& file : {command.output.file, command.report, command.plot.value_or("")})
-        if (!file.empty()) files.push_back(file);
-    tables::check_outputs(files);
-    check_report(command.report);
-}
-
 /// Merges the results of shards: the best one, with the runs of all.
 int merge_designs(const DesignCommand& command) {
     if (!command.task.task.empty() || !command.task.refine.empty() || !command.shard.empty())
@@ -172,7 +162,7 @@ int merge_designs(const DesignCommand& command) {
         best = std::move(one);
         folder = std::filesystem::path(file).parent_path().string();
     }
-    check_writable(command.output);
+    check_result_files(command.output, "", {});
     json& design = best["design"];
     std::ranges::sort(runs);
     design["evaluations"] = evaluations;
@@ -190,7 +180,7 @@ int run_design(const DesignCommand& command) {
     if (!command.merge.empty()) return merge_designs(command);
     schemas::DesignTask task = read_task(command.task);
     note_task(task, command.task.strict, command.quiet);
-    check_outputs(command);
+    check_result_files(command.output, command.report, command.plot);
     const SearchEnd end(task.time_s);
     std::vector<double> start;
     for (const FreeValue& value : task.problem.free)

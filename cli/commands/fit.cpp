@@ -124,13 +124,7 @@ int run_fit(const FitCommand& command) {
     schemas::DesignTask task = read_task(command.task);
     task.problem.merit = MeritKind::chi2;
     note_task(task, command.task.strict, command.quiet);
-    check_writable(command.stack);
-    check_plot(command.plot, command.stack);
-    std::vector<std::string> files;
-    for (const std::string& file : {command.stack.file, command.report, command.plot.value_or("")})
-        if (!file.empty()) files.push_back(file);
-    tables::check_outputs(files);
-    check_report(command.report);
+    check_result_files(command.stack, command.report, command.plot);
     const SearchEnd end(task.time_s);
     const FitResult result = fitted(task, end, command);
     if (end.signal() != 0 && command.stack.file.empty()) return 128 + end.signal();

@@ -297,8 +297,8 @@ void add_lut_brdf(CLI::App& command, Run& run) {
         "Axes: " + std::string(surface_table_brdf.axes) + ".\n" +
             "Tables hold the BRDF per steradian, without a coating's mirror; phi_d from 0 to 90\n"
             "is all, by symmetry. Samples with a direction below the horizon continue those\n"
-            "above. The error, in CIEDE2000 of pi times the BRDF, where brighter than white\n"
-            "brought down to it, is that above the horizon.\n"
+            "above. The error, in CIEDE2000 of pi times the BRDF (values above white are\n"
+            "first scaled down to white), is that above the horizon.\n"
             ".binary: the MERL format, 90 x 90 x 180 cells in theta_h, theta_d, phi_d, linear "
             "sRGB,\n"
             "33 MB. .bsdf: the tensor file that Mitsuba's and pbrt's measured materials read,\n"

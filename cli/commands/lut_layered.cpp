@@ -201,7 +201,8 @@ constinit const SurfaceTableKind surface_table_layered{
     .name = "layered",
     .axes = "row, theta_deg",
     .summary =
-        "All that a shader needs of a rough layered surface: colours, and straight light at nodes.",
+        "Everything a shader needs for a rough layered surface: colours, and unscattered "
+        "transmission at a few wavelengths.",
     .add = add_lut_layered};
 
 }  // namespace irido::cli

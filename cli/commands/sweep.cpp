@@ -342,14 +342,16 @@ int run_sweep(const SweepCommand& command) {
     if (!command.output.file.empty() && !picture && !is_summary)
         orderly.emplace();  // before a part exists
     std::error_code ignored;
-    if (!command.resume && std::filesystem::exists(command.output.file + ".part", ignored))
-        note("discarding " + command.output.file +
-                 ".part of an earlier run (use --resume to continue it)",
-             command.quiet);
+    const bool is_discarding =
+        !command.resume && std::filesystem::exists(command.output.file + ".part", ignored);
     const std::unique_ptr<tables::RecordStream> stream =
         picture      ? open_picture(command, *picture, engine, space, *query, stacks.first(), notes)
         : is_summary ? open_summary(command, engine, space, *query)
                      : open_stream(command, format, engine, identity);
+    if (is_discarding)  // not while another process writes it
+        note("discarding " + command.output.file +
+                 ".part of an earlier run (use --resume to continue it)",
+             command.quiet);
     if (stream->is_complete()) return 0;
     if (stream->rows_done() > 0)
         note("resuming after " + std::to_string(stream->rows_done()) + " rows", command.quiet);

@@ -226,10 +226,9 @@ std::string resolved_format(const OutputOptions& output) {
     const std::size_t dot = output.file.find_last_of('.');
     if (is_nameless(output)) return "csv";
     if (dot == std::string::npos || (slash != std::string::npos && dot < slash))
-        throw UsageError(
-            "--output: must have an extension that names the format, or use --format "
-            "(got '" +
-            output.file + "')");
+        throw UsageError(output.option +
+                         ": must have an extension that names the format, or use --format (got '" +
+                         output.file + "')");
     const std::string extension = output.file.substr(dot + 1);
     return extension == "hdf5" ? "h5" : extension;
 }
@@ -240,7 +239,7 @@ const tables::RecordFormat& resolved_record_format(const OutputOptions& output,
     const std::vector<std::string_view> names = names_of_formats(target);
     const tables::RecordFormat* const format = tables::find_record_format(name);
     if (format && std::ranges::count(names, name) > 0) return *format;
-    throw UsageError((output.format.empty() ? "--output: the extension " : "--format: ") +
+    throw UsageError((output.format.empty() ? output.option + ": the extension " : "--format: ") +
                      not_one_of(names, name));
 }
 

@@ -54,8 +54,9 @@ void set_run(CLI::App& command, Run& run, const std::shared_ptr<Options>& option
 
 /// Destination of a command's output, as given on the command line.
 struct OutputOptions {
-    std::string file;    ///< "" for standard output, given as - or by default
-    std::string format;  ///< "" to use the file's extension
+    std::string file;                 ///< "" for standard output, given as - or by default
+    std::string format;               ///< "" to use the file's extension
+    std::string option = "--output";  ///< that names the file, for messages
 };
 
 /// --database

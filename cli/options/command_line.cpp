@@ -143,7 +143,11 @@ private:
         });
         if (compute && guess.empty() && !is_computing)
             fail("--compute: is required for " + typed + ": spectrum, color, bands or cm");
-        fail(command_.get_name() + " has no option " + typed + guess);
+        std::string name = command_.get_name();
+        for (const CLI::App* group = command_.get_parent(); group && group->get_parent();
+             group = group->get_parent())
+            name = group->get_name() + " " + name;
+        fail(name + " has no option " + typed + guess);
     }
 
     void count(const CLI::Option& option) {

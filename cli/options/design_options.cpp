@@ -11,6 +11,7 @@
 #include "schemas/readers/number.hpp"
 #include "schemas/readers/number_list.hpp"
 #include "schemas/readers/text_file.hpp"
+#include "tables/files/atomic_file.hpp"
 
 namespace irido::cli {
 
@@ -216,12 +217,23 @@ schemas::DesignTask read_task(const TaskOptions& options) {
         document, file, is_expression ? "" : std::filesystem::path(path).parent_path().string());
 }
 
-void check_report(const std::string& file) {
-    if (file.empty()) return;
-    if (std::filesystem::path(file).extension().empty())
+void check_result_files(const OutputOptions& stack, const std::string& report,
+                        const std::optional<std::string>& plot) {
+    const std::string extension = std::filesystem::path(stack.file).extension().string();
+    if (!is_nameless(stack) && !extension.empty() && extension != ".json")
+        throw UsageError("--output: a stack is written as .json (got " +
+                         schemas::in_quotes(stack.file) + ")");
+    check_writable(stack);
+    check_plot(plot, stack);
+    std::vector<std::string> files;
+    for (const std::string& file : {stack.file, report, plot.value_or("")})
+        if (!file.empty()) files.push_back(file);
+    tables::check_outputs(files);
+    if (report.empty()) return;
+    if (std::filesystem::path(report).extension().empty())
         throw UsageError("--report: must have an extension that names the format (got " +
-                         schemas::in_quotes(file) + ")");
-    resolved_record_format({file, ""});
+                         schemas::in_quotes(report) + ")");
+    resolved_record_format({report, "", "--report"});
 }
 
 void note_task(const schemas::DesignTask& task, bool strict, bool quiet) {

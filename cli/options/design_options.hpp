@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,10 @@ nlohmann::json parse_target(const std::string& text);
 /// Reads the task, with the options applied. Throws UsageError or InputError.
 schemas::DesignTask read_task(const TaskOptions& options);
 
-/// Checks the name of the file for a report, if there is one. Throws UsageError.
-void check_report(const std::string& file);
+/// Checks the files of a result: the stack, and a report and a plot if there are any ("" and none).
+/// Throws UsageError.
+void check_result_files(const OutputOptions& stack, const std::string& report,
+                        const std::optional<std::string>& plot);
 
 /// Notes of the task, and materials that colours hold beyond their range; with `strict` these are
 /// refused.

@@ -374,7 +374,8 @@ private:
                  "the series cannot represent it: the shader gives white (the shading color is "
                  "exact)",
                  Kind::loss);
-        omit(material, "orders from " + std::to_string(orders + 1), "are below the tolerance");
+        omit(material, "orders " + std::to_string(orders + 1) + " and above",
+             "are below the tolerance");
         LutRequest request = request_of(material);
         request.vary.clear();
         request.options["opd"] = equally_spaced(0, longest_nm, kRangeSize);

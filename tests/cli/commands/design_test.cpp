@@ -217,3 +217,18 @@ TEST_CASE("shards are other runs, and the best of them is kept", "[cli][design]"
                              "--target", "R 500 = 0", "--report", "-"}),
                   "--report: must have an extension");
 }
+
+TEST_CASE("a file name's extension says what a design or a fit can write there",
+          "[cli][design][refused]") {
+    const TemporaryFolder folder;
+    write_text(folder / "mine.csv", "kept");
+    for (const Words& command : {Words{"design", kCoating, "--free", "layers.0.thickness_nm=1:900",
+                                       "--target", "R 500 = 0"},
+                                 Words{"fit", "schemas/examples/designs/oxide-fit.json"}}) {
+        check_refused(run_irido(command + Words{"-o", folder / "mine.csv"}),
+                      "--output: a stack is written as .json (got '" + folder / "mine.csv'");
+        check_refused(run_irido(command + Words{"--report", folder / "report.txt"}),
+                      "--report: the extension must be one of csv, json");
+    }
+    CHECK(read_file(folder / "mine.csv") == "kept");
+}

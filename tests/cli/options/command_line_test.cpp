@@ -31,6 +31,7 @@ TEST_CASE("the first wrong word of a command line is named", "[cli][refused]") {
         {{"spectrum", kFilm, "--", "--foo"}, "unexpected argument '--foo'"},
         {{"bake", "x.json"}, "--output is required (see irido bake --help)"},
         {{"validate", "--schema", "stack", "a.json"}, "--schema and FILE cannot be used together"},
+        {{"lut", "color", kFilm, "-a"}, "lut color has no option -a (see irido lut color --help)"},
         {{"lut", "color"}, "STACK is required (see irido lut color --help)"},
         {{"lut"}, "a command is required after irido lut (see irido lut --help)"},
         {{}, "a command is required after irido (see irido --help)"},

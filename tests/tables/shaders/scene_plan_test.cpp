@@ -196,7 +196,7 @@ TEST_CASE("plan: orders below the tolerance are left out, fewer for a smaller on
     const auto orders = [&](double relative) {
         const Planned result = planned(film, {{"tolerance", {{"relative", relative}}}});
         const int count = result.plan.materials[0].constants["orders"].get<int>();
-        CHECK(result.reason("orders from " + std::to_string(count + 1)) ==
+        CHECK(result.reason("orders " + std::to_string(count + 1) + " and above") ==
               "are below the tolerance");
         return count;
     };
