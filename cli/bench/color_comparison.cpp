@@ -39,6 +39,7 @@ ColorRequest ColorComparison::request(double tolerance) const {
     ColorRequest result;
     result.tolerance = tolerance;
     result.colors = std::size_t{1} << 30;
+    if (is_set_) result.structures = result.colors;
     result.simd = simd_;
     return result;
 }

@@ -11,7 +11,8 @@ namespace irido::cli {
 namespace {
 
 constexpr double kIndexWavelength_nm = 550;
-constexpr double kNodesShare = 0.1;  ///< of the tolerance
+constexpr std::size_t kAnglesOfCone = 48;  ///< about
+constexpr double kNodesShare = 0.1;        ///< of the tolerance
 
 double cone_tolerance(const ColorRequest& request) {
     return std::min(kColorConeError, request.tolerance / 2);
@@ -26,6 +27,7 @@ Complex index_near(Material material) {
 
 std::vector<ColorRequest> cone_requests(const ColorRequest& request) {
     ColorRequest one = request;
+    one.colors *= kAnglesOfCone;
     one.tolerance = std::max(kSmallestTolerance, kNodesShare * cone_tolerance(request));
     if (request.light == Light::unpolarized) return {one};
     ColorRequest other = one;

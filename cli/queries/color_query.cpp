@@ -12,7 +12,7 @@
 #include "cli/queries/color_cone.hpp"
 #include "core/coherent/coherent.hpp"
 #include "core/color/held_stack.hpp"
-#include "core/color/quadrature/quadrature_color.hpp"
+#include "core/color/quadrature/optical_path.hpp"
 #include "core/colorimetry/difference.hpp"
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"

@@ -30,6 +30,7 @@ struct ColorRequest {
     double tolerance = kDefaultTolerance;
     std::size_t evaluations = 1U << 20;  ///< limit per colour; past it the best value is returned
     std::size_t colors = 1;  ///< approximate number of colours to come: decides what to precompute
+    std::size_t structures = 1;  ///< stacks of other materials or structure that share these
     /// Layers of the stack whose thickness will vary, if no others do: the rest of the stack is
     /// then computed once for all colours, which changes them within rounding.
     std::vector<LayerPlace> varied{};

@@ -51,9 +51,15 @@ const CosineNodes& ColorTables::nodes(std::size_t least) const {
     return nodes_.at(k).get(making_, [&] { return std::make_unique<CosineNodes>(count); });
 }
 
+std::size_t ColorTables::RuleHash::operator()(const RuleKey& key) const {
+    constexpr std::size_t kMix = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
+    const std::hash<double> hash;
+    return ((hash(key.first_nm) * kMix) ^ hash(key.last_nm)) * kMix ^ key.degree;
+}
+
 std::shared_ptr<const QuadratureRule> ColorTables::rule(WavelengthRange panel,
                                                         std::size_t degree) const {
-    const std::tuple key{panel.first_nm, panel.last_nm, degree};
+    const RuleKey key{panel.first_nm, panel.last_nm, degree};
     {
         const std::scoped_lock guard(lock_);
         if (const auto found = rules_.find(key); found != rules_.end()) return found->second;

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "core/color/bloch/bloch_sums.hpp"
@@ -63,8 +63,15 @@ private:
     mutable std::array<Lazy<SmoothSensitivity>, kSmoothLevels> smooth_;
     mutable std::array<Lazy<CosineNodes>, 64> nodes_;
     mutable std::mutex making_, lock_;
-    mutable std::map<std::tuple<double, double, std::size_t>, std::shared_ptr<const QuadratureRule>>
-        rules_;
+    struct RuleKey {
+        double first_nm, last_nm;
+        std::size_t degree;
+        bool operator==(const RuleKey&) const = default;
+    };
+    struct RuleHash {
+        std::size_t operator()(const RuleKey& key) const;
+    };
+    mutable std::unordered_map<RuleKey, std::shared_ptr<const QuadratureRule>, RuleHash> rules_;
     mutable std::size_t numbers_ = 0;  ///< in the rules
     mutable std::map<std::size_t, std::shared_ptr<const SampleRule>> equal_;
 };

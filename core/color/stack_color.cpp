@@ -48,8 +48,10 @@ std::vector<StackColor> stack_color(const ColorAlgorithm& algorithm, const Stack
 std::vector<StackColor> stack_color(const ColorTables& tables, const Stack& stack,
                                     const ColorMethod& method, const ColorRequest& request,
                                     std::span<const double> angles_deg, unsigned threads) {
-    return stack_color(*color_algorithm(tables, stack, method, request), stack,
-                       request.sides.size(), angles_deg, threads);
+    ColorRequest all = request;
+    all.colors = std::max(request.colors, angles_deg.size());
+    return stack_color(*color_algorithm(tables, stack, method, all), stack, request.sides.size(),
+                       angles_deg, threads);
 }
 
 bool measure_errors(const ColorTables& tables, const Stack& stack, const ColorRequest& request,

@@ -11,6 +11,7 @@
 #include "core/material/formula.hpp"
 #include "core/material/linear_value.hpp"
 #include "core/math/constants.hpp"
+#include "core/math/square.hpp"
 
 namespace irido {
 
@@ -195,8 +196,9 @@ Complex known_index(const Material& material, double wavelength_nm, bool holds) 
         std::visit([&](const auto& model) { return value_at(model, query); }, material.model);
     query.require("n", index.real(), 0, kLargestIndex);
     query.require("k", index.imag(), -kLargestIndex, kLargestIndex);
-    query.require("|n + ik|", std::abs(index), kSmallestModulus,
-                  std::numbers::sqrt2 * kLargestIndex);
+    if (!(std::norm(index) > 2 * square(kSmallestModulus)))  // a square is quicker than the root
+        query.require("|n + ik|", std::abs(index), kSmallestModulus,
+                      std::numbers::sqrt2 * kLargestIndex);
     return index;
 }
 

@@ -100,8 +100,9 @@ extern constinit const ColorMethodKind color_method_auto = {
     .use = MethodUse::exact,
     .help =
         "auto: the fastest exact method for the number of colours requested (--stats shows "
-        "which): a row of a large sweep of one film may differ from that of a small one, "
-        "within the tolerance; a method given by name computes the same row in every sweep "
+        "which): a row of a large sweep of one film, or of tabulated materials, may differ from "
+        "that of a small one, within the tolerance; a method given by name computes the same row "
+        "in every sweep "
         "[auto]",
     .trials = {.last_power = 10},
     .prepare = automatic_color,

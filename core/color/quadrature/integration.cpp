@@ -74,36 +74,43 @@ bool is_smaller(Complex a, Complex b, double factor) {
 }
 
 /// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
-/// step from there, -D/D', is shorter than the way to the next point. D is interpolated after an
-/// exponential trend, which has no zeros, is taken out of it.
+/// step from there, -D/D', is shorter than the way to the next point.
+///   parts, slopes  of D and of D', real and imaginary
+void mark_hidden_zeros(const QuadratureRule& rule, std::array<const double*, 2> parts,
+                       std::array<const double*, 2> slopes, std::vector<bool>& marked) {
+    const std::vector<double>& x = rule.x;
+    for (std::size_t j = 0; j < rule.points; ++j) {
+        const double before = j > 0 ? x[j - 1] - x[j] : 0;
+        const double spacing = std::max(before, j + 1 < rule.points ? x[j] - x[j + 1] : 0);
+        marked[j] = marked[j] || is_smaller({parts[0][j], parts[1][j]},
+                                            {slopes[0][j], slopes[1][j]}, kFarFromZero * spacing);
+    }
+}
+
+/// The same after an exponential trend, which has no zeros, is taken out of D.
 ///   slope_rows  of the points
 void mark_hidden_zeros(const QuadratureRule& rule, std::span<const double> slope_rows,
                        const Denominator& d, SimdLevel simd, IntegrationMemory::Zeros& memory,
                        std::vector<bool>& marked) {
-    const std::vector<double>& x = rule.x;
-    const std::size_t degree = x.size() - 1;
     const double first = d.log_scale.front(), last = d.log_scale.back();
+    const bool has_scale = std::ranges::any_of(d.log_scale, [](double l) { return l != 0; });
     auto& [parts, slopes] = memory;
     for (std::size_t part = 0; part < 2; ++part) {
         parts[part].assign(rule.stride, 0);
         slopes[part].resize(rule.points);
     }
-    for (std::size_t j = 0; j <= degree; ++j) {
-        const double trend = (first + last) / 2 + (first - last) / 2 * x[j];
-        const double scale = std::exp(std::clamp(d.log_scale[j] - trend, -300.0, 300.0));
+    for (std::size_t j = 0; j < rule.points; ++j) {
+        const double trend = (first + last) / 2 + (first - last) / 2 * rule.x[j];
+        const double scale =
+            has_scale ? std::exp(std::clamp(d.log_scale[j] - trend, -300.0, 300.0)) : 1;
         parts[0][j] = d.re[j] * scale;
         parts[1][j] = d.im[j] * scale;
     }
     for (std::size_t part = 0; part < 2; ++part)
         row_sums(slope_rows.data(), rule.points, rule.stride, parts[part].data(), parts[part][0],
                  slopes[part].data(), simd);
-    for (std::size_t j = 0; j <= degree; ++j) {
-        const double before = j > 0 ? x[j - 1] - x[j] : 0, after = j < degree ? x[j] - x[j + 1] : 0;
-        const double spacing = std::max(before, after);
-        if (is_smaller({parts[0][j], parts[1][j]}, {slopes[0][j], slopes[1][j]},
-                       kFarFromZero * spacing))
-            marked[j] = true;
-    }
+    mark_hidden_zeros(rule, {parts[0].data(), parts[1].data()},
+                      {slopes[0].data(), slopes[1].data()}, marked);
 }
 
 /// How much of a point's weight a line can hide next to it that is not seen on the points. A pole
@@ -509,6 +516,8 @@ private:
         const QuadratureRule& rule = job.rule();
         std::vector<bool>& marked = memory_.marked;
         marked.assign(rule.points, false);
+        if (job.known && job.known_degree < job.degree)
+            return mark_known_points(job, samples, first);
         for (std::size_t d = 0; d < denominators_; ++d) {
             const auto row = [&](std::size_t r) {
                 return std::span(samples.row(integrals_.size() + 3 * d + r) + first, rule.points);
@@ -516,6 +525,30 @@ private:
             mark_hidden_zeros(rule, slope_rows(job.degree), {row(0), row(1), row(2)}, limits_.simd,
                               memory_.zeros, marked);
         }
+    }
+
+    /// The same by slopes of denominators on the points at which they are known.
+    void mark_known_points(const Job& job, const Samples& samples, std::size_t first) const {
+        const std::size_t inputs = kDegrees[job.known_degree] + 1;
+        std::array<const double*, 4> from{};
+        std::array<double*, 4> to{};
+        for (std::size_t i = 0; i < 2 * denominators_; ++i) {
+            std::vector<double>& slope = memory_.known_slopes[i];
+            slope.resize(inputs);
+            const double* const values = job.known->row(i / 2 * 3 + i % 2);
+            row_sums(slope_rows(job.known_degree).data(), inputs, whole_vectors(inputs), values,
+                     *values, slope.data(), limits_.simd);
+            memory_.slopes[i].resize(job.rule().stride);
+            from[i] = slope.data();
+            to[i] = memory_.slopes[i].data();
+        }
+        const Resampling& by = resampling(job.known_degree, job.degree);
+        resampled_denominators(by.columns.data(), by.inputs, by.stride, denominators_, from.data(),
+                               to.data(), limits_.transmission->flux.data(), {}, limits_.simd);
+        const auto row = [&](std::size_t r) { return samples.row(integrals_.size() + r) + first; };
+        for (std::size_t d = 0; d < denominators_; ++d)
+            mark_hidden_zeros(job.rule(), {row(3 * d), row(3 * d + 1)}, {to[2 * d], to[2 * d + 1]},
+                              memory_.marked);
     }
 
     /// Weight that lines next to marked points can hide in one spectrum.

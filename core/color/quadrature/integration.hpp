@@ -61,6 +61,8 @@ struct IntegrationMemory {
         std::array<std::vector<double>, 2> parts, slopes;  ///< real and imaginary
     };
     Zeros zeros;
+    /// Slopes of the parts of both denominators, where these are known and at other points.
+    std::array<std::vector<double>, 4> known_slopes, slopes;
     std::vector<bool> marked;
     std::vector<Job> now, next;
     std::vector<const SpectralPoints*> parts;

@@ -64,6 +64,43 @@ void add_path(std::span<const Element> elements, std::span<const Complex> normal
     }
 }
 
+namespace {
+
+bool has_groups(std::span<const Element> elements) {
+    return std::ranges::any_of(
+        elements, [](const Element& e) { return std::holds_alternative<Group>(e.value); });
+}
+
+}  // namespace
+
+PathLengths longest_paths(std::span<const Element> elements, const IndexTable& table,
+                          IncidentAngle incidence, double opaque, std::vector<Complex>& normal) {
+    const bool groups = has_groups(elements);
+    normal.resize(table.materials());
+    bool varies = false;
+    for (std::size_t m = 0; m < normal.size(); ++m) varies = varies || !table.is_constant(m);
+    PathLengths longest;
+    for (std::size_t w = 0; w < table.wavelength_nm().size(); ++w) {
+        if (w == 0 || varies)
+            for (std::size_t m = 0; m < normal.size(); ++m)
+                normal[m] = longest_normal(table, m, w, incidence);
+        const auto path_of = [&](Gaps gaps) {
+            Path path;
+            add_path(elements, normal, table.k0()[w], opaque, gaps, path);
+            return path;
+        };
+        const Path bands = path_of(Gaps::have_bands);
+        longest.with_bands_nm = std::max(longest.with_bands_nm, bands.length_nm);
+        // exponents alone make later wavelengths differ where media are constant
+        if (w == 0 || varies)
+            longest.attenuated_nm =
+                std::max(longest.attenuated_nm,
+                         groups ? path_of(Gaps::attenuate).length_nm : bands.length_nm);
+        if (!varies && bands.exponent() == 0) break;
+    }
+    return longest;
+}
+
 double work_of(std::span<const Element> elements) {
     double work = 1;
     for (const Element& element : elements) {
@@ -74,13 +111,22 @@ double work_of(std::span<const Element> elements) {
     return work;
 }
 
+namespace {
+
+/// kz/k0 from its square; real ones are quicker.
+Complex normal_of(const Medium& medium) {
+    const Complex q2 = medium.q2;
+    if (q2.imag() != 0) return std::sqrt(q2);
+    return q2.real() < 0 ? Complex(0, std::sqrt(-q2.real())) : Complex(std::sqrt(q2.real()));
+}
+
+}  // namespace
+
 Complex longest_normal(const IndexTable& table, std::size_t material, std::size_t wavelength,
                        IncidentAngle incidence) {
-    const Complex s =
-        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::s).q2);
+    const Complex s = normal_of(medium_of(table, material, wavelength, incidence, Polarization::s));
     if (table.extraordinary(material) == material) return s;
-    const Complex p =
-        std::sqrt(medium_of(table, material, wavelength, incidence, Polarization::p).q2);
+    const Complex p = normal_of(medium_of(table, material, wavelength, incidence, Polarization::p));
     return std::abs(p.real()) > std::abs(s.real()) ? p : s;
 }
 
@@ -92,6 +138,20 @@ void add_lengths(const Element& element, double repeat, std::vector<double>& len
     const Group& group = std::get<Group>(element.value);
     for (const Element& inner : group.elements)
         add_lengths(inner, repeat * static_cast<double>(group.repeat), length_nm);
+}
+
+double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
+                       IncidentAngle incidence) {
+    constexpr double kPointsOfPiece = 20;  // as --stats says
+    constexpr double kUsualTolerance = 1e-6;
+    std::vector<Complex> normal(indices.materials());
+    for (std::size_t m = 0; m < normal.size(); ++m)
+        normal[m] = longest_normal(indices, m, 0, incidence);
+    Path path;
+    add_path(stack.elements, normal, indices.k0()[0], opaque_exponent(kUsualTolerance),
+             Gaps::attenuate, path);
+    return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *
+           work_of(stack.elements);
 }
 
 }  // namespace irido

@@ -11,6 +11,9 @@
 
 namespace irido {
 
+/// Points that fringes need for each nm of their path.
+constexpr double kPointsPerPath = 0.032;
+
 /// Optical paths are rounded up to 125 nm times 2^(k/2), k < kPathClasses.
 constexpr std::size_t kPathClasses = 128;
 
@@ -49,6 +52,16 @@ enum class Gaps { attenuate, have_bands };
 void add_path(std::span<const Element> elements, std::span<const Complex> normal, double k0,
               double opaque, Gaps gaps, Path& path);
 
+/// Longest paths at any wavelength of a table, nm: with gaps that attenuate, and that have bands.
+struct PathLengths {
+    double attenuated_nm = 0, with_bands_nm = 0;
+};
+/// Of elements, as add_path() finds them.
+///   table   indices of the stack's materials; the first wavelength is the shortest
+///   normal  memory
+PathLengths longest_paths(std::span<const Element> elements, const IndexTable& table,
+                          IncidentAngle incidence, double opaque, std::vector<Complex>& normal);
+
 /// Adds the thickness, nm, that an element has of each material, `repeat` times.
 void add_lengths(const Element& element, double repeat, std::vector<double>& length_nm);
 
@@ -61,6 +74,15 @@ double work_of(std::span<const Element> elements);
 ///   wavelength  position in the table
 ///   incidence   direction of the light in the incident medium
 Complex longest_normal(const IndexTable& table, std::size_t material, std::size_t wavelength,
+                       IncidentAngle incidence);
+
+/// Estimated work of quadrature_color() for one colour, points times layers. Depends on its
+/// arguments only: no table is needed, and the result is the same on every machine.
+///   stack      to be coloured
+///   indices    of its materials, at one wavelength
+///   pieces     smooth_pieces() of the stack, less one
+///   incidence  direction of the light
+double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
                        IncidentAngle incidence);
 
 }  // namespace irido

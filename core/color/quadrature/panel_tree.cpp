@@ -104,7 +104,7 @@ PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, doub
     const double largest = std::max(follows ? kFollowedHalfTurn : kLargestHalfTurn,
                                     2 * half_turns / static_cast<double>(most_panels));
     Start start;
-    std::vector<SpectralPoints> parts;
+    std::vector<Part> parts;
     for (const SpectralPanel& panel : panels) {
         Node* root = nullptr;
         {
@@ -114,19 +114,26 @@ PanelTree::Start PanelTree::start(const std::vector<SpectralPanel>& panels, doub
         }
         begin_with(*root, panel.half_turn, {largest, tolerance, follows}, start, parts);
     }
-    std::vector<const IndexTable*> indices;
-    for (const SpectralPoints& part : parts) {
-        start.points.wavelength_nm.insert(start.points.wavelength_nm.end(),
-                                          part.wavelength_nm.begin(), part.wavelength_nm.end());
-        indices.push_back(part.indices.get());
-    }
-    if (indices.front()) {
-        auto all = std::make_unique<IndexTable>(*indices.front());
-        all->assign(indices);
-        start.points.indices = std::move(all);
-    }
+    start.points = joined(std::move(parts));
     start.points.id = points_made_++;
     return start;
+}
+
+SpectralPoints PanelTree::joined(std::vector<Part> parts) const {
+    std::vector<SpectralPoints> made;
+    for (Part& part : parts) made.push_back(make_points_(std::move(part.wavelength_nm), part.fit));
+    if (made.size() == 1) return std::move(made.front());
+    SpectralPoints all = std::move(made.front());
+    std::vector<const IndexTable*> indices{all.indices.get()};
+    for (const SpectralPoints& some : std::span(made).subspan(1)) {
+        all.wavelength_nm.insert(all.wavelength_nm.end(), some.wavelength_nm.begin(),
+                                 some.wavelength_nm.end());
+        indices.push_back(some.indices.get());
+    }
+    auto table = std::make_unique<IndexTable>(*indices.front());
+    table->assign(indices);
+    all.indices = std::move(table);
+    return all;
 }
 
 SpectralPoints PanelTree::make_points(std::vector<double> wavelength_nm,
@@ -166,7 +173,7 @@ bool PanelTree::is_smooth(Node& node, double half_turn, std::size_t degree, doub
 }
 
 void PanelTree::begin_with(Node& node, double half_turn, const Begin& begin, Start& start,
-                           std::vector<SpectralPoints>& parts) {
+                           std::vector<Part>& parts) {
     const std::size_t degree = node.seeing(first_degree(half_turn, begin.tolerance));
     if (half_turn > begin.largest_half_turn ||
         !is_smooth(node, half_turn, degree, begin.tolerance)) {
@@ -183,9 +190,11 @@ void PanelTree::begin_with(Node& node, double half_turn, const Begin& begin, Sta
         first = before.first + kDegrees[before.sampled];
     }
     start.panels.push_back({&node, degree, half_turn, first, sampled});
+    const IndexFit* fit = node.fit();
+    if (fit || parts.empty() || parts.back().fit) parts.push_back({fit, {}});
     const std::vector<double>& points = node.rule(sampled).wavelength_nm;
-    parts.push_back(
-        make_points_({points.begin() + (parts.empty() ? 0 : 1), points.end()}, node.fit()));
+    std::vector<double>& all = parts.back().wavelength_nm;
+    all.insert(all.end(), points.begin() + (start.panels.size() == 1 ? 0 : 1), points.end());
 }
 
 }  // namespace irido

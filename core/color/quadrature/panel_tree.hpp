@@ -105,8 +105,14 @@ private:
         double largest_half_turn, tolerance;
         bool follows;
     };
+    /// Points of neighbouring panels with the same fit.
+    struct Part {
+        const IndexFit* fit;
+        std::vector<double> wavelength_nm;
+    };
     void begin_with(Node& node, double half_turn, const Begin& begin, Start& start,
-                    std::vector<SpectralPoints>& parts);
+                    std::vector<Part>& parts);
+    SpectralPoints joined(std::vector<Part> parts) const;
     bool is_smooth(Node& node, double half_turn, std::size_t degree, double tolerance);
 
     const ColorTables& tables_;

@@ -32,6 +32,10 @@ namespace {
 constexpr double kMostVectorWork = 1e10, kMostPlainWork = 2e7, kMostMeanWork = 1e8,
                  kFewestPoints = 4096;
 
+/// Colours of a structure times its rows from which on the tables are fitted: that takes 2 ms, a
+/// row that ends a panel 0.4 us of each colour.
+constexpr double kFitsRepaid = 6000;
+
 /// Points at which the waves that means leave out may be looked at.
 constexpr std::size_t kFewestWavePoints = 1U << 15;
 
@@ -41,7 +45,7 @@ constexpr std::size_t kPanelPoints = 129;
 /// Fringes of longer paths than kFine_nm, and those that the evaluations do not resolve at
 /// kPointsPerPath a nm, may be left out. A period's mean is as rich as fringes of a path of
 /// kPeriodsOfMean periods.
-constexpr double kFine_nm = 4e6, kPointsPerPath = 0.032, kPeriodsOfMean = 4;
+constexpr double kFine_nm = 4e6, kPeriodsOfMean = 4;
 
 /// Fringes of longer paths are cheaper left out, and added as waves, than followed one by one, if
 /// the rest of the stack has less than kRest of the path.
@@ -81,7 +85,9 @@ public:
           sensitivity_(tables.sensitivity()),
           request_(request),
           held_(held_stack(stack, sensitivity_)),
-          keeps_rows_(has_incoherent_layers(held_.elements)),
+          smooth_(held_, sensitivity_),
+          has_gaps_(has_incoherent_layers(held_.elements)),
+          keeps_rows_(has_gaps_ || !are_fits_repaid()),
           pieces_(smooth_pieces(held_, sensitivity_.support(), keeps_rows_)),
           constant_(std::ranges::all_of(held_.materials,
                                         [](const Material& m) { return is_constant(m); })),
@@ -89,7 +95,6 @@ public:
           needs_(needs_of(request)),
           varied_(varied_elements(held_, request.varied)),
           fixed_layers_(request.kept_numbers),
-          smooth_(held_, sensitivity_),
           tree_(
               tables,
               [this](std::vector<double> wavelength_nm, const IndexFit* fit) {
@@ -101,24 +106,18 @@ public:
                   return points;
               },
               keeps_rows_ ? nullptr : &smooth_) {
-        const IndexTable survey(held_, smooth_pieces(held_, sensitivity_.support()));
-        absorbs_ = survey.absorbs();
-        amplifies_ = survey.amplifies();
-        for (std::size_t m = 0; m < held_.materials.size(); ++m) {
-            if (is_surveyed(held_.materials[m])) continue;
-            absorbs_[m] = true;
-            amplifies_[m] = true;
-        }
+        survey();
         needs_.denominators = true;
-        is_lossless_ = constant_ && !keeps_rows_ &&
-                       std::ranges::none_of(absorbs_, std::identity()) &&
+        is_lossless_ = constant_ && !has_gaps_ && std::ranges::none_of(absorbs_, std::identity()) &&
                        std::ranges::none_of(amplifies_, std::identity());
     }
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
-        const Pool<Scratch>::Loan scratch = scratch_.borrow();
-        const SpectrumKernel& kernel = kernel_of(stack, *scratch);
+        const Pool<Scratch>::Loan scratch = scratch_of_all().borrow();
+        const Pool<Prepared>::Loan prepared = prepared_.borrow();
+        scratch->prepared = &*prepared;
+        const SpectrumKernel& kernel = kernel_of(stack, *prepared);
         const std::size_t sides = request_.sides.size();
         const double most = kernel.is_vectorized() ? kMostVectorWork : kMostPlainWork;
         const auto affordable =
@@ -131,9 +130,15 @@ public:
     }
 
 private:
-    struct Scratch {
+    /// Of such stacks.
+    struct Prepared {
         std::optional<StackPower> power;
         std::optional<SpectrumKernel> kernel;
+        std::optional<IndexTable> indices;  ///< of several parts
+    };
+    /// Memory for colours of any stacks.
+    struct Scratch {
+        Prepared* prepared = nullptr;
         FixedLayers fixed;
         std::vector<const FixedLayers*> fixed_parts;
         Spectra spectra;
@@ -141,7 +146,6 @@ private:
         std::vector<Complex> normal;
         std::vector<const IndexTable*> parts;
         std::vector<const std::vector<double>*> wavelengths;
-        std::optional<IndexTable> indices;  ///< of several parts
         IntegrationMemory integration;
         std::vector<ColorIntegral> integrals;
         std::vector<Medium> media;
@@ -150,18 +154,43 @@ private:
         std::vector<LeftOutFringes::Kink> kinks;
     };
 
-    const SpectrumKernel& kernel_of(const Stack& stack, Scratch& scratch) const {
-        if (!scratch.kernel) {
-            scratch.power.emplace(held_);
-            scratch.kernel.emplace(*scratch.power, absorbs_, amplifies_, needs_, request_.simd,
-                                   varied_);
+    /// Which materials absorb and amplify.
+    void survey() {
+        const IndexTable at_ends(
+            held_, has_fits() ? smooth_pieces(held_, sensitivity_.support()) : pieces_);
+        absorbs_ = at_ends.absorbs();
+        amplifies_ = at_ends.amplifies();
+        for (std::size_t m = 0; m < held_.materials.size(); ++m) {
+            if (is_surveyed(held_.materials[m])) continue;
+            absorbs_[m] = true;
+            amplifies_[m] = true;
         }
-        if (scratch.kernel->shares_layers() && !differs_in_varied_only(stack))
-            throw DomainError("only varied layers may differ from stack to stack");
-        scratch.power->assign(stack);
-        scratch.kernel->update();
-        return *scratch.kernel;
     }
+
+    bool are_fits_repaid() const {
+        return static_cast<double>(request_.colors) * static_cast<double>(smooth_.rows()) >=
+               kFitsRepaid * static_cast<double>(request_.structures);
+    }
+
+    static Pool<Scratch>& scratch_of_all() {
+        static Pool<Scratch> pool;
+        return pool;
+    }
+
+    const SpectrumKernel& kernel_of(const Stack& stack, Prepared& prepared) const {
+        auto& [power, kernel, indices] = prepared;
+        if (!kernel) {
+            power.emplace(held_);
+            kernel.emplace(*power, absorbs_, amplifies_, needs_, request_.simd, varied_);
+        }
+        if (kernel->shares_layers() && !differs_in_varied_only(stack))
+            throw DomainError("only varied layers may differ from stack to stack");
+        power->assign(stack);
+        kernel->update();
+        return *kernel;
+    }
+
+    bool has_fits() const { return !constant_ && !keeps_rows_; }
 
     bool differs_in_varied_only(const Stack& stack) const {
         if (stack.elements.size() != held_.elements.size()) return false;
@@ -176,35 +205,16 @@ private:
         return true;
     }
 
-    double optical_path_nm(std::span<const Element> elements, IncidentAngle incidence, Gaps gaps,
-                           std::vector<Complex>& normal) const {
-        double longest = 0;
-        normal.resize(on_path_.materials());
-        // exponents alone make the last wavelength differ where media are constant
-        const std::size_t count =
-            constant_ && gaps == Gaps::attenuate ? 1 : on_path_.wavelength_nm().size();
-        for (std::size_t w = 0; w < count; ++w) {
-            for (std::size_t m = 0; m < normal.size(); ++m)
-                normal[m] = longest_normal(on_path_, m, w, incidence);
-            Path path;
-            add_path(elements, normal, on_path_.k0()[w], opaque_exponent(request_.tolerance), gaps,
-                     path);
-            longest = std::max(longest, path.length_nm);
-        }
-        return longest;
-    }
-
     void integrate(const SpectrumKernel& kernel, const Stack& stack, IncidentAngle incidence,
                    const IntegrationLimits& limits, std::span<StackColor> colors,
                    Scratch& scratch) const {
         if (incidence.cos == 0 && reflects_all(kernel, scratch)) return fill_with_white(colors);
-        const auto path_of = [&](Gaps gaps) {
-            return optical_path_nm(stack.elements, incidence, gaps, scratch.normal);
-        };
         const bool follows = is_lossless_ && kernel.is_vectorized() &&
                              work_of(stack.elements) >= kFollowedWork &&
                              limits.tolerance >= kFollowedTolerance;
-        const double path_nm = path_of(Gaps::attenuate), longest_nm = path_of(Gaps::have_bands);
+        const double opaque = opaque_exponent(limits.tolerance);
+        const auto [path_nm, longest_nm] =
+            longest_paths(stack.elements, on_path_, incidence, opaque, scratch.normal);
         const bool has_mean = longest_nm > kWaves_nm || is_fine(longest_nm, limits);
         for (StackColor& color : colors) color.error = std::numeric_limits<double>::infinity();
         if (has_mean && try_mean(stack, incidence, longest_nm, limits, colors, scratch)) return;
@@ -218,7 +228,7 @@ private:
         through.sides = request_.sides;
         if (follows) known.transmission = &through;
         bool is_first = follows;
-        if (!constant_) known.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
+        if (has_fits()) known.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
         const bool with_p = needs_.p && !(with_s && incidence.cos == 1);
@@ -271,8 +281,10 @@ private:
     FastElements fast_elements(const Stack& stack, IncidentAngle incidence, double path_nm,
                                const IntegrationLimits& limits, Scratch& scratch,
                                std::size_t most = 2) const {
+        const double opaque = opaque_exponent(limits.tolerance);
         const auto path_of = [&](std::span<const Element> elements) {
-            return optical_path_nm(elements, incidence, Gaps::have_bands, scratch.normal);
+            return longest_paths(elements, on_path_, incidence, opaque, scratch.normal)
+                .with_bands_nm;
         };
         std::vector<double> paths_nm;
         for (const Element& element : stack.elements) paths_nm.push_back(path_of({&element, 1}));
@@ -292,7 +304,7 @@ private:
 
     /// Whether the stack has a fringe_form().
     bool has_forms(IncidentAngle incidence, const Scratch& scratch) const {
-        return !keeps_rows_ && incidence.cos > 0 && scratch.power->has_amplitudes() &&
+        return !has_gaps_ && incidence.cos > 0 && scratch.prepared->power->has_amplitudes() &&
                std::ranges::find(amplifies_, true) == amplifies_.end();
     }
 
@@ -363,7 +375,7 @@ private:
                                         : kOfMeans * limits.tolerance;
         IntegrationLimits of_means{std::max(kSmallestTolerance, of_all),
                                    std::min(request_.evaluations, affordable), limits.simd};
-        if (!constant_)
+        if (has_fits())
             of_means.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
         integrate_color(sensitivity_, start, polarizations, sample, of_means, scratch.integration,
                         scratch.integrals);
@@ -500,18 +512,19 @@ private:
     const IndexTable& indices_at(std::span<const SpectralPoints* const> parts,
                                  Scratch& scratch) const {
         if (parts.size() == 1 && parts[0]->indices) return *parts[0]->indices;
-        if (!scratch.indices) scratch.indices = on_path_;
+        std::optional<IndexTable>& indices = scratch.prepared->indices;
+        if (!indices) indices = on_path_;
         if (constant_) {
             scratch.wavelengths.clear();
             for (const SpectralPoints* part : parts)
                 scratch.wavelengths.push_back(&part->wavelength_nm);
-            scratch.indices->assign(on_path_, scratch.wavelengths);
+            indices->assign(on_path_, scratch.wavelengths);
         } else {
             scratch.parts.clear();
             for (const SpectralPoints* part : parts) scratch.parts.push_back(part->indices.get());
-            scratch.indices->assign(scratch.parts);
+            indices->assign(scratch.parts);
         }
-        return *scratch.indices;
+        return *indices;
     }
 
     /// Gathers what does not vary; false if there is no room for it.
@@ -555,8 +568,11 @@ private:
     const Sensitivity& sensitivity_;
     ColorRequest request_;
     Stack held_;
-    /// Rows of tables end panels: what an incoherent layer absorbs follows k however fast it
-    /// changes, and no slope of the coherent denominators tells how much a fit of k would lose.
+    SmoothIndices smooth_;
+    bool has_gaps_;
+    /// Rows of tables end panels, as they must with incoherent layers: what these absorb follows k
+    /// however fast it changes, and no slope of the coherent denominators tells how much a fit of k
+    /// would lose.
     bool keeps_rows_;
     std::vector<double> pieces_;  ///< ends of what is smooth
     bool constant_;               ///< all indices
@@ -566,9 +582,8 @@ private:
     std::vector<bool> absorbs_, amplifies_;
     std::vector<std::size_t> varied_;  ///< elements, if only these differ
     mutable FixedLayersCache fixed_layers_;
-    SmoothIndices smooth_;
     mutable PanelTree tree_;
-    mutable Pool<Scratch> scratch_;
+    mutable Pool<Prepared> prepared_;
     mutable std::mutex lock_;
     /// By path class, and whether spectra follow from denominators.
     mutable std::map<std::pair<std::size_t, bool>, std::unique_ptr<PanelTree::Start>> starts_;
@@ -579,20 +594,6 @@ private:
 std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
                                                  const ColorRequest& request) {
     return std::make_unique<QuadratureColor>(tables, stack, request);
-}
-
-double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
-                       IncidentAngle incidence) {
-    constexpr double kPointsOfPiece = 20;  // as --stats says
-    constexpr double kUsualTolerance = 1e-6;
-    std::vector<Complex> normal(indices.materials());
-    for (std::size_t m = 0; m < normal.size(); ++m)
-        normal[m] = longest_normal(indices, m, 0, incidence);
-    Path path;
-    add_path(stack.elements, normal, indices.k0()[0], opaque_exponent(kUsualTolerance),
-             Gaps::attenuate, path);
-    return (kPointsOfPiece * static_cast<double>(pieces) + kPointsPerPath * path.length_nm) *
-           work_of(stack.elements);
 }
 
 }  // namespace irido

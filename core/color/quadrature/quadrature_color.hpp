@@ -20,13 +20,4 @@ namespace irido {
 std::unique_ptr<ColorAlgorithm> quadrature_color(const ColorTables& tables, const Stack& stack,
                                                  const ColorRequest& request);
 
-/// Estimated work of quadrature_color() for one colour, points times layers. Depends on its
-/// arguments only: no table is needed, and the result is the same on every machine.
-///   stack      to be coloured
-///   indices    of its materials, at one wavelength
-///   pieces     smooth_pieces() of the stack, less one
-///   incidence  direction of the light
-double quadrature_work(const Stack& stack, const IndexTable& indices, std::size_t pieces,
-                       IncidentAngle incidence);
-
 }  // namespace irido

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/keep_once.hpp"
 #include "core/math/gauss.hpp"

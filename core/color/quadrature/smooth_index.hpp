@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/coherent/coherent.hpp"
 #include "core/color/quadrature/quadrature_rule.hpp"
 #include "core/colorimetry/sensitivity.hpp"
 #include "core/stack/index_table.hpp"
@@ -74,6 +75,7 @@ public:
     /// Refers to both. Materials hold their end values.
     SmoothIndices(const Stack& stack, const Sensitivity& sensitivity);
 
+    std::size_t rows() const { return rows_.size(); }  ///< of all tables
     bool is_tabulated(std::size_t material) const { return !material_rows_[material].empty(); }
     /// Whether a row of a table is inside the panel.
     bool has_rows(WavelengthRange panel) const { return !rows_in(panel).empty(); }

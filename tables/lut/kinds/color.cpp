@@ -132,6 +132,7 @@ private:
             } else {
                 ColorRequest own = color_;
                 if (remap_width_nm_ > 0) own.colors = angles_deg.size();
+                own.structures = std::max<std::size_t>(1, own.colors / angles_deg.size());
                 (*color_algorithm(*tables_, stack, {}, own))(stack, angles_deg, colors);
             }
             for (std::size_t i = 0; i < colors.size(); ++i) {

@@ -140,8 +140,30 @@ TEST_CASE("kinks of tables cost and lose no more than the tolerance asks for", "
             CAPTURE(i, oracle::text_of(stack), angle, tolerance);
             CHECK(result.error <= tolerance);
             CHECK(largest_difference(result.xyz, exact) <= result.error + 1e-10);
+            // a single colour does not repay fits of the tables: their rows end panels
+            const StackColor alone = color(stack, angle, request, tables, {});
+            CHECK(alone.error <= tolerance);
+            CHECK(largest_difference(alone.xyz, exact) <= alone.error + 1e-10);
         }
     }
+}
+
+TEST_CASE("tables are fitted where many colours of a structure repay it") {
+    StackBuilder b;
+    b.add(StackBuilder::layer_of(b.material(find_material("TiO2")->material), 40));
+    const Stack stack = b.over_material(b.material(find_material("Ti")->material));
+    const auto by = [&](const ColorMethod& method, std::size_t colors, std::size_t structures) {
+        return color(stack, 30, {.tolerance = 1e-4, .colors = colors, .structures = structures},
+                     tables_of("D65"), method);
+    };
+    const StackColor alone = by({}, 1, 1), many = by({}, 1000000, 1);
+    CHECK(many.evaluations < alone.evaluations / 3);
+    CHECK(largest_difference(many.xyz, alone.xyz) <= many.error + alone.error);
+    const StackColor shared = by({}, 1000000, 1000000);
+    CHECK(shared.xyz == alone.xyz);
+    // a method given by name computes the same row in every sweep
+    CHECK(by(kQuadrature, 1, 1).xyz == many.xyz);
+    CHECK(by(kQuadrature, 1000000, 1000000).xyz == many.xyz);
 }
 
 TEST_CASE("absorbing stacks have their colour within the error", "[slow]") {
