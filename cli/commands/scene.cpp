@@ -17,6 +17,7 @@
 #include "schemas/documents/scene_document.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/shaders/scene/bake.hpp"
+#include "tables/shaders/scene/plan_file.hpp"
 #include "tables/shaders/scene/scene_error.hpp"
 #include "tables/shaders/scene/scratched_material.hpp"
 
@@ -32,6 +33,7 @@ struct SceneCommand {
     std::string scene;
     tables::BakePlace place;
     std::string format = "text", explained;
+    std::string planned;  ///< file of a plan; "" without one
     bool force = false, verify = false, prune = false;
     unsigned threads = 0;
     bool strict = false, quiet = false;
@@ -70,6 +72,7 @@ std::size_t bytes_of_entry(const json& entry, const std::string& format) {
 
 /// One line of the plan.
 struct PlanRow {
+    std::size_t index = 0;  ///< of the table
     std::string materials, role, table, size;
     double bytes = 0, samples = 0;
     std::string state{};  ///< new, kept or numbers
@@ -128,7 +131,7 @@ void plan_table(const schemas::Scene& scene, PlannedScene& result, std::size_t t
         keeping = tables::keeping_of(scene, result.plan, table, before, command.place, false);
     const bool is_kept = !keeping.entry.is_null();
     json entry = is_kept ? keeping.entry : tables::planned_entry(table);
-    PlanRow row{joined(table.materials, ", "), role_of(result.plan, t), table.file,
+    PlanRow row{t, joined(table.materials, ", "), role_of(result.plan, t), table.file,
                 size_text(entry["axes"])};
     row.state = entry.contains("values") ? "numbers" : is_kept ? "kept" : "new";
     row.why = keeping.why;
@@ -253,15 +256,19 @@ json json_of(const PlannedScene& scene) {
             if (!use.why.empty() && !scene.faults.contains(material.name))
                 chosen.push_back(
                     {{"material", material.name}, {"role", use.role}, {"reason", use.why}});
-    for (const PlanRow& row : scene.rows)
-        tables.push_back({{"materials", row.materials},
-                          {"role", row.role},
-                          {"table", row.table},
-                          {"size", row.size},
-                          {"bytes", row.bytes},
-                          {"cost", row.samples},
-                          {"state", row.state},
-                          {"why", row.why}});
+    for (const PlanRow& row : scene.rows) {
+        const tables::SceneTable& table = scene.plan.tables[row.index];
+        json line = tables::planned_table(table, scene.entries.at(table.id));
+        line.update({{"materials", row.materials},
+                     {"role", row.role},
+                     {"table", row.table},
+                     {"size", row.size},
+                     {"bytes", row.bytes},
+                     {"cost", row.samples},
+                     {"state", row.state},
+                     {"why", row.why}});
+        tables.push_back(std::move(line));
+    }
     for (const tables::Omission& omission : all_omissions(scene)) {
         json line = {
             {"material", omission.material}, {"what", omission.what}, {"reason", omission.reason}};
@@ -391,9 +398,8 @@ int run_plan(const SceneCommand& command) {
     if (!command.explained.empty())
         text = explained(scene, result, command.explained);
     else
-        text = command.format == "json"
-                   ? json_of(result).dump(2, ' ', false, json::error_handler_t::replace) + "\n"
-                   : text_of(result);
+        text =
+            command.format == "json" ? tables::plan_text(scene, json_of(result)) : text_of(result);
     tables::write_stdout(text);
     if (result.seconds > 0)
         note("making the new tables will take about " + coarse_time(result.seconds), command.quiet);
@@ -420,9 +426,23 @@ void note_long_bake(const schemas::Scene& scene, const tables::ScenePlan& plan,
     note_long_work(seconds, true, say);
 }
 
+/// Names the tables whose sizes had to be looked for, although there is a plan.
+void note_unplanned(const tables::ScenePlan& plan, const tables::BakeResult& result,
+                    const SceneCommand& command) {
+    for (const tables::SceneTable& table : plan.tables) {
+        const bool is_made = std::ranges::any_of(
+            result.made, [&](const std::string& made) { return made.starts_with(table.file); });
+        if (is_made && !table.grid && !table.making.sizing.fitted)
+            note(schemas::shown_path(command.planned) + ": does not have " + table.file + " of " +
+                     joined(table.materials, ", ") + ": its size was looked for",
+                 command.quiet);
+    }
+}
+
 int run_bake(const SceneCommand& command) {
     const schemas::Scene scene = scene_of(command);
-    const tables::ScenePlan plan = tables::plan_scene(scene, execution_of(command.threads));
+    tables::ScenePlan plan = tables::plan_scene(scene, execution_of(command.threads));
+    if (!command.planned.empty()) tables::use_plan(plan, scene, command.planned);
     note_long_bake(scene, plan, command);
     Progress progress(command.quiet);
     const tables::BakeRequest request{command.place,
@@ -435,6 +455,7 @@ int run_bake(const SceneCommand& command) {
     const tables::BakeResult result = tables::bake(scene, plan, request);
     progress.clear();
     for (const std::string& text : result.notes) note(text, command.quiet);
+    if (!command.planned.empty()) note_unplanned(plan, result, command);
     if (!command.quiet) {
         for (const std::string& file : result.made) std::cerr << "irido: made " << file << '\n';
         for (const std::string& file : result.pruned)
@@ -518,20 +539,26 @@ void add_bake_command(CLI::App& program, Run& run) {
         ->type_name("DIR")
         ->required();
     add_manifest_option(*command, *typed);
+    command
+        ->add_option("--plan", typed->planned,
+                     "sizes of the tables, from irido plan SCENE -f json: the same bytes,\n"
+                     "without the trials that find the sizes; - is standard input")
+        ->type_name("FILE");
     command->add_flag("--force", typed->force, "remake every table");
     command->add_flag("--verify", typed->verify, "read the kept tables and verify their checksums");
     command->add_flag("--prune", typed->prune,
                       "remove tables of this scene that no material\nneeds any more");
     set_examples(
         *command,
-        {"irido bake vehicle.json -o tables", "irido bake vehicle.json -o tables --prune --quiet"},
+        {"irido bake vehicle.json -o tables", "irido bake vehicle.json -o tables --plan plan.json"},
         "Tables whose inputs are unchanged are kept: files of the size recorded in the manifest\n"
         "and not touched since are trusted, others are read, and with --verify all are. The\n"
         "folder belongs to irido: anything else in a table's place is replaced, symbolic links\n"
         "included. An interrupted bake resumes where it stopped. If a material fails, the\n"
         "others are made, the manifest gives the reason and the exit status is 1. Several\n"
         "scenes can share a folder if each has its own --manifest; --prune removes nothing\n"
-        "that another manifest lists.");
+        "that another manifest lists. A --plan must be of this scene; tables that have\n"
+        "changed since are measured, and a note names them.");
     set_run(*command, run, typed, run_bake);
 }
 

@@ -16,6 +16,7 @@
 #include "tables/lut/lut_metadata.hpp"
 #include "tables/shaders/scene/bake.hpp"
 #include "tables/shaders/scene/manifest.hpp"
+#include "tables/shaders/scene/plan_file.hpp"
 #include "tables/shaders/scene/scene_problems.hpp"
 
 namespace irido::cli {
@@ -29,16 +30,18 @@ struct SchemaText {
     const char* (*text)();
 };
 
-constexpr std::array<SchemaText, 6> kSchemas{{{"stack", schemas::stack_schema_text},
+constexpr std::array<SchemaText, 7> kSchemas{{{"stack", schemas::stack_schema_text},
                                               {"surface", schemas::surface_schema_text},
                                               {"design", schemas::design_schema_text},
                                               {"scene", schemas::scene_schema_text},
+                                              {"plan", tables::plan_schema_text},
                                               {"manifest", tables::manifest_schema_text},
                                               {"lut", tables::lut_schema_text}}};
 
 /// A document with keys of a stack counts as a stack, whatever else it contains by mistake.
 bool is_stack(const json& document) {
-    return !document.is_object() || !document.contains("materials") ||
+    return !document.is_object() ||
+           !(document.contains("materials") || document.contains("tables")) ||
            document.contains("layers") || document.contains("incident") ||
            document.contains("substrate");
 }
@@ -75,6 +78,8 @@ std::vector<std::string> problems_of(const std::string& path) {
     if (schemas::is_surface(document)) return schemas::surface_problems(document, file, folder);
     if (schemas::is_design_task(document)) return schemas::design_problems(document, file, folder);
     if (is_stack(document)) return schemas::stack_problems(document, file, folder);
+    if (document.contains("tables") && document["tables"].is_array())
+        return tables::plan_problems(document, file);
     if (document.contains("tables"))
         return tables::manifest_problems(document, file,
                                          path == "-"      ? ""
@@ -119,24 +124,24 @@ int print_schema(const std::string& name) {
 void add_validate_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
         "validate",
-        "Check stacks, surfaces, designs, scenes, manifests and material files: print every error, "
-        "or FILE: ok.");
+        "Check stacks, surfaces, designs, scenes, plans, manifests and material files: print every "
+        "error, or FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto schema = std::make_shared<std::string>();
     CLI::Option* option =
         command
             ->add_option("--schema", *schema,
                          "print a JSON Schema, which explains every key: stack, surface,\n"
-                         "design, scene, manifest or lut (the metadata of a table) [stack]")
+                         "design, scene, plan, manifest or lut (the metadata of a table) [stack]")
             ->type_name("[NAME]")
             ->expected(0, 1);
     offer(*command, "schema", schema_names);
     command
         ->add_option(
             "FILE", *files,
-            "stacks, surfaces, designs, scenes or manifests (.json), material files (.csv, .txt,\n"
-            ".tsv, .dat, .nk, .mat, .yml), expressions, or - for JSON on\n"
-            "standard input")
+            "stacks, surfaces, designs, scenes, plans or manifests (.json), material files\n"
+            "(.csv, .txt, .tsv, .dat, .nk, .mat, .yml), expressions, or - for JSON\n"
+            "on standard input")
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});

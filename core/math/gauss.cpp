@@ -1,6 +1,7 @@
 #include "core/math/gauss.hpp"
 
-#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
 
 namespace irido {
 
@@ -14,6 +15,22 @@ const std::array<GaussNode, count>& gauss_legendre() {
             const double x = Rule::abscissa()[i], weight = Rule::weights()[i];
             nodes[count / 2 + i] = {x, weight};
             nodes[count / 2 - 1 - i] = {-x, weight};
+        }
+        return nodes;
+    }();
+    return rule;
+}
+
+const std::array<KronrodNode, 21>& kronrod() {
+    static const std::array<KronrodNode, 21> rule = [] {
+        using Kronrod = boost::math::quadrature::gauss_kronrod<double, 21>;
+        using Gauss = boost::math::quadrature::gauss<double, 10>;
+        std::array<KronrodNode, 21> nodes{};
+        for (int i = -10; i <= 10; ++i) {
+            const auto node = static_cast<std::size_t>(std::abs(i));
+            nodes[static_cast<std::size_t>(i + 10)] = {
+                std::copysign(Kronrod::abscissa()[node], i), Kronrod::weights()[node],
+                node % 2 == 1 ? Gauss::weights()[node / 2] : 0};
         }
         return nodes;
     }();

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/math/gauss.hpp"
 
 namespace irido {
 
@@ -191,8 +191,6 @@ private:
     };
 
     Seen sum_panel(const Panel& panel) {
-        using Kronrod = boost::math::quadrature::gauss_kronrod<double, 21>;
-        using Gauss = boost::math::quadrature::gauss<double, 10>;
         std::ranges::fill(kronrod_, 0);
         std::ranges::fill(gauss_, 0);
         panel_rounding_ = 0;
@@ -206,17 +204,14 @@ private:
             before = here;
             previous = x;
         };
-        for (int i = -10; i <= 10; ++i) {
-            const auto node = static_cast<std::size_t>(std::abs(i));
-            const double x = std::copysign(Kronrod::abscissa()[node], i);
-            const Complex here = evaluate(middle + half * x);
-            w = half * weight_(middle + half * x);
-            add_sample(w * Kronrod::weights()[node], kronrod_);
-            panel_rounding_ +=
-                w * Kronrod::weights()[node] * rounding_ * largest_guide_ / std::abs(here);
-            if (node % 2 == 1) add_sample(w * Gauss::weights()[node / 2], gauss_);
-            look(x, here);
-            if (i == 0) seen.at_middle = here;
+        for (const KronrodNode& node : kronrod()) {
+            const Complex here = evaluate(middle + half * node.x);
+            w = half * weight_(middle + half * node.x);
+            add_sample(w * node.weight, kronrod_);
+            panel_rounding_ += w * node.weight * rounding_ * largest_guide_ / std::abs(here);
+            if (node.gauss > 0) add_sample(w * node.gauss, gauss_);
+            look(node.x, here);
+            if (node.x == 0) seen.at_middle = here;
         }
         look(1, panel.at_end);
         return seen;

@@ -52,6 +52,11 @@ private:
     int far_ = 0;
 };
 
+/// Whether the tolerance decides how many samples an axis has.
+bool is_sized(const LutPlan& plan, const Lut& lut, std::size_t a) {
+    return !plan.axes[a].fixed && plan.axes[a].axis.count() > 1 && !(lut.mips && a == 0);
+}
+
 /// Finds axes for a tolerance.
 class Fit {
 public:
@@ -74,9 +79,7 @@ public:
     }
 
 private:
-    bool is_free(std::size_t a) const {
-        return !plan_.axes[a].fixed && plan_.axes[a].axis.count() > 1 && !(lut_.mips && a == 0);
-    }
+    bool is_free(std::size_t a) const { return is_sized(plan_, lut_, a); }
 
     void note(const std::string& text) { lut_.facts["notes"].push_back(text); }
 
@@ -279,6 +282,27 @@ private:
 };
 
 }  // namespace
+
+bool set_fitted_axes(const FittedAxes& fitted, LutPlan& plan, Lut& lut) {
+    std::vector<AxisPlan> planned = plan.axes;
+    std::vector<LutAxis> axes = lut.axes;
+    if (fitted.ranges.size() != axes.size()) return false;
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+        const auto& [first, last, count] = fitted.ranges[a];
+        LutAxis& range = planned[a].axis;
+        if (is_sized(plan, lut, a)) {
+            if (planned[a].may_end_early && count > 1) range.values = {range.values.front(), last};
+            axes[a].values = count > 1 ? range.spaced(count) : std::vector{range.spaced(3)[1]};
+        }
+        const std::vector<double>& values = axes[a].values;
+        if (values.size() != count || values.front() != first || values.back() != last)
+            return false;
+    }
+    plan.axes = std::move(planned);
+    lut.axes = std::move(axes);
+    lut.facts["notes"] = fitted.notes;
+    return true;
+}
 
 void fit_axes(LutPlan& plan, Sampler& sample, const LutMaking& making, Lut& lut) {
     Fit(plan, sample, making, lut).run();

@@ -10,4 +10,8 @@ namespace irido::tables {
 ///   sample  of the plan, exact enough for its errors
 void fit_axes(LutPlan& plan, Sampler& sample, const LutMaking& making, Lut& lut);
 
+/// The same from what an earlier call found; false, and nothing changed, if that is not of this
+/// plan.
+bool set_fitted_axes(const FittedAxes& fitted, LutPlan& plan, Lut& lut);
+
 }  // namespace irido::tables

@@ -113,7 +113,9 @@ Lut sized(const LutKind& kind, LutPlan& plan, Sampler* trial, const LutMaking& m
     for (const AxisPlan& axis : plan.axes) lut.axes.push_back(axis.axis);
     lut.mips = making.mips && plan.mips && plan.axes.front().axis.count() > 1;
     if (!making.sizing.counts.empty()) set_counts(lut, plan, making.sizing.counts);
-    if (trial) fit_axes(plan, *trial, making, lut);
+    const std::optional<FittedAxes>& fitted = making.sizing.fitted;
+    if (trial && !(fitted && set_fitted_axes(*fitted, plan, lut)))
+        fit_axes(plan, *trial, making, lut);
     const std::size_t samples = size_of(lut.axes, 0, lut.axes.size());
     if (samples > kMostValues)
         throw LutError("a table of " + std::to_string(samples) + " samples is too large");
@@ -133,6 +135,7 @@ std::vector<InterpolationError> interpolation_errors(const LutPlan& plan, const 
 double least_evaluations(const LutPlan& plan, const LutMaking& making) {
     const LutSizing& sizing = making.sizing;
     const bool has_counts = sizing.counts.size() == plan.axes.size();
+    const bool is_fitted = sizing.fitted && sizing.fitted->ranges.size() == plan.axes.size();
     double samples = 1;
     std::size_t ranges = 0;
     for (std::size_t a = 0; a < plan.axes.size(); ++a) {
@@ -141,9 +144,11 @@ double least_evaluations(const LutPlan& plan, const LutMaking& making) {
         if (is_range) ++ranges;
         if (is_range && sizing.tolerance) count = static_cast<std::size_t>(kOnLines);
         if (is_range && has_counts) count = sizing.counts[a];
+        if (is_range && is_fitted) count = sizing.fitted->ranges[a].count;
         samples *= static_cast<double>(count);
     }
-    if (sizing.tolerance)  // each range is looked at, with few samples along the others
+    if (sizing.tolerance &&
+        !is_fitted)  // each range is looked at, with few samples along the others
         return samples * static_cast<double>(ranges) * kLookedAt / kOnLines;
     return samples + (making.measure ? Comparison::evaluations(samples, ranges) : 0);
 }

@@ -11,11 +11,23 @@
 
 namespace irido::tables {
 
+/// What a table for a tolerance has, of which another with the same plan gets its size.
+struct FittedAxes {
+    struct Range {
+        double first, last;
+        std::size_t count;
+    };
+    std::vector<Range> ranges;  ///< per axis
+    std::vector<std::string> notes;
+};
+
 /// How to choose the numbers of samples along the axes.
 struct LutSizing {
     std::vector<std::size_t> counts{};  ///< per axis; empty: as planned, or by the tolerance
     std::optional<double> tolerance{};  ///< largest interpolation error, in the plan's measure
     bool power_of_two = true;           ///< restricts sizes chosen by the tolerance
+    /// What the same sizing found before: its trials are not done again.
+    std::optional<FittedAxes> fitted{};
 };
 
 /// Options for making a table.

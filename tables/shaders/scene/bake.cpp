@@ -21,7 +21,6 @@
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
-#include "schemas/readers/utf8.hpp"
 #include "tables/files/atomic_file.hpp"
 #include "tables/files/hash.hpp"
 #include "tables/lut/lut_file.hpp"
@@ -95,9 +94,14 @@ std::int64_t time_of(const std::string& path) {
 /// Calls make(request). If a table cannot cover the largest angles, the range is shortened if the
 /// scene allows it; otherwise the error names angles that would work.
 Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest&)>& make) {
+    const auto made_up_to = [&](double angle_deg) {
+        Lut lut = make(request_up_to(table, angle_deg));
+        lut.facts["request"]["angles_deg"] = {0, angle_deg};
+        return lut;
+    };
     std::string reason;
     try {
-        return make(table.request);
+        return table.served_angle_deg ? made_up_to(*table.served_angle_deg) : make(table.request);
     } catch (const ToleranceError& error) {
         reason = error.what();
     } catch (const DomainError& error) {  // a value is not accurate enough
@@ -106,11 +110,10 @@ Lut served_lut(const SceneTable& table, const std::function<Lut(const LutRequest
     for (const double angle_deg : kServedAngles_deg) {
         if (!(angle_deg < table.largest_angle_deg)) continue;
         try {
-            Lut lut = make(request_up_to(table, angle_deg));
+            Lut lut = made_up_to(angle_deg);
             if (!table.may_end_early)
                 throw LutError(reason + "; \"angles_deg\": [0, " + to_text(angle_deg) +
                                "] would do");
-            lut.facts["request"]["angles_deg"] = {0, angle_deg};
             return lut;
         } catch (const ToleranceError&) {
         } catch (const DomainError&) {
@@ -204,11 +207,6 @@ std::vector<std::string> pruned_files(const BakePlace& place,
             if (fs::remove(place.folder + "/" + name, ignored)) removed.push_back(name);
     }
     return removed;
-}
-
-/// Name of the scene's file in its manifest.
-std::string source_of(const schemas::Scene& scene) {
-    return schemas::well_formed(fs::path(scene.file).filename().string());
 }
 
 json settings_of(const schemas::Scene& scene, const ScenePlan& plan) {
@@ -334,10 +332,9 @@ schemas::ValueRange served_angles(const ScenePlan& plan, const MaterialPlan& mat
     schemas::ValueRange angles = material.angles_deg;
     for (const MaterialPlan::Use& use : material.tables) {
         const auto entry = entries.find(plan.tables[use.table].id);
-        if (entry == entries.end() || !entry->second.contains("request")) continue;
-        const json& request = entry->second["request"];
-        if (request.contains("angles_deg"))
-            angles.last = std::min(angles.last, request["angles_deg"][1].get<double>());
+        if (entry == entries.end()) continue;
+        if (const json served = served_angles_of(entry->second); !served.is_null())
+            angles.last = std::min(angles.last, served[1].get<double>());
     }
     return angles;
 }

@@ -8,6 +8,7 @@
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/text_file.hpp"
+#include "schemas/readers/utf8.hpp"
 #include "tables/files/hash.hpp"
 #include "tables/lut/lut_file.hpp"
 #include "tables/lut/lut_metadata.hpp"
@@ -102,6 +103,15 @@ json found_entry(const std::string& folder, const std::string& file, const std::
     entry["file"] = file;
     entry["bytes"] = bytes;
     return entry;
+}
+
+json served_angles_of(const json& entry) {
+    if (!entry.contains("request")) return nullptr;
+    return entry["request"].value("angles_deg", json());
+}
+
+std::string source_of(const schemas::Scene& scene) {
+    return schemas::well_formed(fs::path(scene.file).filename().string());
 }
 
 std::string checksum_of(json manifest) {

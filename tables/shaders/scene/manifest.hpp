@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "schemas/documents/scene_document.hpp"
 #include "tables/lut/lut.hpp"
 
 namespace irido::tables {
@@ -34,7 +35,14 @@ nlohmann::json grid_entry(const nlohmann::json& header, const std::string& file,
 nlohmann::json found_entry(const std::string& folder, const std::string& file,
                            const std::string& id);
 
-/// The checksum of a manifest, without its own key.
+/// The angles in the entry of a table that serves fewer than its scene asks for, [first, last] in
+/// degrees, else null.
+nlohmann::json served_angles_of(const nlohmann::json& entry);
+
+/// The name of the scene's file in its manifest.
+std::string source_of(const schemas::Scene& scene);
+
+/// The checksum of a manifest or a plan, without its own key.
 std::string checksum_of(nlohmann::json manifest);
 
 /// The manifest in a file; null if the file is not a manifest.

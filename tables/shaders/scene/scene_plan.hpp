@@ -32,9 +32,10 @@ struct SceneTable {
     LutMaking making;
     /// The largest angle of an axis of cosines, degrees; 0 if the table has none.
     double largest_angle_deg = 0;
-    bool may_end_early = false;          ///< the scene gives no angles: the range may be shortened
-    nlohmann::json inputs;               ///< the hashed inputs of the id
-    std::vector<std::string> materials;  ///< materials that use it
+    bool may_end_early = false;  ///< the scene gives no angles: the range may be shortened
+    std::optional<double> served_angle_deg{};  ///< where the range ends, if that is known
+    nlohmann::json inputs;                     ///< the hashed inputs of the id
+    std::vector<std::string> materials;        ///< materials that use it
 };
 
 /// Something omitted for a material, and the reason.

@@ -151,7 +151,7 @@ TEST_CASE("bash completes commands, options, words and files", "[cli][manual]") 
         {"irido spectrum schemas/examples/soap-bubble.", "schemas/examples/soap-bubble.json"},
         {"irido bake x -o sche", "schemas"},
         {"irido bake -o schemas/stack", ""},  // no folders match
-        {"irido validate --schema ", "stack surface design scene manifest lut"},
+        {"irido validate --schema ", "stack surface design scene plan manifest lut"},
         {"irido bench speed --cases film,40_e", "film,40_each"},
         {"irido bench stability -r all,gain", "all,gain"},
         {"irido convert -f ", "json expression zemax openfilters csv"},

@@ -446,13 +446,14 @@ TEST_CASE("validate goes on after the errors of the scene itself", "[cli][valida
 }
 
 TEST_CASE("validate prints each schema", "[cli][validate][scene]") {
-    for (const std::string name : {"stack", "surface", "design", "scene", "manifest", "lut"}) {
+    for (const std::string name :
+         {"stack", "surface", "design", "scene", "plan", "manifest", "lut"}) {
         const Outcome outcome = run_irido({"validate", "--schema", name});
         CHECK(outcome.status == 0);
         CHECK(outcome.out == read_file(IRIDO_SOURCE_DIR "/schemas/" + name + ".schema.json"));
     }
     check_refused(
         run_irido({"validate", "--schema", "scenes"}),
-        "--schema: must be one of stack, surface, design, scene, manifest, lut (got 'scenes') "
-        "(did you mean \"scene\"?)");
+        "--schema: must be one of stack, surface, design, scene, plan, manifest, lut (got "
+        "'scenes') (did you mean \"scene\"?)");
 }
