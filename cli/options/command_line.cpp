@@ -39,8 +39,8 @@ std::string name_of(const CLI::Option& option) {
 /// Checks the words of one command.
 class CommandWords {
 public:
-    CommandWords(const CLI::App& command, std::string help)
-        : command_(command), help_(std::move(help)) {}
+    CommandWords(const CLI::App& command, std::string path)
+        : command_(command), path_(std::move(path)) {}
 
     void read(std::span<char* const> words) {
         words_ = words;
@@ -60,7 +60,7 @@ public:
 
 private:
     [[noreturn]] void fail(const std::string& text) const {
-        throw UsageError(text + " (see " + help_ + ")");
+        throw UsageError(text + " (see " + path_ + " --help)");
     }
 
     const CLI::Option* find(std::string_view word) const {
@@ -143,11 +143,7 @@ private:
         });
         if (compute && guess.empty() && !is_computing)
             fail("--compute: is required for " + typed + ": spectrum, color, bands or cm");
-        std::string name = command_.get_name();
-        for (const CLI::App* group = command_.get_parent(); group && group->get_parent();
-             group = group->get_parent())
-            name = group->get_name() + " " + name;
-        fail(name + " has no option " + typed + guess);
+        fail(path_.substr(path_.find(' ') + 1) + " has no option " + typed + guess);
     }
 
     void count(const CLI::Option& option) {
@@ -168,7 +164,7 @@ private:
     }
 
     const CLI::App& command_;
-    std::string help_;
+    std::string path_;  ///< as typed: the program, groups of commands, the command
     std::span<char* const> words_;
     std::size_t at_ = 0;
     bool is_end_of_options_ = false;
@@ -183,9 +179,9 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 /// Checks a command of `parent` and the words that follow it.
 void check(const CLI::App& parent, const std::string& path, std::span<char* const> words) {
-    const std::string help = path + " --help";
     const std::vector<const CLI::App*> commands = commands_of(parent);
-    if (commands.empty()) return CommandWords(parent, help).read(words);
+    if (commands.empty()) return CommandWords(parent, path).read(words);
+    const std::string help = path + " --help";
     std::vector<std::string> names;
     for (const CLI::App* command : commands) names.push_back(command->get_name());
     if (words.empty() || std::string_view(words[0]).empty())

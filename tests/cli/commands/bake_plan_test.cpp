@@ -1,10 +1,9 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tables/files/hash.hpp"
-#include "tests/support/program.hpp"
+#include "tests/support/bakery.hpp"
 
 using namespace irido;
 using namespace irido::tables;
@@ -39,38 +38,19 @@ const std::string kScene = R"({
          "width_um": [1, 3], "depth_um": [0.1, 0.3], "angle_deg": [0, 180]}]}}
     ]})";
 
-class Planned {
+/// A bakery with the scene's plan.
+class Planned : public Bakery {
 public:
-    explicit Planned(const std::string& scene = kScene) {
-        set_scene(scene);
-        const Outcome outcome = run_irido({"plan", path("scene.json"), "-f", "json", "--quiet"});
-        INFO(outcome.err);
-        REQUIRE(outcome.status == 0);
-        set_plan(outcome.out);
+    explicit Planned(const std::string& scene = kScene) : Bakery(scene) {
+        set_plan(done({"plan", path("scene.json"), "-f", "json", "--quiet"}).out);
     }
 
-    std::string path(const std::string& name) const { return stage_ / name; }
-    void set_scene(const std::string& text) const { write_text(path("scene.json"), text); }
     void set_plan(const std::string& text) const { write_text(path("plan.json"), text); }
     json plan() const { return json::parse(read_file(path("plan.json"))); }
-
-    Outcome bake(const std::string& folder, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> arguments{"bake", path("scene.json"), "-o", path(folder)};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return run_irido(arguments);
-    }
     Outcome bake_planned(const std::string& folder) const {
         return bake(folder, {"--plan", path("plan.json")});
     }
-    std::map<std::string, std::string> files_in(const std::string& folder) const {
-        std::map<std::string, std::string> files;
-        for (const auto& file : fs::directory_iterator(path(folder)))
-            files[file.path().filename().string()] = read_file(file.path().string());
-        return files;
-    }
-
-private:
-    TemporaryFolder stage_;
+    BakedFiles files(const std::string& folder) const { return files_in(path(folder)); }
 };
 
 /// With the checksum that it would have.
@@ -99,7 +79,7 @@ TEST_CASE("a bake with a plan makes the same bytes", "[cli][bake]") {
     CHECK(with.status == 0);
     CHECK_THAT(with.err, !Contains("plan.json"));
     CHECK(planned.bake("without").status == 0);
-    CHECK(planned.files_in("with") == planned.files_in("without"));
+    CHECK(planned.files("with") == planned.files("without"));
     // a plan of what was kept has the same sizes
     const Outcome kept = run_irido(
         {"plan", planned.path("scene.json"), "-f", "json", "--quiet", "-o", planned.path("with")});
@@ -108,7 +88,7 @@ TEST_CASE("a bake with a plan makes the same bytes", "[cli][bake]") {
         for (const char* key : {"id", "kind", "axes", "notes"})
             CHECK(planned.plan()["tables"][t][key] == plan["tables"][t][key]);
     CHECK(planned.bake("with", {"--force", "--plan", planned.path("plan.json")}).status == 0);
-    CHECK(planned.files_in("with") == planned.files_in("without"));
+    CHECK(planned.files("with") == planned.files("without"));
 }
 
 TEST_CASE("the sizes of a bake are those of its plan", "[cli][bake]") {
@@ -121,28 +101,28 @@ TEST_CASE("the sizes of a bake are those of its plan", "[cli][bake]") {
     count = more;
     planned.set_plan(sealed(plan));
     CHECK(planned.bake_planned("a").status == 0);
-    const json manifest = json::parse(planned.files_in("a").at("manifest.json"));
+    const json manifest = json::parse(planned.files("a").at("manifest.json"));
     CHECK(manifest["tables"].begin().value()["axes"][1]["count"] == more);
     // a range that the scene does not have is no size: it is looked for
     plan["tables"][0]["axes"][1]["first"] = 10;
     planned.set_plan(sealed(plan));
     CHECK(planned.bake_planned("b").status == 0);
     CHECK(planned.bake("c").status == 0);
-    CHECK(planned.files_in("b") == planned.files_in("c"));
+    CHECK(planned.files("b") == planned.files("c"));
 }
 
 TEST_CASE("tables that are not in the plan are made, and a note names them", "[cli][bake]") {
     const Planned planned;
     json scene = json::parse(kScene);
     scene["materials"][0]["stack"] = "1 | 1.34@300 | 1.5+3i";
-    planned.set_scene(scene.dump());
+    planned.set(scene.dump());
     const Outcome with = planned.bake_planned("with");
     CHECK(with.status == 0);
     CHECK_THAT(with.err, Contains(planned.path("plan.json") + ": does not have color-") &&
                              Contains(".ktx2 of film: its size was looked for\n"));
     CHECK(with.err.find("does not have") == with.err.rfind("does not have"));
     CHECK(planned.bake("without").status == 0);
-    CHECK(planned.files_in("with") == planned.files_in("without"));
+    CHECK(planned.files("with") == planned.files("without"));
 }
 
 TEST_CASE("a plan may come from a pipe, and be written anew by others", "[cli][bake]") {
@@ -153,7 +133,7 @@ TEST_CASE("a plan may come from a pipe, and be written anew by others", "[cli][b
     CHECK(piped.status == 0);
     planned.set_plan(planned.plan().dump());  // in one line
     CHECK(planned.bake_planned("b").status == 0);
-    CHECK(planned.files_in("a") == planned.files_in("b"));
+    CHECK(planned.files("a") == planned.files("b"));
 }
 
 TEST_CASE("what is no plan of the scene is refused, and nothing is written", "[cli][bake]") {

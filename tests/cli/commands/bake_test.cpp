@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tables/files/hash.hpp"
+#include "tests/support/bakery.hpp"
 #include "tests/support/program.hpp"
 
 using namespace irido;
@@ -35,15 +36,6 @@ const std::string kScene = R"({
          "shading": "rough-layers"}
     ]})";
 
-using Files = std::map<std::string, std::string>;
-
-Files files_in(const std::string& folder) {
-    Files files;
-    for (const auto& file : fs::directory_iterator(folder))
-        files[file.path().filename().string()] = read_file(file.path().string());
-    return files;
-}
-
 std::map<std::string, fs::file_time_type> times_in(const std::string& folder) {
     std::map<std::string, fs::file_time_type> times;
     for (const auto& file : fs::directory_iterator(folder))
@@ -51,41 +43,11 @@ std::map<std::string, fs::file_time_type> times_in(const std::string& folder) {
     return times;
 }
 
-class Bakery {
-public:
-    explicit Bakery(const std::string& scene = kScene) { set(scene); }
-
-    void set(const std::string& scene) const { write_text(stage_ / "scene.json", scene); }
-    void set(const json& scene) const { set(scene.dump()); }
-    std::string path(const std::string& name) const { return stage_ / name; }
-
-    Outcome bake(const std::string& folder, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> arguments{"bake", path("scene.json"), "-o", path(folder)};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return run_irido(arguments);
-    }
-    Files baked(const std::string& folder, const std::vector<std::string>& more = {}) const {
-        const Outcome outcome = bake(folder, more);
-        INFO(outcome.err);
-        REQUIRE(outcome.status == 0);
-        return files_in(path(folder));
-    }
-    /// The file in a baked folder whose name begins with `start`.
-    std::string file(const std::string& folder, const std::string& start) const {
-        for (const auto& [name, bytes] : files_in(path(folder)))
-            if (name.starts_with(start)) return path(folder) + "/" + name;
-        throw std::runtime_error("no file " + start);
-    }
-
-private:
-    TemporaryFolder stage_;
-};
-
 }  // namespace
 
 TEST_CASE("a second bake touches nothing", "[cli][bake]") {
-    const Bakery bakery;
-    const Files first = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles first = bakery.baked("a");
     const auto times = times_in(bakery.path("a"));
     const Outcome second = bakery.bake("a");
     CHECK(second.status == 0);
@@ -101,8 +63,8 @@ TEST_CASE("a second bake touches nothing", "[cli][bake]") {
 }
 
 TEST_CASE("a bake's bytes depend on the scene alone", "[cli][bake]") {
-    const Bakery bakery;
-    const Files one = bakery.baked("one", {"-j", "1"});
+    const Bakery bakery(kScene);
+    const BakedFiles one = bakery.baked("one", {"-j", "1"});
     CHECK(bakery.baked("three", {"-j", "3"}) == one);
     const auto times = times_in(bakery.path("one"));
     CHECK(bakery.baked("one", {"--force"}) == one);
@@ -115,7 +77,7 @@ TEST_CASE("a bake's bytes depend on the scene alone", "[cli][bake]") {
 }
 
 TEST_CASE("bake --prune removes tables that this scene made and no material needs", "[cli][bake]") {
-    const Bakery bakery;
+    const Bakery bakery(kScene);
     bakery.baked("a");
     // not made by this scene, whatever its name
     write_text(bakery.path("a/color-0123456789abcdef.ktx2"), "old");
@@ -129,7 +91,7 @@ TEST_CASE("bake --prune removes tables that this scene made and no material need
             .out;
     };
     CHECK_THAT(plan(), Contains("stale, removed by bake --prune:\n  " + gone + "\n"));
-    const Files kept = bakery.baked("a");
+    const BakedFiles kept = bakery.baked("a");
     CHECK(kept.contains(gone));
     CHECK(json::parse(kept.at("manifest.json"))["stale"] == json::array({gone}));
     bakery.baked("a");  // and is not forgotten
@@ -137,15 +99,15 @@ TEST_CASE("bake --prune removes tables that this scene made and no material need
     const Outcome pruned = bakery.bake("a", {"--prune"});
     CHECK_THAT(pruned.err, Contains("removed " + gone + "\n"));
     CHECK_THAT(plan(), !Contains("stale"));
-    Files left = files_in(bakery.path("a"));
+    BakedFiles left = files_in(bakery.path("a"));
     CHECK(left.erase("color-0123456789abcdef.ktx2") == 1);
     CHECK(left.erase("mine.ktx2") == 1);
     CHECK(left == bakery.baked("b"));
 }
 
 TEST_CASE("a second scene needs a manifest of its own, and its tables are safe", "[cli][bake]") {
-    const Bakery bakery;
-    const Files first = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles first = bakery.baked("a");
     json other = json::parse(kScene);
     other["name"] = "other";
     other["materials"] = {other["materials"][0], other["materials"][3]};
@@ -172,8 +134,8 @@ TEST_CASE("a second scene needs a manifest of its own, and its tables are safe",
 }
 
 TEST_CASE("the bake folder is irido's own: links and pipes are replaced", "[cli][bake]") {
-    const Bakery bakery;
-    const Files whole = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles whole = bakery.baked("a");
     const std::string file = bakery.file("a", "color-"), target = bakery.path("precious");
     for (const std::string& place : {file, bakery.path("a/manifest.json")}) {
         write_text(target, "precious");
@@ -202,7 +164,7 @@ TEST_CASE("a table that is not the one asked for is made again", "[cli][bake]") 
         {"name": "a", "stack": "1 | 1.33@100 | 1.5", "angles_deg": [0, 60], "shading": "color"},
         {"name": "b", "stack": "1 | 1.33@150 | 1.5", "angles_deg": [0, 60], "shading": "color"},
         {"name": "c", "stack": "1.5 | (1.5@95 | 1.75@82)^20 | 1.5", "shading": "bragg"}]})");
-    const Files whole = bakery.baked("a");
+    const BakedFiles whole = bakery.baked("a");
     std::vector<std::string> colors;
     for (const auto& [name, bytes] : whole)
         if (name.starts_with("color-")) colors.push_back(bakery.path("a/" + name));
@@ -240,8 +202,8 @@ TEST_CASE("a table that is not the one asked for is made again", "[cli][bake]") 
 }
 
 TEST_CASE("an edited manifest is noticed", "[cli][bake]") {
-    const Bakery bakery;
-    const Files whole = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles whole = bakery.baked("a");
     const std::string path = bakery.path("a/manifest.json");
     for (const auto& [pointer, value] : std::map<std::string, json>{
              {"/materials/series/constants/n2", 9}, {"/settings/space", "rec2020"}}) {
@@ -307,7 +269,7 @@ TEST_CASE("where a scene gives no angles, they are those that a table can serve"
 }
 
 TEST_CASE("plan says why a table is new, and bytes do not depend on that", "[cli][bake]") {
-    const Bakery bakery;
+    const Bakery bakery(kScene);
     const auto plan = [&](const std::vector<std::string>& more) {
         std::vector<std::string> all{"plan", bakery.path("scene.json"), "-f", "json", "--quiet"};
         all.insert(all.end(), more.begin(), more.end());
@@ -336,7 +298,7 @@ TEST_CASE("plan says why a table is new, and bytes do not depend on that", "[cli
 }
 
 TEST_CASE("a changed scene makes only what changed", "[cli][bake]") {
-    const Bakery bakery;
+    const Bakery bakery(kScene);
     bakery.baked("a");
     const auto times = times_in(bakery.path("a"));
     json scene = json::parse(kScene);
@@ -354,8 +316,8 @@ TEST_CASE("a changed scene makes only what changed", "[cli][bake]") {
 }
 
 TEST_CASE("a bake that was killed goes on and ends with the same bytes", "[cli][bake][slow]") {
-    const Bakery bakery;
-    const Files whole = bakery.baked("whole");
+    const Bakery bakery(kScene);
+    const BakedFiles whole = bakery.baked("whole");
     int killed = 0;
     for (int round = 0; round < 20; ++round) {
         const std::string folder = "round-" + std::to_string(round);
@@ -374,19 +336,19 @@ TEST_CASE("a bake that was killed goes on and ends with the same bytes", "[cli][
 }
 
 TEST_CASE("what a killed bake leaves half written is removed, other files are not", "[cli][bake]") {
-    const Bakery bakery;
-    const Files whole = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles whole = bakery.baked("a");
     write_text(bakery.path("a/color-0123456789abcdef.ktx2.part77"), "half");
     write_text(bakery.path("a/manifest.json.part78"), "half");
     write_text(bakery.path("a/mine.part1"), "mine");
-    Files left = bakery.baked("a");
+    BakedFiles left = bakery.baked("a");
     CHECK(left.erase("mine.part1") == 1);
     CHECK(left == whole);
 }
 
 TEST_CASE("two bakes of one folder at once: one says so, nothing is harmed", "[cli][bake]") {
-    const Bakery bakery;
-    const Files whole = bakery.baked("whole");
+    const Bakery bakery(kScene);
+    const BakedFiles whole = bakery.baked("whole");
     const std::string stage = fs::path(bakery.path("scene.json")).parent_path().string();
     // flock(1) stands in for a long bake
     fs::create_directory(bakery.path("a"));
@@ -404,8 +366,8 @@ TEST_CASE("two bakes of one folder at once: one says so, nothing is harmed", "[c
 }
 
 TEST_CASE("a material that fails leaves the others", "[cli][bake]") {
-    const Bakery bakery;
-    const Files before = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles before = bakery.baked("a");
     json scene = json::parse(kScene);
     scene["materials"].push_back(
         {{"name", "bad"}, {"stack", "1 | 1.33@300 | 1.5@9 | 1.5"}, {"shading", "fourier"}});
@@ -416,7 +378,7 @@ TEST_CASE("a material that fails leaves the others", "[cli][bake]") {
     CHECK(outcome.status == 1);
     CHECK_THAT(outcome.err, Contains("scene.json: /materials/6/shading: material bad: ") &&
                                 Contains("1 of 8 materials failed\n") && Contains("1 made"));
-    Files after = files_in(bakery.path("a"));
+    BakedFiles after = files_in(bakery.path("a"));
     CHECK(after.size() == before.size() + 1);
     const json manifest = json::parse(after.at("manifest.json"));
     CHECK(manifest["materials"].size() == 7);
@@ -430,7 +392,7 @@ TEST_CASE("a material that fails leaves the others", "[cli][bake]") {
 }
 
 TEST_CASE("a folder that cannot be written is refused", "[cli][bake]") {
-    const Bakery bakery;
+    const Bakery bakery(kScene);
     write_text(bakery.path("file"), "");
     check_refused(bakery.bake("file/folder", {"--quiet"}), "file/folder");
     check_refused(run_irido({"bake", bakery.path("scene.json"), "-o", "/proc/irido"}),
@@ -438,8 +400,8 @@ TEST_CASE("a folder that cannot be written is refused", "[cli][bake]") {
 }
 
 TEST_CASE("a manifest that is broken, foreign or of other numbers starts over", "[cli][bake]") {
-    const Bakery bakery;
-    const Files whole = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles whole = bakery.baked("a");
     json old = json::parse(whole.at("manifest.json"));
     old["numbers"] = 0;
     json odd = json::parse(whole.at("manifest.json"));
@@ -454,8 +416,8 @@ TEST_CASE("a manifest that is broken, foreign or of other numbers starts over", 
 }
 
 TEST_CASE("a table that was altered is made again", "[cli][bake]") {
-    const Bakery bakery;
-    const Files whole = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles whole = bakery.baked("a");
     const std::string file = bakery.file("a", "color-");
     std::string bytes = read_file(file);
     const auto restored = [&](const std::vector<std::string>& more) {
@@ -484,7 +446,7 @@ TEST_CASE("a table that was altered is made again", "[cli][bake]") {
 }
 
 TEST_CASE("another build of irido that makes no table changes nothing", "[cli][bake]") {
-    const Bakery bakery;
+    const Bakery bakery(kScene);
     REQUIRE(bakery.bake("a").status == 0);
     const std::string path = bakery.path("a/manifest.json");
     json manifest = json::parse(read_file(path));
@@ -502,8 +464,8 @@ TEST_CASE("another build of irido that makes no table changes nothing", "[cli][b
 }
 
 TEST_CASE("the manifest alone says all that an engine loads", "[cli][bake]") {
-    const Bakery bakery;
-    const Files files = bakery.baked("a");
+    const Bakery bakery(kScene);
+    const BakedFiles files = bakery.baked("a");
     const json manifest = json::parse(files.at("manifest.json"));
     CHECK(run_irido({"validate", bakery.path("a/manifest.json")}).status == 0);
     CHECK(manifest["settings"]["white_xyz"][1] == Approx(1));
@@ -539,7 +501,7 @@ TEST_CASE("other formats bake and are kept", "[cli][bake][slow]") {
         scene["dtype"] = "f32";
         scene["materials"].erase(5);
         const Bakery bakery(scene.dump());
-        const Files files = bakery.baked("a");
+        const BakedFiles files = bakery.baked("a");
         INFO(format);
         CHECK_THAT(bakery.bake("a").err, Contains("0 made"));
         fs::remove(bakery.path("a/manifest.json"));
