@@ -81,10 +81,10 @@ TEST_CASE("waves are integrals of the sensitivity times themselves") {
 
 TEST_CASE("mirrors whose fringes are added as waves have the colour of all fringes", "[slow]") {
     Random random(5);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 6; ++i) {
         StackBuilder b;
         if (random.one_in(2)) b.add(b.layer(random.uniform(1.4, 2.4), 100));
-        b.add(random_mirror(b, random, 800, 4000));
+        b.add(random_mirror(b, random, 800, 1600));
         const Stack stack = b.over({1.5, random.one_in(2) ? 3.0 : 0.0});
         const double angle = random.uniform(0, 60);
         const auto waves = colors_of(stack, angle, 1e-6, 1U << 20);
@@ -92,8 +92,7 @@ TEST_CASE("mirrors whose fringes are added as waves have the colour of all fring
         for (std::size_t side = 0; side < 2; ++side) {
             CAPTURE(i, oracle::text_of(stack), angle, side, waves[side].error, every[side].error);
             CHECK(waves[side].error <= 1e-6);
-            CHECK(waves[side].evaluations < 20000);
-            CHECK(every[side].evaluations > 40000);
+            CHECK(2 * waves[side].evaluations < every[side].evaluations);
             CHECK(largest_difference(waves[side].xyz, every[side].xyz) <=
                   waves[side].error + every[side].error);
         }
@@ -174,7 +173,7 @@ TEST_CASE("beats of random layers with phases that are multiples of one another 
           "[color][slow]") {
     Random random(12);
     int answered = 0;
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < 12; ++i) {
         const std::size_t count = 2 + random.below(2);
         StackBuilder b;
         std::vector<double> n{1};
@@ -202,5 +201,5 @@ TEST_CASE("beats of random layers with phases that are multiples of one another 
         CHECK(std::abs(got.xyz[1] - mean) <= got.error + 1e-8);
         answered += got.error <= 1e-6;
     }
-    CHECK(answered >= 4);
+    CHECK(answered >= 2);
 }
