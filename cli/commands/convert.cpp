@@ -127,11 +127,8 @@ int write_other(const ConvertCommand& command, const schemas::StackFormat& forma
                 const schemas::StackDocument& document) {
     schemas::StackWriteOptions options{document.name};
     if (!command.range.empty()) {
-        const std::size_t colon = command.range.find(':');
-        if (colon == std::string::npos)
-            throw UsageError("--range: must be FIRST:LAST in nm (got '" + command.range + "')");
-        options.range = {parse_one_number("--range", command.range.substr(0, colon), 1, 1e7),
-                         parse_one_number("--range", command.range.substr(colon + 1), 1, 1e7)};
+        const auto [first_nm, last_nm] = parse_range("--range", command.range, 1, 1e7);
+        options.range = {first_nm, last_nm};
     }
     const schemas::WrittenStack written = format.write(document.stack, options);
     const bool is_file = !command.output.file.empty();
@@ -188,7 +185,7 @@ void add_format_options(CLI::App& command, ConvertCommand& typed) {
         .add_option("--range", typed.range,
                     "wavelengths of the tables that dispersive materials become, nm\n"
                     "[300:2500]")
-        ->type_name("FIRST:LAST");
+        ->type_name("LO:HI");
 }
 
 }  // namespace

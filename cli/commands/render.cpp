@@ -474,7 +474,7 @@ void add_render_command(CLI::App& program, Run& run) {
         ->add_option("--show", options->show,
                      "of a scene: the material to draw [a contact sheet of all]")
         ->type_name("MATERIAL");
-    add_output_options(*command, options->output, "png or exr");
+    add_output_options(*command, options->output, "png or exr", " (with -f)");
     add_bits_option(*command, options->bits);
     command->add_flag("--stats", options->stats,
                       "print on standard error how the colours were computed, and why");

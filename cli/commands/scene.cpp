@@ -535,7 +535,8 @@ void add_bake_command(CLI::App& program, Run& run) {
     const auto typed = std::make_shared<SceneCommand>();
     add_common(*command, *typed);
     command
-        ->add_option("-o,--output", typed->place.folder, "folder for the tables and manifest.json")
+        ->add_option("-o,--output", typed->place.folder,
+                     "folder for the tables and manifest.json, made if there is none")
         ->type_name("DIR")
         ->required();
     add_manifest_option(*command, *typed);

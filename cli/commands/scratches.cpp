@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -113,6 +114,16 @@ tables::Figure figure_of(const std::vector<Scratch>& scratches, const tables::Gr
     return figure;
 }
 
+/// Refuses names that say another format than that of grids.
+void require_binary_name(const std::string& file) {
+    constexpr std::array<std::string_view, 11> others{
+        ".csv", ".json", ".npy", ".h5", ".txt", ".svg", ".png", ".pdf", ".exr", ".ktx2", ".tsv"};
+    const std::string ending = std::filesystem::path(file).extension().string();
+    if (std::ranges::find(others, ending) != others.end())
+        throw UsageError("--grid: a grid is binary; name it otherwise than " + ending +
+                         ", such as grid.bin (got '" + file + "')");
+}
+
 int run_scratches(const ScratchesCommand& command) {
     const tables::PictureFormat* const picture = asked_picture(command.output);
     if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
@@ -142,6 +153,7 @@ int run_scratches(const ScratchesCommand& command) {
         if (!command.output.file.empty())
             throw UsageError("--grid: cannot be combined with --output");
         if (command.grid == "-") throw UsageError("--grid: must name a file");
+        require_binary_name(command.grid);
         tables::check_outputs({command.grid + ".json", command.grid});
         const tables::GridFile file = tables::grid_file(scratches, extent);
         tables::write_file(command.grid + ".json", file.header.dump(2) + "\n");
@@ -176,7 +188,13 @@ void add_scratches_command(CLI::App& program, Run& run) {
     const auto options = std::make_shared<ScratchesCommand>();
     const auto checked = std::make_shared<std::vector<std::string>>();
     add_surface_options(*command, options->surface);
-    command->get_option("SURFACE")->required(false);
+    command->get_option("SURFACE")->required(false)->description(
+        "surface file with scratches (.json; see irido validate --schema surface),\n"
+        "or - for standard input");
+    command->remove_option(command->get_option("--alpha"));
+    command->get_option("--set")->description(
+        "override a value of the document by dotted path; repeatable:\n"
+        "--set seed=2 --set fields.0.count_per_mm2=80");
     command
         ->add_option("--extent", options->extent,
                      "width and height of the rectangle, um, [0.001, 1e6] [1000,1000]")

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/commands/table_check.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/options/command.hpp"
 #include "schemas/documents/design_document.hpp"
@@ -46,10 +47,19 @@ bool is_stack(const json& document) {
            document.contains("substrate");
 }
 
-std::vector<std::string> material_problems(const std::string& text, const std::string& file) {
+std::vector<std::string> table_problems(const std::string& text, const std::string& path) {
+    std::string of_material;
     try {
-        schemas::read_material_file(text, file);
+        schemas::read_material_file(text, schemas::shown_path(path));
+        return {};
     } catch (const schemas::InputError& error) {
+        of_material = error.what();
+    }
+    try {
+        if (!check_other_table(text, path)) return {of_material};
+    } catch (const schemas::InputError& error) {
+        return {error.what()};
+    } catch (const DomainError& error) {
         return {error.what()};
     }
     return {};
@@ -67,7 +77,7 @@ std::vector<std::string> expression_problems(const std::string& expression) {
 std::vector<std::string> problems_of(const std::string& path) {
     if (path.find('|') != std::string::npos) return expression_problems(path);
     const std::string text = schemas::read_text(path), file = schemas::shown_path(path);
-    if (schemas::is_material_file(path)) return material_problems(text, file);
+    if (schemas::is_material_file(path)) return table_problems(text, path);
     const std::string folder = std::filesystem::path(path).parent_path().string();
     json document;
     try {
@@ -124,7 +134,7 @@ int print_schema(const std::string& name) {
 void add_validate_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
         "validate",
-        "Check stacks, surfaces, designs, scenes, plans, manifests and material files: print every "
+        "Check stacks, surfaces, designs, scenes, plans, manifests and tables of text: print every "
         "error, or FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto schema = std::make_shared<std::string>();
@@ -137,11 +147,11 @@ void add_validate_command(CLI::App& program, Run& run) {
             ->expected(0, 1);
     offer(*command, "schema", schema_names);
     command
-        ->add_option(
-            "FILE", *files,
-            "stacks, surfaces, designs, scenes, plans or manifests (.json), material files\n"
-            "(.csv, .txt, .tsv, .dat, .nk, .mat, .yml), expressions, or - for JSON\n"
-            "on standard input")
+        ->add_option("FILE", *files,
+                     "stacks, surfaces, designs, scenes, plans or manifests (.json); files of\n"
+                     "materials (.csv, .txt, .tsv, .dat, .nk, .mat, .yml); tables of\n"
+                     "measurements, films, points, directions and lamps (.csv, .txt, .tsv,\n"
+                     ".dat); expressions, or - for JSON on standard input")
         ->excludes(option);
     set_examples(*command, {"irido validate schemas/examples/*.json",
                             "irido validate - < stack.json", "irido validate --schema scene"});

@@ -66,7 +66,7 @@ void add_view_command(CLI::App& program, Run& run) {
     add_stack_options(*command, options->stack);
     add_light_options(*command, options->light);
     add_strict_option(*command, options->light.strict);
-    add_output_options(*command, options->output, "html");
+    add_output_options(*command, options->output, "html", " (with -f)");
     add_threads_option(*command, options->threads);
     add_quiet_option(*command, options->quiet);
     set_examples(

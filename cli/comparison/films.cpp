@@ -56,10 +56,8 @@ public:
         const auto found = columns_.find(name);
         if (found == columns_.end())
             throw schemas::InputError(file_, "", "the column '" + name + "' is missing");
-        if (!found->second.texts.empty())
-            throw schemas::InputError(file_, "",
-                                      name + " must be a number (got '" + text(name, row) +
-                                          "' in row " + std::to_string(row + 1) + ")");
+        if (const std::string problem = found->second.problem_as_numbers(); !problem.empty())
+            throw schemas::InputError(file_, "", name + ": " + problem);
         return found->second.numbers[row];
     }
 

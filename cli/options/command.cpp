@@ -97,13 +97,15 @@ std::vector<std::string> names_before_notes(std::string formats) {
 
 }  // namespace
 
-void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats) {
+void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats,
+                        const std::string& otherwise) {
     command
         .add_option_function<std::string>(
             "-o,--output",
             [&output](const std::string& file) { output.file = file == "-" ? "" : file; },
             "write to FILE (whole or not at all); the format follows the\n"
-            "extension; - is standard output [-]")
+            "extension; - is standard output" +
+                otherwise)
         ->type_name("FILE");
     add_format_option(command, output.format, formats);
 }
@@ -225,6 +227,10 @@ std::string resolved_format(const OutputOptions& output) {
     const std::size_t slash = output.file.find_last_of('/');
     const std::size_t dot = output.file.find_last_of('.');
     if (is_nameless(output)) return "csv";
+    std::error_code ignored;
+    if (output.file.ends_with('/') || std::filesystem::is_directory(output.file, ignored))
+        throw UsageError(output.option + ": must name a file, not a folder (got '" + output.file +
+                         "')");
     if (dot == std::string::npos || (slash != std::string::npos && dot < slash))
         throw UsageError(output.option +
                          ": must have an extension that names the format, or use --format (got '" +

@@ -75,8 +75,11 @@ std::string title_of(const schemas::StackDocument& document, const schemas::Stac
 std::string title_of(const schemas::StackRequest& request,
                      const std::vector<std::string>& varied = {});
 
-/// Adds -o and -f; `formats` for the help begins with their names, separated by commas or "or".
-void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats);
+/// Adds -o and -f.
+/// formats    for the help; begins with their names, separated by commas or "or"
+/// otherwise  for the help: what applies without -o
+void add_output_options(CLI::App& command, OutputOptions& output, const std::string& formats,
+                        const std::string& otherwise = " [-]");
 /// Adds -f alone.
 void add_format_option(CLI::App& command, std::string& format, const std::string& formats);
 

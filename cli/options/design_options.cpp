@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cli/options/color_options.hpp"
+#include "schemas/documents/document_kind.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/number.hpp"
@@ -64,6 +65,8 @@ json typed_or_file(const TaskOptions& options) {
     if (path.find('|') != std::string::npos) return json{{"stack", path}};
     json document = schemas::parse_json(schemas::read_text(path), schemas::shown_path(path));
     if (schemas::is_design_task(document)) return document;
+    if (const std::string other = schemas::other_kind(document, "stack"); !other.empty())
+        throw schemas::InputError(schemas::shown_path(path), "", other);
     return json{{"stack", std::move(document)}};
 }
 
@@ -81,7 +84,7 @@ void add_task_options(CLI::App& command, TaskOptions& options) {
         .add_option("--free", options.free,
                     "what may move, repeatable; * stands for all that fit:\n"
                     "layers.*.thickness_nm=5:300")
-        ->type_name("PATH[=LOW:HIGH]")
+        ->type_name("PATH[=LO:HI]")
         ->take_all();
     command
         .add_option("--target", options.targets,
@@ -135,7 +138,7 @@ json parse_free(const std::string& text) {
     const std::string bounds = text.substr(equals + 1);
     const std::size_t colon = bounds.find(':');
     if (colon == std::string::npos)
-        throw UsageError("--free '" + text + "': must be PATH or PATH=LOW:HIGH");
+        throw UsageError("--free '" + text + "': must be PATH or PATH=LO:HI");
     free["bounds"] = {number_of("--free", text, std::string_view(bounds).substr(0, colon)),
                       number_of("--free", text, std::string_view(bounds).substr(colon + 1))};
     return free;

@@ -27,7 +27,7 @@ void add_task_options(CLI::App& command, TaskOptions& options);
 /// Adds the options of needles.
 void add_needle_options(CLI::App& command, TaskOptions& options);
 
-/// Parses PATH or PATH=LOW:HIGH as a free value. Throws UsageError.
+/// Parses PATH or PATH=LO:HI as a free value. Throws UsageError.
 nlohmann::json parse_free(const std::string& text);
 
 /// Parses QUANTITY [WAVELENGTHS] [@ANGLES] [POLARIZATION] (=|>=|<=) VALUE as a target. Throws

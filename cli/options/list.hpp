@@ -36,7 +36,7 @@ double parse_one_number(std::string_view option, std::string_view text, double l
 std::uint64_t parse_whole_number(std::string_view option, std::string_view text, double lowest,
                                  double highest);
 
-/// Parses FIRST:LAST, where FIRST must not exceed LAST. Throws UsageError.
+/// Parses LO:HI, where LO must not exceed HI. Throws UsageError.
 /// option           name of the option, for errors
 /// text             as given
 /// lowest, highest  closed range of both, in the option's unit

@@ -39,16 +39,19 @@ std::vector<Directions> directions_of_file(const std::string& path) {
                                           did_you_mean(column.path, {kDirectionColumns.begin(),
                                                                      kDirectionColumns.end()}));
         const auto c = static_cast<std::size_t>(place - kDirectionColumns.begin());
-        if (column.numbers.empty() && !column.codes.empty())
-            throw schemas::InputError(file, "", column.path + " must be numbers");
+        if (const std::string problem = column.problem_as_numbers(); !problem.empty())
+            throw schemas::InputError(file, "", column.path + ": " + problem);
         has[c] = true;
         directions.resize(column.numbers.size());
         const bool is_theta = c % 2 == 0;
         for (std::size_t i = 0; i < directions.size(); ++i) {
             const double lowest = is_theta ? 0 : -kWholeTurn_deg;
             const double highest = is_theta ? kGrazing_deg : kWholeTurn_deg;
-            require_in_range(file + ": " + column.path, column.numbers[i], lowest, highest);
-            member(directions[i], c) = column.numbers[i];
+            const double value = column.numbers[i];
+            if (!(value >= lowest && value <= highest))
+                require_in_range(file + ": row " + std::to_string(i + 1) + ": " + column.path,
+                                 value, lowest, highest);
+            member(directions[i], c) = value;
         }
     }
     for (std::size_t c = 0; c < has.size(); ++c)

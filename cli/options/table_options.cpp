@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "tables/lut/lut_figure.hpp"
 #include "tables/lut/lut_file.hpp"
+#include "tables/lut/lut_texels.hpp"
 
 namespace irido::cli {
 
@@ -110,6 +111,28 @@ tables::LutMaking making_of(const TableOptions& options, const tables::LutFormat
     return making;
 }
 
+namespace {
+
+/// Notes textures that graphics processors do not take.
+void note_large_texture(const tables::Lut& lut, const tables::LutLayout& layout, bool quiet) {
+    constexpr std::size_t kMostFlat = 16384, kMostDeep = 2048;
+    const std::vector<tables::LutAxis> axes = lut.axes_of_level(0);
+    const bool has_depth = axes.size() == 3 && axes.front().count() > 1;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const std::size_t blocks = i + 1 == axes.size() ? tables::texel_blocks(lut).count : 1;
+        const std::size_t texels = blocks * axes[i].count();
+        const bool is_flat = !has_depth || (layout.layers && i > 0);
+        const std::size_t most = is_flat ? kMostFlat : kMostDeep;
+        if (texels <= most) continue;
+        const std::string where = is_flat ? "" : layout.layers ? " array layers" : " in 3D";
+        note(axes[i].name + ": " + std::to_string(texels) + " texels; most GPUs take at most " +
+                 std::to_string(most) + where,
+             quiet);
+    }
+}
+
+}  // namespace
+
 void write_table(const tables::Lut& lut, const tables::LutFormat& format,
                  const tables::LutLayout& layout, const OutputOptions& output, bool quiet) {
     if (output.file.empty()) {
@@ -119,6 +142,7 @@ void write_table(const tables::Lut& lut, const tables::LutFormat& format,
     } else {
         tables::write_lut(lut, output.file, format, layout);
     }
+    if (format.name == "ktx2") note_large_texture(lut, layout, quiet);
     if (layout.layers) note("three.js reads only the first array layer of a file", quiet);
     if (format.name == "ktx2" || format.name == "exr")
         for (const tables::LutAxis& axis : lut.axes)

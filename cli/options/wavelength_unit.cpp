@@ -81,6 +81,12 @@ TypedWavelengths::TypedWavelengths(const std::string& list, const std::string& u
     std::ranges::stable_sort(typed_, {}, &std::pair<double, double>::first);
 }
 
+schemas::InputError TypedWavelengths::with_unit(const schemas::InputError& error) const {
+    if (unit_->per_nm == 1) return error;
+    return {error.file, error.where,
+            error.message + "; --wavelengths are in " + std::string(unit_->name)};
+}
+
 double TypedWavelengths::printed(double nm) const {
     if (unit_->per_nm == 1) return nm;
     const auto found = std::ranges::lower_bound(typed_, nm, {}, &std::pair<double, double>::first);

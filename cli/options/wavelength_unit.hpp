@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "schemas/input_error.hpp"
+
 namespace CLI {
 class App;
 }
@@ -43,6 +45,8 @@ public:
 
     const WavelengthUnit& unit() const { return *unit_; }
     const std::vector<double>& nm() const { return nm_; }
+    /// The error of a stack at these wavelengths; names their unit if it is not nm.
+    schemas::InputError with_unit(const schemas::InputError& error) const;
     /// How a wavelength is printed: as the number given for it, if there is one.
     double printed(double nm) const;
 

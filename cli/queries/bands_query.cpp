@@ -30,7 +30,7 @@ std::pair<double, double> parse_wavelengths(const std::string& text) {
     const auto range =
         parse_range("--range", text, kAllWavelengths.first_nm, kAllWavelengths.last_nm);
     if (range.first == range.second)
-        throw UsageError("--range: FIRST must be below LAST (got '" + text + "')");
+        throw UsageError("--range: LO must be below HI (got '" + text + "')");
     return range;
 }
 
@@ -274,7 +274,7 @@ std::unique_ptr<QueryOptions> BandsOptions::add(CLI::App& command) {
     command
         .add_option("--range", options->range,
                     "range of vacuum wavelengths, nm, in [1, 1e7] [360:830]")
-        ->type_name("FIRST:LAST");
+        ->type_name("LO:HI");
     command.add_flag("--gaps", options->gaps,
                      "list gaps instead: edges, width, R of the whole stack at mid-gap (in\n"
                      "1/wavelength), the numbers of periods N_95, N_99, N_999 that reach\n"

@@ -214,6 +214,7 @@ SurfaceRows simulated_colors(const LayeredSurface& surface,
             {simulated.values.mean[k], simulated.values.mean[k + 1], simulated.values.mean[k + 2]});
     SurfaceRows rows = columns.rows(std::move(keys), xyz);
     add_simulated_columns(simulated, names, rows);
+    if (simulated.shard) add_light_columns(query.color, rows);
     return rows;
 }
 

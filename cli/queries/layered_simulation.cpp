@@ -80,8 +80,9 @@ struct ShardRows {
     }
     const std::vector<double>& numbers_of(const std::string& name) const {
         const auto found = std::ranges::find(columns, name, &schemas::PointsColumn::path);
-        if (found == columns.end() || found->numbers.empty())
-            fail("must have numbers in the column " + name + ", as --shard writes them");
+        if (found == columns.end()) fail("must have the column " + name + ", as --shard writes it");
+        if (const std::string problem = found->problem_as_numbers(); !problem.empty())
+            fail(name + ": " + problem);
         return found->numbers;
     }
     /// Of a column that is the same in every row.
@@ -283,6 +284,41 @@ void add_simulated_columns(const SimulatedValues& simulated, const std::vector<s
             });
 }
 
+namespace {
+
+struct LightColumn {
+    const char* name;
+    std::string ColorOptions::*option;
+};
+constexpr std::array kLightColumns{LightColumn{"illuminant", &ColorOptions::illuminant},
+                                   LightColumn{"observer", &ColorOptions::observer},
+                                   LightColumn{"space", &ColorOptions::space},
+                                   LightColumn{"adaptation", &ColorOptions::adaptation}};
+
+/// The options of the query, those that were not typed as the shard has them.
+ColorOptions light_of(const ShardRows& shard, const ColorOptions& typed) {
+    ColorOptions light = typed;
+    const ColorOptions untyped;
+    for (const LightColumn& column : kLightColumns) {
+        const auto found =
+            std::ranges::find(shard.columns, column.name, &schemas::PointsColumn::path);
+        if (found == shard.columns.end() || light.*column.option != untyped.*column.option)
+            continue;
+        light.*column.option =
+            found->texts.empty() ? to_text(found->numbers.front()) : found->texts.front();
+    }
+    return light;
+}
+
+}  // namespace
+
+void add_light_columns(const ColorOptions& typed, SurfaceRows& rows) {
+    const std::size_t count = rows.records.rows();
+    for (const LightColumn& column : kLightColumns)
+        rows.records.columns.push_back(
+            {column.name, tables::Column::Texts(count, typed.*column.option)});
+}
+
 SurfaceRows rows_of_shards(const SurfaceQuery& query) {
     std::vector<ShardRows> shards = read_shards(query.merge);
     const ShardRows& first = shards.front();
@@ -290,7 +326,7 @@ SurfaceRows rows_of_shards(const SurfaceQuery& query) {
     NumberColumns keys = first.keys;
     SurfaceRows rows;
     if (first.names.size() > 1) {
-        const ColorColumns columns(query.color);
+        const ColorColumns columns(light_of(first, query.color));
         // the colours of the first shard tell whether the light and the space are those typed
         for (const tables::Column& column :
              columns.rows(keys, colors_of(first.values)).records.columns)
@@ -298,7 +334,7 @@ SurfaceRows rows_of_shards(const SurfaceQuery& query) {
                 if (first.numbers_of(column.name) != *numbers)
                     first.fail(
                         "has colours in another --space, --illuminant, --observer or --adaptation: "
-                        "repeat the options of the shards");
+                        "leave these options to the shards");
         rows = columns.rows(std::move(keys), colors_of(all.values));
     } else {
         const std::size_t count = keys.size();

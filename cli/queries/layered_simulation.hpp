@@ -59,8 +59,12 @@ SimulatedValues simulate(const schemas::SurfaceDocument& document, const Simulat
 void add_simulated_columns(const SimulatedValues& simulated, const std::vector<std::string>& names,
                            SurfaceRows& rows);
 
+/// Appends the light and the space of colours, by which the files of shards tell them.
+void add_light_columns(const ColorOptions& typed, SurfaceRows& rows);
+
 /// The rows of the whole from the files of all of its shards alone, `query.merge`; colours in the
-/// light and space of the query, which must be those of the shards. Throws InputError.
+/// light and space of the shards, which options of the query must not contradict. Throws
+/// InputError.
 SurfaceRows rows_of_shards(const SurfaceQuery& query);
 
 }  // namespace irido::cli

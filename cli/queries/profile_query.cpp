@@ -198,9 +198,13 @@ tables::RowPlot ProfileQuery::plot(const tables::Records&, tables::GamutMapping)
 
 std::unique_ptr<const PreparedStack> ProfileQuery::prepare(schemas::StackDocument document) const {
     require_fields(document, stack_power(document, document.stack));
-    auto prepared = std::make_unique<ProfileStack>(std::move(document), wavelengths_.nm());
-    note_incident(prepared->document, prepared->table, note_);
-    return prepared;
+    try {
+        auto prepared = std::make_unique<ProfileStack>(std::move(document), wavelengths_.nm());
+        note_incident(prepared->document, prepared->table, note_);
+        return prepared;
+    } catch (const schemas::InputError& error) {
+        throw wavelengths_.with_unit(error);
+    }
 }
 
 std::unique_ptr<QueryResult> ProfileQuery::new_result() const {

@@ -36,8 +36,11 @@ ScratchSight sight_of(const ScratchOptions& options) {
 /// Evaluates a scratched surface.
 class ScratchAnswers {
 public:
-    ScratchAnswers(const ScratchedSurface& surface, const SurfaceQuery& query)
-        : query_(query),
+    ScratchAnswers(const ScratchedSurface& surface, const schemas::SurfaceDocument& document,
+                   const SurfaceQuery& query)
+        : surface_(surface),
+          document_(document),
+          query_(query),
           sum_(parse_scratch_sum(query.scratch)),
           method_(parse_light_integral(query.scratch)),
           scattering_(surface, sight_of(query.scratch), sum_, query.execution) {
@@ -73,6 +76,17 @@ public:
     }
 
 private:
+    /// Notes materials of the base that colours clamp to their end values.
+    void report_held_base(const ColorColumns& columns) const {
+        if (!surface_.base) return;
+        schemas::StackDocument base;
+        base.stack = *surface_.base;
+        base.file = document_.file;
+        base.material_pointers.assign(base.stack.materials.size(), "/base");
+        report_held_ranges(base, columns.illumination().tables.sensitivity(), query_.color.strict,
+                           query_.note);
+    }
+
     SurfaceRows density() const {
         if (query_.wants_color || !query_.scratch.area_light.empty())
             throw UsageError("--quantity density: cannot be combined with --color and lights");
@@ -98,6 +112,7 @@ private:
         const std::vector<Directions> directions = parse_directions(query_.directions);
         require_few_rows(static_cast<double>(directions.size()));
         const ColorColumns columns(query_.color);
+        report_held_base(columns);
         std::vector<Triple> xyz =
             scattering_.colors(sky_pairs(directions), columns.illumination().tables.sensitivity());
         for (Triple& color : xyz)
@@ -146,12 +161,15 @@ private:
         std::vector<UnitVector> views;
         NumberColumns keys = view_columns(views, 1);
         const ColorColumns columns(query_.color);
+        report_held_base(columns);
         return columns.rows(
             std::move(keys),
             scattering_.light_colors(cones, views, columns.illumination().tables.sensitivity(),
                                      method_));
     }
 
+    const ScratchedSurface& surface_;
+    const schemas::SurfaceDocument& document_;
     const SurfaceQuery& query_;
     ScratchSum sum_;
     LightIntegral method_;
@@ -163,7 +181,7 @@ private:
 SurfaceRows rows_of_surface(const ScratchedSurface& surface,
                             const schemas::SurfaceDocument& document, const SurfaceQuery& query) {
     try {
-        return ScratchAnswers(surface, query).rows();
+        return ScratchAnswers(surface, document, query).rows();
     } catch (const DomainError& error) {
         throw schemas::InputError(document.file, "", error.what());
     }

@@ -373,9 +373,13 @@ tables::RowPlot SpectrumQuery::plot(const tables::Records& rows, tables::GamutMa
 
 std::unique_ptr<const PreparedStack> SpectrumQuery::prepare(schemas::StackDocument document) const {
     spectrum_needs(polarizations_, columns_, stack_power(document, document.stack));
-    auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
-    note_stack(prepared->document, prepared->table);
-    return prepared;
+    try {
+        auto prepared = std::make_unique<SpectrumStack>(std::move(document), wavelengths_nm_);
+        note_stack(prepared->document, prepared->table);
+        return prepared;
+    } catch (const schemas::InputError& error) {
+        throw typed_.with_unit(error);
+    }
 }
 
 void SpectrumQuery::note_stack(const schemas::StackDocument& document,

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "core/stack/reversed.hpp"
+#include "schemas/documents/document_kind.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/input_error.hpp"
+#include "schemas/readers/number.hpp"
 
 namespace irido::cli {
 
@@ -48,10 +50,19 @@ void from_origin(const SweepSpace& space, std::size_t column, std::size_t index,
 /// The source with each varied thickness in the middle of its range, as used to prepare structures.
 schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSpace& space,
                                       const std::vector<std::size_t>& thicknesses) {
+    if (const std::string other = schemas::other_kind(source.document, "stack"); !other.empty())
+        throw schemas::InputError(source.file, "", other);
     for (const std::size_t c : thicknesses) {
         const SweptColumn& column = space.columns()[c];
-        if (column.is_text())
-            throw schemas::InputError("", "", space.origin_of(c, 0) + "must be numbers");
+        if (column.is_text()) {
+            const auto wrong = std::ranges::find_if(
+                column.texts, [](const std::string& text) { return !schemas::parse_number(text); });
+            const auto index = static_cast<std::size_t>(wrong - column.texts.begin());
+            throw schemas::InputError(
+                "", "",
+                space.origin_of(c, index) + (column.of_points ? column.path + ": " : "") +
+                    "must be numbers (got " + schemas::in_quotes(*wrong) + ")");
+        }
         for (std::size_t i = 0; i < column.numbers.size(); ++i)
             from_origin(space, c, i, [&] {
                 schemas::VariedStack::require_thickness(source.file, column.path,

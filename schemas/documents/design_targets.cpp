@@ -306,6 +306,23 @@ void note_contradictions(DesignTask& task) {
     }
 }
 
+/// Notes powers that were probably meant as percentages.
+void note_percentages(DesignTask& task) {
+    constexpr double kMostPower = 1.2;
+    for (std::size_t t = 0; t < task.problem.targets.size(); ++t) {
+        const DesignTarget& target = task.problem.targets[t];
+        const bool is_power = target.quantity == Quantity::R || target.quantity == Quantity::T ||
+                              target.quantity == Quantity::A;
+        if (!is_power) continue;
+        const auto large =
+            std::ranges::find_if(target.target, [](double value) { return value > kMostPower; });
+        if (large == target.target.end()) continue;
+        task.notes.push_back("/targets/" + std::to_string(task.target_numbers[t]) +
+                             ": R, T and A are fractions; the target is " + to_text(*large));
+        return;
+    }
+}
+
 }  // namespace
 
 void read_targets(const json& targets, const std::string& folder, DesignTask& task) {
@@ -316,6 +333,7 @@ void read_targets(const json& targets, const std::string& folder, DesignTask& ta
     });
     if (!has_weight) throw InputError(task.file, "/targets", "all weights are 0");
     note_contradictions(task);
+    note_percentages(task);
 }
 
 }  // namespace irido::schemas

@@ -1,5 +1,6 @@
 #include "schemas/documents/listed_lights.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -18,8 +19,15 @@ void each_light(const std::string& text_or_path, const char* schema,
     const std::string file = is_text ? "light" : shown_path(text_or_path);
     const nlohmann::json document =
         parse_json(is_text ? text_or_path : read_text(text_or_path), file);
-    for (const Problem& problem : check(Schema(nlohmann::json::parse(schema)), document))
+    const std::vector<Problem> problems = check(Schema(nlohmann::json::parse(schema)), document);
+    if (!problems.empty()) {
+        // a misspelt key may make a light look like one of another kind, which lacks keys
+        const auto misspelt = std::ranges::find_if(problems, [](const Problem& problem) {
+            return problem.message.find("did you mean") != std::string::npos;
+        });
+        const Problem& problem = misspelt == problems.end() ? problems.front() : *misspelt;
         throw InputError(file, problem.pointer, problem.message);
+    }
     const bool is_list = document.is_array();
     for (std::size_t i = 0; i < (is_list ? document.size() : 1); ++i) {
         try {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "schemas/documents/document_kind.hpp"
 #include "schemas/documents/inner_stack.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/schema_check.hpp"
@@ -68,8 +69,11 @@ public:
         : document_(document), file_(std::move(file)), folder_(std::move(folder)) {}
 
     Scene read() {
-        for (const Problem& problem : broken_rules(document_))
+        for (const Problem& problem : broken_rules(document_)) {
+            if (const std::string other = other_kind(document_, "scene"); !other.empty())
+                throw InputError(file_, "", other);
             throw InputError(file_, problem.pointer, problem.message);
+        }
         read_settings();
         for (std::size_t i = 0; i < document_["materials"].size(); ++i)
             scene_.materials.push_back(
@@ -336,6 +340,8 @@ Scene read_scene(const json& document, const std::string& file, const std::strin
 }
 
 Scene read_scene(const std::string& path) {
+    if (path.find('|') != std::string::npos)
+        throw InputError("\"" + path + "\"", "", "is a stack; SCENE must be a file");
     return read_scene(parse_json(read_text(path), shown_path(path)), shown_path(path),
                       std::filesystem::path(path).parent_path().string());
 }

@@ -21,6 +21,7 @@
 #include "core/nearest.hpp"
 #include "core/stack/index_table.hpp"
 #include "core/stack/reversed.hpp"
+#include "schemas/documents/document_kind.hpp"
 #include "schemas/documents/equal_materials.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/material_models.hpp"
@@ -459,7 +460,11 @@ StackDocument read_stack(const json& document, const std::string& file, const st
 StackDocument read_stack(const json& document, const std::string& file, const std::string& folder,
                          MaterialFiles& files) {
     StackReader reader(document, file, folder, files);
-    if (!reader.problems.empty()) throw InputError(reader.problems.front());
+    if (!reader.problems.empty()) {
+        if (const std::string other = other_kind(document, "stack"); !other.empty())
+            throw InputError(file, "", other);
+        throw InputError(reader.problems.front());
+    }
     StackDocument result = reader.read();
     if (!reader.problems.empty()) throw InputError(reader.problems.front());
     result.file = file;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -92,8 +93,9 @@ char likely_separator(std::string_view line) {
     return ' ';
 }
 
-/// The names in a line; a unit in brackets belongs to the word before it.
-std::vector<std::string> names_of(std::string_view line, char separator) {
+}  // namespace
+
+std::vector<std::string> column_names(std::string_view line, char separator) {
     std::vector<std::string> names;
     for (const std::string_view cell : cells_of(line, separator)) {
         const bool continues = separator == ' ' && !names.empty() && !cell.empty() &&
@@ -105,6 +107,8 @@ std::vector<std::string> names_of(std::string_view line, char separator) {
     }
     return names;
 }
+
+namespace {
 
 class TextReader {
 public:
@@ -127,10 +131,12 @@ public:
         }
         if (first == lines_.end()) fail_without_rows();
         separator_ = *separator_of(first->text);
+        const std::span<const Line> above{lines_.begin(), first};
         for (auto line = first; line != lines_.end(); ++line)
-            if (!line->is_comment) table.rows.push_back(row(*line, table.rows));
+            if (!line->is_comment) table.rows.push_back(row(*line));
+        require_count(table.rows, above);
         require_one_point(table.rows);
-        table.header = header({lines_.begin(), first}, table.rows[0].values.size());
+        table.header = header(above, table.rows[0].values.size());
         return table;
     }
 
@@ -161,22 +167,40 @@ private:
                    : std::to_string(names_.fewest) + " to " + std::to_string(names_.most);
     }
 
-    ColumnRow row(const Line& line, const std::vector<ColumnRow>& before) const {
+    ColumnRow row(const Line& line) const {
         ColumnRow row{line.whole, {}, cells_of(line.text, separator_)};
         for (const std::string_view cell : row.cells) {
             const auto value = number_of(cell);
             if (!value) fail(line.whole, cell, "must be a number (got " + in_quotes(cell) + ")");
             row.values.push_back(*value);
         }
-        const std::size_t count = row.values.size();
-        const bool fits = before.empty() ? count >= names_.fewest && count <= names_.most
-                                         : count == before[0].values.size();
-        if (!fits)
-            fail(line.whole, row.cells[0],
-                 "must have " +
-                     (before.empty() ? count_rule() : std::to_string(before[0].values.size())) +
-                     " columns (got " + std::to_string(count) + ")");
         return row;
+    }
+
+    /// Number of columns that all rows have, or else a heading names, or else most rows have.
+    std::size_t likely_count(const std::vector<ColumnRow>& rows,
+                             std::span<const Line> above) const {
+        std::map<std::size_t, std::size_t> rows_of;
+        for (const ColumnRow& row : rows) ++rows_of[row.values.size()];
+        if (rows_of.size() == 1) return rows_of.begin()->first;
+        for (std::size_t count = names_.fewest; count <= names_.most; ++count)
+            for (const Line& line : above)
+                if (!header_in(line, count).empty()) return count;
+        std::size_t likely = rows.front().values.size();
+        for (const auto& [count, times] : rows_of)
+            if (times > rows_of[likely]) likely = count;
+        return likely;
+    }
+
+    /// Requires equally many columns in all rows; blames those that differ from the others.
+    void require_count(const std::vector<ColumnRow>& rows, std::span<const Line> above) const {
+        const std::size_t count = likely_count(rows, above);
+        const bool is_possible = count >= names_.fewest && count <= names_.most;
+        for (const ColumnRow& row : rows)
+            if (row.values.size() != count || !is_possible)
+                fail(row.line, row.cells[0],
+                     "must have " + (is_possible ? std::to_string(count) : count_rule()) +
+                         " columns (got " + std::to_string(row.values.size()) + ")");
     }
 
     /// "1,234;1.5" has either a thousands separator or two kinds of decimal point.
@@ -200,7 +224,8 @@ private:
     /// The names in a line above the first row, split at the rows' separator or at one of its own.
     std::vector<std::string> header_in(const Line& line, std::size_t count) const {
         for (const char separator : {separator_, likely_separator(line.text), ' '})
-            if (auto names = names_of(line.text, separator); are_names(names, count)) return names;
+            if (auto names = column_names(line.text, separator); are_names(names, count))
+                return names;
         return {};
     }
 
@@ -227,7 +252,7 @@ private:
     std::vector<std::string> with_units(std::vector<std::string> names,
                                         std::span<const Line> below) const {
         if (below.empty() || below[0].is_comment) return names;
-        const std::vector<std::string> units = names_of(below[0].text, separator_);
+        const std::vector<std::string> units = column_names(below[0].text, separator_);
         std::vector<std::string> both = names;
         for (std::size_t c = 0; c < std::min(units.size(), names.size()); ++c)
             both[c] += " " + units[c];

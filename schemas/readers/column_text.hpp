@@ -35,6 +35,10 @@ struct ColumnText {
     bool has_semicolon_comments = false;
 };
 
+/// The names in a line of a header; where blanks separate them, a unit in brackets belongs to the
+/// word before it.
+std::vector<std::string> column_names(std::string_view line, char separator);
+
 /// The column names that a header may have.
 struct ColumnNames {
     bool (*are)(const std::vector<std::string>& header);

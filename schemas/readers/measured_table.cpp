@@ -6,8 +6,10 @@
 
 #include "core/error.hpp"
 #include "core/material/material.hpp"
+#include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/column_text.hpp"
+#include "schemas/readers/utf8.hpp"
 
 namespace irido::schemas {
 
@@ -51,11 +53,22 @@ bool names_quantity(const std::vector<std::string>& words, std::string_view quan
     return std::ranges::includes(words, own);
 }
 
+constexpr std::array<std::string_view, 1> kPercent{"percent"};
+constexpr std::array<std::string_view, 2> kFraction{"fraction", "fractions"};
+constexpr std::array<std::string_view, 3> kRadians{"rad", "radian", "radians"};
+
 bool is_percent(std::string_view column) {
-    const std::vector<std::string> words = words_of(column);
-    return column.find('%') != std::string_view::npos ||
-           std::ranges::find(words, "percent") != words.end();
+    return column.find('%') != std::string_view::npos || has_word(words_of(column), kPercent);
 }
+
+/// Factor from the unit that the column's name states to fractions or degrees.
+double scale_of(std::string_view column) {
+    if (is_percent(column)) return 0.01;
+    return has_word(words_of(column), kRadians) ? 1 / kDegree : 1;
+}
+
+/// The largest power that noise and a bad reference leave credible.
+constexpr double kMostPower = 1.2;
 
 bool names_columns(const std::vector<std::string>& header) {
     return std::ranges::any_of(
@@ -67,6 +80,8 @@ public:
     MeasuredReader(std::string_view text, const std::string& name, std::string_view quantity,
                    std::string_view column)
         : name_(name),
+          quantity_(quantity),
+          is_power_(quantity == "R" || quantity == "T" || quantity == "A"),
           lines_(lines_of(text)),
           table_(read_columns(lines_, name,
                               {names_columns,
@@ -85,7 +100,7 @@ public:
         std::vector<MeasuredRows> all;
         for (const ColumnRow& row : table_.rows) {
             const std::optional<double> angle_deg =
-                angle_ ? std::optional(row.values[*angle_]) : std::nullopt;
+                angle_ ? std::optional(row.values[*angle_] * angle_scale_) : std::nullopt;
             if (angle_deg && !(*angle_deg >= 0 && *angle_deg < 90))
                 throw InputError(
                     name_, place_of(row.line, row.cells[*angle_]),
@@ -96,7 +111,7 @@ public:
                 rows = all.end() - 1;
             }
             rows->wavelength_nm.push_back(wavelength(row));
-            rows->value.push_back(row.values[value_] * scale_);
+            rows->value.push_back(value(row));
             if (sigma_) rows->sigma.push_back(sigma(row));
         }
         return all;
@@ -112,8 +127,18 @@ private:
                          "wavelength_nm must be in [1, 1e+07] (got " + to_text(nm) + ")");
     }
 
+    double value(const ColumnRow& row) const {
+        const double number = row.values[value_] * scale_;
+        if (!is_power_ || is_fraction_ || number <= kMostPower) return number;
+        const std::string& column = table_.header[value_];
+        throw InputError(name_, place_of(row.line, row.cells[value_]),
+                         column + " must be a fraction (got " + to_text(number) +
+                             "); name the column \"" + quantity_ + " [%]\" if it is in percent, " +
+                             quantity_ + "_fraction if it exceeds 1");
+    }
+
     double sigma(const ColumnRow& row) const {
-        const double value = row.values[*sigma_] * scale_;
+        const double value = row.values[*sigma_] * sigma_scale_;
         if (value > 0) return value;
         throw InputError(name_, place_of(row.line, row.cells[*sigma_]),
                          "a standard deviation must be above 0 (got " + to_text(value) + ")");
@@ -146,7 +171,12 @@ private:
                                  " (its columns: " + names() + ")");
         spectral_ = spectral.value();
         value_ = *value;
-        scale_ = is_percent(table_.header[value_]) ? 0.01 : 1;
+        const std::string& name = table_.header[value_];
+        scale_ = scale_of(name);
+        is_fraction_ = has_word(words_of(name), kFraction) || is_percent(name);
+        if (sigma_) sigma_scale_ = scale_ != 1 ? scale_ : scale_of(table_.header[*sigma_]);
+        if (angle_ && has_word(words_of(table_.header[*angle_]), kRadians))
+            angle_scale_ = 1 / kDegree;
     }
 
     std::string names() const {
@@ -156,15 +186,59 @@ private:
     }
 
     const std::string& name_;
+    std::string quantity_;
+    bool is_power_ = false;     ///< a quantity from 0 to 1
+    bool is_fraction_ = false;  ///< the column's name says so
     std::vector<TextLine> lines_;
     ColumnText table_;
     std::size_t spectral_ = 0, value_ = 0;
     std::optional<std::size_t> angle_, sigma_;
     SpectralUnit unit_ = SpectralUnit::nm;
-    double scale_ = 1;
+    double scale_ = 1, sigma_scale_ = 1, angle_scale_ = 1;
 };
 
+constexpr std::array<std::string_view, 5> kMeasured{"R", "T", "A", "psi_deg", "delta_deg"};
+
+/// Whether the words name that quantity itself, not its error.
+bool is_column_of(const std::string& column, std::string_view quantity) {
+    const std::vector<std::string> words = words_of(column);
+    return !spectral_column(column) && !has_word(words, kErrors) && !has_word(words, kAngles) &&
+           names_quantity(words, quantity);
+}
+
+bool names_measurements(const std::vector<std::string>& header) {
+    return names_columns(header) && std::ranges::any_of(header, [](const std::string& column) {
+               return std::ranges::any_of(kMeasured, [&](std::string_view quantity) {
+                   return is_column_of(column, quantity);
+               });
+           });
+}
+
 }  // namespace
+
+std::vector<std::string> measured_quantities(std::string_view text) {
+    constexpr std::string_view kSeparators = ",;\t ";
+    std::vector<std::string> quantities;
+    for (const TextLine& line : lines_of(text)) {
+        const std::string_view names = trimmed(line.text);
+        const bool is_comment = names.starts_with("//") || names.find_first_of("#;!%") == 0;
+        std::vector<std::string> header;
+        for (const char separator : kSeparators) {
+            if (is_comment && separator == ' ') break;
+            header = column_names(names, separator);
+            if (header.size() > 1 && names_measurements(header)) break;
+            header.clear();
+        }
+        if (header.empty()) continue;
+        for (const std::string_view quantity : kMeasured)
+            if (std::ranges::any_of(header, [&](const std::string& column) {
+                    return is_column_of(column, quantity);
+                }))
+                quantities.emplace_back(quantity);
+        break;
+    }
+    return quantities;
+}
 
 std::vector<MeasuredRows> read_measured_table(std::string_view text, const std::string& name,
                                               std::string_view quantity, std::string_view column) {

@@ -174,6 +174,15 @@ void read_texts(Rows rows, const std::vector<bool>& has_texts, std::vector<Point
 
 }  // namespace
 
+std::string PointsColumn::problem_as_numbers() const {
+    const auto wrong =
+        std::ranges::find_if(texts, [](const std::string& text) { return !parse_number(text); });
+    if (wrong == texts.end()) return "";
+    const auto code = static_cast<std::uint32_t>(wrong - texts.begin());
+    const auto row = std::ranges::find(codes, code) - codes.begin();
+    return "row " + std::to_string(row + 1) + ": must be a number (got " + in_quotes(*wrong) + ")";
+}
+
 std::vector<PointsColumn> read_points_csv(std::string_view text, const std::string& name) {
     text = without_byte_order_mark(text);
     Rows rows(text, name);

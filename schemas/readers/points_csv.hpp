@@ -13,6 +13,10 @@ struct PointsColumn {
     std::vector<double> numbers;
     std::vector<std::string> texts;    ///< the distinct strings, in order of first appearance
     std::vector<std::uint32_t> codes;  ///< indices into texts
+
+    /// "row 3: must be a number (got 'abc')": the first cell that keeps the column from being one
+    /// of numbers; "" if it is.
+    std::string problem_as_numbers() const;
 };
 
 /// Reads a CSV file of combinations (RFC 4180): the header names the paths, each row is one

@@ -107,11 +107,18 @@ OutputTarget output_target(const std::string& path) {
 }
 
 NewFile::NewFile(const std::string& path, const OutputTarget& target)
-    : path_(path), target_(target), name_(target.path + ".part" + std::to_string(getpid())) {
-    if (name_.size() >= unfinished_name.size()) fail_to_write(path, ENAMETOOLONG);
-    std::memcpy(unfinished_name.data(), name_.c_str(), name_.size() + 1);
-    descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    : path_(path), target_(target), descriptor_(-1) {
+    // a killed process may have left the name of this one's number behind
+    constexpr int kMostNames = 100;
+    const std::string name = target.path + ".part" + std::to_string(getpid());
+    for (int i = 0; descriptor_ < 0 && i < kMostNames; ++i) {
+        name_ = i == 0 ? name : name + "-" + std::to_string(i);
+        if (name_.size() >= unfinished_name.size()) fail_to_write(path, ENAMETOOLONG);
+        descriptor_ = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        if (descriptor_ < 0 && errno != EEXIST) break;
+    }
     if (descriptor_ < 0) fail_to_write(path, errno);
+    std::memcpy(unfinished_name.data(), name_.c_str(), name_.size() + 1);
     is_unfinished = 1;
 }
 

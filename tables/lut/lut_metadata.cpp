@@ -59,7 +59,7 @@ json parsed_metadata(std::string_view text) {
     try {
         metadata = schemas::parse_json(text, "metadata");
     } catch (const schemas::InputError& error) {
-        throw LutError(error.what());
+        throw LutError("the metadata is damaged: " + error.where + ": " + error.message);
     }
     check_metadata(metadata);
     return metadata;

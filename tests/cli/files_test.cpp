@@ -49,6 +49,17 @@ private:
 
 }  // namespace
 
+TEST_CASE("what a killed process of the same number left does not stop the next one",
+          "[cli][files]") {
+    const InputFolder folder;
+    const Outcome outcome = folder.shell(
+        "touch out.csv.part$$; exec $IRIDO "
+        "spectrum '1 | 2@9 | 1' -w 550 -o out.csv");
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK(folder.shell("wc -l < out.csv").out == "2\n");
+}
+
 TEST_CASE("an output that is one of the inputs is refused, whatever it is called", "[cli][files]") {
     const InputFolder folder;
     const std::size_t files = folder.files();

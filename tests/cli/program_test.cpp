@@ -89,6 +89,37 @@ TEST_CASE("validate prints the schema that it uses", "[cli][validate]") {
     CHECK(run_irido({"validate"}).status == 2);
 }
 
+TEST_CASE("validate knows the tables that other commands read", "[cli]") {
+    const TemporaryFolder folder;
+    CHECK(out_of({"validate", "schemas/examples/designs/oxide-psi-delta.csv",
+                  "schemas/examples/films.csv"}) ==
+          "schemas/examples/designs/oxide-psi-delta.csv: ok\nschemas/examples/films.csv: ok\n");
+    const auto validate = [&](const std::string& text) {
+        write_text(folder / "t.csv", text);
+        const Outcome outcome = run_irido({"validate", "t.csv"}, "", folder.path());
+        CHECK(outcome.status == (outcome.out == "t.csv: ok\n" ? 0 : 1));
+        return outcome.out;
+    };
+    const std::string ok = "t.csv: ok\n";
+    CHECK(validate("# spot 3\nnm;R [%]\n500;4,1\n600;4,2\n") == ok);
+    CHECK(
+        validate("nm,R,T\n500,4,0.9\n") ==
+        "t.csv: 2:5: R must be a fraction (got 4); name the column \"R [%]\" if it is in percent, "
+        "R_fraction if it exceeds 1\n");
+    CHECK(validate("nm,R,T\n500,0.1,0.9\n510,0.1\n") ==
+          "t.csv: 3:1: must have 3 columns (got 2)\n");
+    CHECK(validate("layers.0.thickness_nm,substrate\n1,Ag\n2,Au\n") == ok);
+    CHECK(validate("layers.0.thickness_nm,substrate\n1,Ag\n2\n") ==
+          "t.csv: 3:1: must have as many cells as the header, 2 (got 1)\n");
+    CHECK(validate("light_theta_deg,light_phi_deg,view_theta_deg,view_phi_deg\n0,0,0,180\n") == ok);
+    CHECK(validate("light_theta_deg,light_phi_deg,view_theta_deg,view_phi_deg\n0,0,99,180\n") ==
+          "t.csv: row 1: view_theta_deg must be in [0, 90] (got 99)\n");
+    CHECK(validate("id,film_n,film_d_nm,angle_deg,base_n\na,1.3,x,0,2\n") ==
+          "t.csv: film_d_nm: row 1: must be a number (got 'x')\n");
+    CHECK(validate("nm,power\n400,1\n500,2\n") == ok);
+    CHECK(validate("nm,m\n400,1\n500,2\n").starts_with("t.csv: 1:1: must name known columns"));
+}
+
 TEST_CASE("a file that may not grow as large as the answer is no file", "[cli]") {
     const TemporaryFolder folder;
     const Outcome outcome = run_shell(

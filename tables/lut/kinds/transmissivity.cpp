@@ -20,6 +20,19 @@ Light light_of(const LutRequest& request) {
     return letter == "s" ? Light::s : letter == "p" ? Light::p : Light::unpolarized;
 }
 
+/// Appends the values [theta_i][wavelength]. Throws DomainError if they are not accurate enough.
+void append_transmissivities(const RoughTransmissivity& layer, double alpha,
+                             const std::vector<double>& theta_i_deg,
+                             const std::vector<double>& wavelength_nm,
+                             std::vector<double>& values) {
+    for (const auto& [value, error] : layer(alpha, theta_i_deg, wavelength_nm)) {
+        if (!(error <= kWorstError))
+            throw DomainError("the transmissivity at alpha " + to_text(alpha) + " has error " +
+                              to_text(error) + ", tables require " + to_text(kWorstError));
+        values.push_back(value);
+    }
+}
+
 LutPlan plan(const LutRequest& request) {
     LutPlan plan;
     plan.axes.push_back(alpha_axis(request));
@@ -40,16 +53,16 @@ LutPlan plan(const LutRequest& request) {
         std::vector<double> values;
         values.reserve(axes[0].count() * axes[1].count() * axes[2].count());
         for (const double alpha_value : axes[0].values)
-            for (const auto& [value, error] :
-                 (*layer)(alpha_value, axes[1].values, axes[2].values)) {
-                if (!(error <= kWorstError))
-                    throw DomainError("the transmissivity at alpha " + to_text(alpha_value) +
-                                      " has error " + to_text(error) + ", tables require " +
-                                      to_text(kWorstError));
-                values.push_back(value);
-            }
+            append_transmissivities(*layer, alpha_value, axes[1].values, axes[2].values, values);
         return values;
     };
+    // too many fringes are seen at any angle: a plan fails where its table would
+    const std::vector<double>& thetas = plan.axes[1].axis.values;
+    std::vector<double> ignored;
+    for (const double alpha_value :
+         {plan.axes[0].axis.values.front(), plan.axes[0].axis.values.back()})
+        append_transmissivities(*layer, alpha_value, {thetas.front(), thetas.back()}, wavelengths,
+                                ignored);
     plan.measure = relative_to("relative to G1", [](double alpha, double theta_i_deg) {
         return smith_masking(alpha, cos_of_incidence(theta_i_deg));
     });

@@ -252,6 +252,19 @@ TEST_CASE("one material's failure is its own, whatever the error", "[cli][bake]"
     CHECK(run_irido({"validate", bakery.path("a/manifest.json")}).status == 0);
 }
 
+TEST_CASE("validate and plan refuse the same mirrors of very many periods", "[cli][bake]") {
+    const Bakery bakery(R"({"materials": [
+        {"name": "m", "stack": "1 | (1.5@100 | 2@80)^1000000 | 1", "roughness": 0.1,
+         "angles_deg": [0, 60], "shading": "rough-layers"}]})");
+    const std::string fault = "material m: the transmissivity at alpha 0.1 has error ";
+    const Outcome planned = run_irido({"plan", bakery.path("scene.json"), "--quiet"});
+    CHECK(planned.status == 1);
+    CHECK_THAT(planned.err, Contains(fault));
+    const Outcome validated = run_irido({"validate", bakery.path("scene.json")});
+    CHECK(validated.status == 1);
+    CHECK_THAT(validated.out, Contains(fault));
+}
+
 TEST_CASE("where a scene gives no angles, they are those that a table can serve", "[cli][bake]") {
     const Bakery bakery(R"({"materials": [
         {"name": "wall", "stack": "1 | 1.33@100 | 1", "vary": {"layers.0.thickness_nm": [0, 100]},

@@ -176,12 +176,39 @@ TEST_CASE("brdf of scratches refuses what it cannot do", "[cli][brdf][scratch]")
     refused(plain, {"--area-light", kSphere, "--coherent"}, "added one by one");
     refused(plain, {"--area-light", R"({"center_mm":[0,0,1],"radius_mm":2})"}, "radius_mm");
     refused(plain, {"--area-light", R"({"center_mm":[0,0,1]})"}, "radius_mm");
+    refused(plain, {"--area-light", R"({"vertice_mm":[[0,0,1]]})"},
+            "light: /vertice_mm: unknown key (did you mean \"vertices_mm\"?)");
     refused(plain, {"--area-light", "no-such-file.json"}, "no-such-file.json");
     refused(plain, {"--ensemble"}, "--ensemble: requires fields");
     refused(plain, {"--energy", "half"}, "--energy: must be one of");
     refused(plain, {"--quantity", "albedo"}, "--quantity");
     refused(plain, {"--paths", "all"}, "--paths");
     check_refused(run_irido({"brdf", "1 | 1.5@100 | 2", "--alpha", "0.1", "--at", "1,1"}), "--at");
+}
+
+TEST_CASE("colours of scratches say that materials of the base are clamped",
+          "[cli][brdf][scratch]") {
+    json document = vertical(kScratch);
+    document["base"] = {{"incident", 1},
+                        {"layers", json::array()},
+                        {"substrate", {{"table", {{390, 2, 0}, {720, 2.1, 0}}}}}};
+    const std::string known = "/base: /substrate is known from 390 to 720 nm; clamped";
+    const auto run = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"brdf", "-", "--color"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_irido(arguments, document.dump());
+    };
+    for (const std::vector<std::string>& light :
+         {std::vector<std::string>{}, {"--area-light", kSphere}}) {
+        const Outcome noted = run(light);
+        CHECK(noted.status == 0);
+        CHECK_THAT(noted.err, Contains(known));
+        std::vector<std::string> strict = light;
+        strict.emplace_back("--strict");
+        check_refused(run(strict), known);
+    }
+    document["base"]["substrate"] = {{"table", {{450, 2, 0}, {720, 2.1, 0}}}};
+    check_refused(run({}), "a colour needs data from 400 to 700 nm");
 }
 
 TEST_CASE("scratches that the model does not suit are noted", "[cli][brdf][scratch]") {

@@ -399,7 +399,7 @@ TEST_CASE("compare refuses what it cannot do", "[cli][compare][slow]") {
         return compare({"--films", folder / "bad.csv"});
     };
     check_refused(table("id,film_n,film_d_nm,angle_deg,base_n\na,1.3,x,0,2\n"),
-                  "film_d_nm must be a number (got 'x' in row 1)");
+                  "film_d_nm: row 1: must be a number (got 'x')");
     check_refused(table("id,film_n,angle_deg,base_n\na,1.3,0,2\n"),
                   "the column 'film_d_nm' is missing");
     check_refused(table("film_n,film_d_nm,angle_deg,base_n\n1.3,2,0,2\n"),

@@ -83,6 +83,44 @@ TEST_CASE("standard errors follow from the stated noise", "[cli][fit]") {
     CHECK(std::stod(rows[3][1]) == 2);
 }
 
+TEST_CASE("percentages without a percent sign are not taken as fractions", "[cli][fit]") {
+    TemporaryFolder folder;
+    write_text(folder / "task.json", R"({ "stack": { "incident": 1, "layers": [],
+        "substrate": { "n": 1.6 } }, "free": [{ "path": "substrate.n", "name": "n" }],
+        "targets": [{ "quantity": "R", "file": "data.csv", "sigma": 0.001 }] })");
+    const auto fit = [&](const std::string& data) {
+        write_text(folder / "data.csv", data);
+        return run_irido({"fit", "task.json", "--quiet"}, "", folder.path());
+    };
+    check_refused(fit("wavelength_nm,R\n500,0.9\n600,12.3\n"),
+                  "data.csv: 3:5: R must be a fraction (got 12.3); name the column \"R [%]\"");
+    const Outcome percent = fit("wavelength_nm,R [%]\n500,4.1\n600,3.9\n");
+    CHECK(percent.status == 0);
+    const auto index = [](const Outcome& of) { return std::stod(parse_csv(of.out)[1][1]); };
+    CHECK(index(percent) ==
+          Approx(index(fit("wavelength_nm,R\n500,0.041\n600,0.039\n"))).epsilon(1e-9));
+    CHECK(percent.out == fit("wavelength_nm,R_percent\n500,4.1\n600,3.9\n").out);
+    CHECK(fit("wavelength_nm,R_fraction\n500,1.5\n600,1.5\n").status == 0);
+    const Outcome design = run_irido({"design", "1 | 1.38@100 | 1.5", "--free",
+                                      "layers.0.thickness_nm=50:150", "--target", "R 500 = 50"},
+                                     "", folder.path());
+    CHECK(design.err.find("R, T and A are fractions; the target is 50") != std::string::npos);
+}
+
+TEST_CASE("angles of a table may be in radians", "[cli][fit]") {
+    TemporaryFolder folder;
+    write_text(folder / "task.json", R"({ "stack": "1 | 1.5@100 | 3.88+0.02i",
+        "free": [{ "path": "layers.0.thickness_nm", "bounds": [50, 150], "name": "d" }],
+        "targets": [{ "quantity": "psi_deg", "file": "data.csv", "sigma": 0.01 }] })");
+    const auto thickness = [&](const std::string& data) {
+        write_text(folder / "data.csv", data);
+        return std::stod(
+            parse_csv(done({"fit", "task.json", "--quiet"}, "", folder.path()).out)[1][1]);
+    };
+    CHECK(thickness("nm,angle (rad),psi (rad)\n500,1.2217304763960306,0.5235987755982989\n") ==
+          Approx(thickness("nm,angle_deg,psi_deg\n500,70,30\n")).epsilon(1e-9));
+}
+
 TEST_CASE("the output - of a fit is the stack instead of the table", "[cli][fit]") {
     TemporaryFolder folder;
     write_text(folder / "data.csv", "wavelength_nm,R\n500,0.02\n600,0.03\n");

@@ -142,8 +142,8 @@ TEST_CASE("lut thickness is noise between two thicknesses", "[cli][lut]") {
         words.insert(words.end(), more.begin(), more.end());
         check_refused(run_irido(words), error);
     };
-    refused({"--range", "800:100"}, "--range: must be FIRST:LAST, FIRST not above LAST");
-    refused({"--range", "100"}, "--range: must be FIRST:LAST");
+    refused({"--range", "800:100"}, "--range: must be LO:HI, LO not above HI");
+    refused({"--range", "100"}, "--range: must be LO:HI");
     refused({"--range", "-1:5"}, "--range: must be in [0, 1e+09]");
     refused({"--octaves", "17"}, "--octaves: must be in [1, 16] (got 17)");
     refused({"--seed", "nan"}, "--seed");
@@ -250,6 +250,22 @@ TEST_CASE("tables have the same bytes from run to run and thread to thread", "[c
         CHECK(bytes[0] == bytes[1]);
         CHECK(bytes[0] == bytes[2]);
     }
+}
+
+TEST_CASE("textures that no GPU takes are noted", "[cli][lut]") {
+    TemporaryFolder folder;
+    const auto said = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"lut", "color", "1 | 1.33@400 | 1", "-o",
+                                           folder / "t.ktx2"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run_irido(arguments);
+        CHECK(outcome.status == 0);
+        return outcome.err;
+    };
+    const std::string vary = "layers.0.thickness_nm=0:100/";
+    CHECK_THAT(said({"--cos", "1", "--vary", vary + "16385"}),
+               Contains("layers.0.thickness_nm: 16385 texels; most GPUs take at most 16384\n"));
+    CHECK_THAT(said({"--cos", "0.5,1", "--vary", vary + "16384"}), !Contains("GPUs"));
 }
 
 TEST_CASE("no path and no thread count get into a file", "[cli][lut]") {

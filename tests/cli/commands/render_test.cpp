@@ -170,7 +170,8 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--camera", "fisheye"}, "--camera: must be one of orthographic, perspective");
     refused({"--background", "red"}, "--background: must be one of none, environment, #rrggbb");
     refused({"--background", "#12345g"}, "--background");
-    refused({"--thickness-noise", "800:100,3,1"}, "--thickness-noise: must be FIRST:LAST");
+    refused({"--thickness-noise", "800:100,3,1"},
+            "--thickness-noise: must be LO:HI, LO not above HI");
     refused({"--thickness-noise", "1:2,3,4,5"}, "--thickness-noise: must be LO:HI,SCALE,SEED");
     refused({"--thickness-noise", "1:nan"}, "--thickness-noise");
     refused({"--thickness-noise", "1:2", "--noise-layer", "2"}, "the stack has no layer 2");
@@ -185,6 +186,12 @@ TEST_CASE("render refuses what it cannot draw, and writes nothing", "[cli][rende
     refused({"--paths", "simulation"}, "--paths: must be one of single, all (got 'simulation')");
     refused({"--light", "{"}, "light: 1:2");
     refused({"--light", "{}"}, "center");
+    refused({"--light", R"({"directoin": [0, 0, 1]})"},
+            "light: /directoin: unknown key (did you mean \"direction\"?)");
+    refused({"--light", R"([{"center": [0, 0, 3], "radius": 1}, {"vertice": []}])"},
+            "light: /1/vertice: unknown key (did you mean \"vertices\"?)");
+    refused({"--light", R"({"direction": [0, 0, 1], "iradiance": 1})"},
+            "/iradiance: unknown key (did you mean \"irradiance\"?)");
     refused({"--light", folder / "none.json"}, "none.json");
     refused({"--light", R"({"direction": [0, 0, 0]})"}, "direction must not be zero");
     refused({"--light", R"({"direction": [0, 0, 1], "radiance": 1})"}, "/radiance");

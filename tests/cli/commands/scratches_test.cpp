@@ -53,6 +53,8 @@ TEST_CASE("grids of scratches pass their check, and altered ones do not", "[cli]
     CHECK_THAT(run_irido({"scratches", "--check", grid}).out, Contains("checksum"));
     check_refused(run_irido({"scratches", kSpoon, "--extent", "3"}), "--extent");
     check_refused(run_irido({"scratches", kSpoon, "--grid", grid, "--cell", "0"}), "--cell");
+    check_refused(run_irido({"scratches", kSpoon, "--grid", folder / "x.csv"}),
+                  "--grid: a grid is binary; name it otherwise than .csv");
     check_refused(run_irido({"scratches"}), "SURFACE");
     check_refused(run_irido({"scratches", "schemas/examples/surfaces/green-on-pale.json"}),
                   "scratches");

@@ -522,6 +522,9 @@ TEST_CASE("sweeps refuse what makes no sense", "[cli][sweep][slow]") {
     const std::string points = folder / "points.csv";
     write_text(points, "layers.0.thickness_nm,angle_deg\n5,10\n-5,20\n");
     refused(color + Words{"--points", points}, "points.csv: combination 2: ");
+    write_text(points, "layers.0.thickness_nm\n5\n6\nthick\n7\n");
+    refused(color + Words{"--points", points},
+            "combination 3: layers.0.thickness_nm: must be numbers (got 'thick')");
     write_text(points, "substrate,angle_deg\nSi,10\nSi,99\n");
     refused(color + Words{"--points", points}, "combination 2: angle_deg: must be in [0, 90]");
     write_text(points, "substrate,angle_deg\nSi,10\nNone,9\n");

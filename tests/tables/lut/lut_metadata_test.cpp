@@ -119,7 +119,7 @@ TEST_CASE("metadata that breaks a rule is refused by name", "[tables][lut]") {
     CHECK_THAT(refusal_with("/channels/0", "v1"), Contains("two axes or channels"));
     CHECK_THAT(refusal_with("/error", {{"measure", "x"}}), Contains("/error: "));
     CHECK_THAT(refusal_with("/checksum", "sha256:12"), Contains("/checksum: must be"));
-    CHECK_THAT(refusal([] { lut_from_metadata("{"); }), StartsWith("metadata: 1:"));
+    CHECK_THAT(refusal([] { lut_from_metadata("{"); }), StartsWith("the metadata is damaged: 1:"));
     CHECK_THAT(refusal([] { lut_from_metadata("[]"); }), Contains("must be an object"));
 }
 

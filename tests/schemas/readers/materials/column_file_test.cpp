@@ -79,6 +79,11 @@ TEST_CASE("CSV faults are told by line and column", "[csv]") {
     CHECK(material_error("400\n") == "a.csv: 1:1: must have 2 to 3 columns (got 1)");
     CHECK(material_error("400,1,2,3\n") == "a.csv: 1:1: must have 2 to 3 columns (got 4)");
     CHECK(material_error("400,1,0\n500,1\n") == "a.csv: 2:1: must have 3 columns (got 2)");
+    // of uneven rows, those are wrong that differ from the heading, or from most rows
+    CHECK(material_error("nm,n,k\n400,1\n500,1,0\n600,1,0\n") ==
+          "a.csv: 2:1: must have 3 columns (got 2)");
+    CHECK(material_error("nm,n\n400,1,0\n500,1\n") == "a.csv: 2:1: must have 2 columns (got 3)");
+    CHECK(material_error("400,1\n500,1,0\n600,1,0\n") == "a.csv: 1:1: must have 3 columns (got 2)");
     CHECK(material_error("-5,1\n600,1\n") ==
           "a.csv: 1:1: the wavelength must be positive (got -5)");
 }
