@@ -9,7 +9,7 @@
 #include "core/math/constants.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/column_text.hpp"
-#include "schemas/readers/utf8.hpp"
+#include "schemas/readers/number.hpp"
 
 namespace irido::schemas {
 
