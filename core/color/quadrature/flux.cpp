@@ -35,4 +35,25 @@ bool has_flux(const Spectrum& spectrum, double& flux) {
     return true;
 }
 
+void fill_samples(std::span<const Side> sides, const Spectrum& first, const Spectrum* second,
+                  Samples& samples) {
+    const std::size_t points = samples.points();
+    std::size_t row = 0;
+    for (const Side side : sides) {
+        const auto values = side == Side::reflected ? &Spectrum::R : &Spectrum::T;
+        const double* a = (first.*values).data();
+        double* to = samples.row(row++);
+        std::copy_n(a, points, to);
+        if (!second) continue;
+        const double* b = (second->*values).data();
+        for (std::size_t j = 0; j < points; ++j) to[j] = (a[j] + b[j]) / 2;
+    }
+    for (const Spectrum* spectrum : {&first, second}) {
+        if (!spectrum) break;
+        for (const auto values :
+             {&Spectrum::denominator_re, &Spectrum::denominator_im, &Spectrum::log_scale})
+            std::copy_n((spectrum->*values).data(), points, samples.row(row++));
+    }
+}
+
 }  // namespace irido

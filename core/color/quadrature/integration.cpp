@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/color/quadrature/hidden_lines.hpp"
 #include "core/color/quadrature/panel_sums.hpp"
 #include "core/color/quadrature/resampling.hpp"
 #include "core/complex.hpp"
@@ -19,10 +20,6 @@ namespace {
 
 /// Panels are not cut below this share of their wavelength.
 constexpr double kNarrowest = 1e-7;
-
-/// A denominator's zero within this many point spacings of a point is not resolved: poles further
-/// off make coefficients that fall steadily, and the tail sees them.
-constexpr double kFarFromZero = 1 / 1.5;
 
 /// A panel is halved where twice the degree promises more than this times the error allowed.
 constexpr double kHopeful = 10;
@@ -44,88 +41,6 @@ constexpr double kDense = 3.2;
 /// most degree times kFoot times the largest of these: 2/degree of what a single point has, and
 /// less where the feet on both sides cancel.
 constexpr double kFoot = 2;
-
-/// Part of what a line's foot is to first order, against its bound, before that is a coincidence.
-constexpr double kCoincidence = 0.01;
-
-/// One denominator on the points of a panel.
-struct Denominator {
-    std::span<const double> re, im, log_scale;
-};
-
-/// chebyshev_slopes() of each of kDegrees, the stride that of the rule.
-const std::vector<double>& slope_rows(std::size_t degree) {
-    static const auto all = [] {
-        std::array<std::vector<double>, kDegrees.size()> rows;
-        for (std::size_t d = 0; d < kDegrees.size(); ++d)
-            rows[d] = chebyshev_slopes(kDegrees[d], whole_vectors(kDegrees[d] + 1));
-        return rows;
-    }();
-    return all[degree];
-}
-
-/// |a| < factor |b|, by squares where these decide it: roots take long.
-bool is_smaller(Complex a, Complex b, double factor) {
-    const double a2 = std::norm(a), b2 = std::norm(b) * factor * factor;
-    constexpr double kSmall = 1e-250, kLarge = 1e250, kClose = 1e-9;
-    if (a2 > kSmall && a2 < kLarge && b2 > kSmall && b2 < kLarge && std::abs(a2 - b2) > kClose * b2)
-        return a2 < b2;
-    return std::abs(a) < factor * std::abs(b);
-}
-
-/// Marks the points next to which a denominator has a zero that the points do not resolve: Newton's
-/// step from there, -D/D', is shorter than the way to the next point.
-///   parts, slopes  of D and of D', real and imaginary
-void mark_hidden_zeros(const QuadratureRule& rule, std::array<const double*, 2> parts,
-                       std::array<const double*, 2> slopes, std::vector<bool>& marked) {
-    const std::vector<double>& x = rule.x;
-    for (std::size_t j = 0; j < rule.points; ++j) {
-        const double before = j > 0 ? x[j - 1] - x[j] : 0;
-        const double spacing = std::max(before, j + 1 < rule.points ? x[j] - x[j + 1] : 0);
-        marked[j] = marked[j] || is_smaller({parts[0][j], parts[1][j]},
-                                            {slopes[0][j], slopes[1][j]}, kFarFromZero * spacing);
-    }
-}
-
-/// The same after an exponential trend, which has no zeros, is taken out of D.
-///   slope_rows  of the points
-void mark_hidden_zeros(const QuadratureRule& rule, std::span<const double> slope_rows,
-                       const Denominator& d, SimdLevel simd, IntegrationMemory::Zeros& memory,
-                       std::vector<bool>& marked) {
-    const double first = d.log_scale.front(), last = d.log_scale.back();
-    const bool has_scale = std::ranges::any_of(d.log_scale, [](double l) { return l != 0; });
-    auto& [parts, slopes] = memory;
-    for (std::size_t part = 0; part < 2; ++part) {
-        parts[part].assign(rule.stride, 0);
-        slopes[part].resize(rule.points);
-    }
-    for (std::size_t j = 0; j < rule.points; ++j) {
-        const double trend = (first + last) / 2 + (first - last) / 2 * rule.x[j];
-        const double scale =
-            has_scale ? std::exp(std::clamp(d.log_scale[j] - trend, -300.0, 300.0)) : 1;
-        parts[0][j] = d.re[j] * scale;
-        parts[1][j] = d.im[j] * scale;
-    }
-    for (std::size_t part = 0; part < 2; ++part)
-        row_sums(slope_rows.data(), rule.points, rule.stride, parts[part].data(), parts[part][0],
-                 slopes[part].data(), simd);
-    mark_hidden_zeros(rule, {parts[0].data(), parts[1].data()},
-                      {slopes[0].data(), slopes[1].data()}, marked);
-}
-
-/// How much of a point's weight a line can hide next to it that is not seen on the points. A pole
-/// of the amplitude at the distance d from the point and w from the real axis has a residue of at
-/// most 2 w, or the power would pass 1; it makes a line of an area of up to pi w. Where the
-/// spectrum is near 0 or 1 elsewhere, as in the gap of a lossless mirror, the line leaves (w/d)^2
-/// on the point. Where it is not, the stack absorbs, and the line leaves w/d times value (1 -
-/// value), because it interferes with what there is without it.
-///   foot   largest part of the values on the points that may be the line's
-///   value  of the spectrum on the point
-double hidden_share(double foot, double value) {
-    const double first_order = kCoincidence * std::abs(value * (1 - value));
-    const double width = foot < first_order * first_order ? foot / first_order : std::sqrt(foot);
-    return std::min(1.0, std::numbers::pi * width);
-}
 
 /// Size of the last coefficients among a rule's sums.
 double last_coefficient(const QuadratureRule& rule, std::span<const double> sums) {
@@ -399,8 +314,13 @@ private:
         const bool narrow = is_narrow(job.node->range());
         const bool must_end =
             evaluations_ + followed_ >= limits_.evaluations || (last_degree && narrow);
-        const Poles poles = poles_of(job, samples, first);
-        Triple lost = lost_by_fit(job, poles);
+        const double root_rate = root_rate_of(job);
+        const bool has_root = root_rate < kFallRates[0];
+        std::size_t most_rate = kFallRates.size() - 1;
+        while (most_rate > 0 && kFallRates[most_rate] > root_rate) --most_rate;
+        Poles poles = poles_of(job, samples, first);
+        poles.rate = std::min(poles.rate, most_rate);
+        Triple lost = lost_by_fit(job, poles, has_root);
         for (std::size_t c = 0; c < 3; ++c)
             lost[c] += job.unseen * rule.light[c] * sensitivity_.white()[c];
         if (!must_end && !is_below(lost, scaled(allowed, kMostLost))) return Outcome::halves;
@@ -410,7 +330,8 @@ private:
         for (std::size_t k = 0; k < integrals_.size(); ++k) {
             double* sums = memory_.sums.data() + k * width;
             rule.sum(samples.row(k) + first, reference_[k], sums, limits_.simd);
-            panel_errors[k] = rule.error({sums, width}, poles.rate);
+            panel_errors[k] = has_root ? rule.error_with_root({sums, width})
+                                       : rule.error({sums, width}, poles.rate, most_rate);
             if (job.known) panel_errors[k] = scaled(panel_errors[k], kSafetyOfKnown);
             for (std::size_t c = 0; c < 3; ++c) panel_errors[k][c] += lost[c];
             if (must_end || is_below(panel_errors[k], allowed)) continue;
@@ -461,6 +382,12 @@ private:
         return true;
     }
 
+    /// Rate, like kFallRates, at which branch points let coefficients fall.
+    double root_rate_of(const Job& job) const {
+        return fall_rate(limits_.branch_points, job.node->range()) *
+               static_cast<double>(kDegrees[job.degree]);
+    }
+
     struct Poles {
         bool all_far;      ///< none is closer to a point than the next one, for certain
         std::size_t rate;  ///< at which coefficients fall, an index into kFallRates
@@ -487,12 +414,13 @@ private:
         return {true, rate, largest};
     }
 
-    /// What the fit of the panel's indices takes from X, Y, Z at most.
-    Triple lost_by_fit(const Job& job, const Poles& poles) const {
+    /// What the fit of the panel's indices takes from X, Y, Z at most: not known where these pass a
+    /// square root.
+    Triple lost_by_fit(const Job& job, const Poles& poles, bool has_root) const {
         Triple lost{};
         const IndexFit* fit = job.node->fit();
         if (!fit || limits_.index_effects.empty()) return lost;
-        if (job.degree >= IndexFit::kLevels) {
+        if (has_root || job.degree >= IndexFit::kLevels) {
             lost.fill(std::numeric_limits<double>::infinity());
             return lost;
         }
@@ -500,8 +428,10 @@ private:
         const double per_log = 2 / (1 - range.first_nm / range.last_nm);  // dx / d ln lambda
         Triple root{};
         for (const IndexFit::Error& error : fit->errors(job.degree, poles.rate)) {
-            const double effect =
-                index_effect(limits_.index_effects[error.material], poles.slope * per_log);
+            const double kz_effect =
+                std::max(limits_.index_effects[error.material],
+                         effect_of_branch(limits_.branch_points, error.material, range));
+            const double effect = index_effect(kz_effect, poles.slope * per_log);
             for (std::size_t c = 0; c < 3; ++c) {
                 lost[c] += effect * error.first[c];
                 root[c] += effect * std::sqrt(error.second[c]);

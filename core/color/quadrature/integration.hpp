@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/color/color_request.hpp"
+#include "core/color/quadrature/branch_points.hpp"
+#include "core/color/quadrature/hidden_lines.hpp"
 #include "core/color/quadrature/index_effect.hpp"
 #include "core/color/quadrature/panel_tree.hpp"
 #include "core/math/simd_level.hpp"
@@ -56,11 +58,7 @@ struct IntegrationMemory {
         double unseen = 0;
         const QuadratureRule& rule() const { return node->rule(degree); }
     };
-    /// A denominator on a panel and its derivative.
-    struct Zeros {
-        std::array<std::vector<double>, 2> parts, slopes;  ///< real and imaginary
-    };
-    Zeros zeros;
+    DenominatorSlopes zeros;
     /// Slopes of the parts of both denominators, where these are known and at other points.
     std::array<std::vector<double>, 4> known_slopes, slopes;
     std::vector<bool> marked;
@@ -96,15 +94,17 @@ struct IntegrationLimits {
     std::span<const double> index_effects{};
     /// nullptr where spectra do not follow from denominators.
     const Transmission* transmission = nullptr;
+    std::span<const BranchPoint> branch_points{};  ///< near the spectrum
 };
 
 /// Integrates spectra that are computed together, times the weighted colour-matching functions,
 /// over adjoining panels that cover the support. Each panel doubles its degree or is bisected,
 /// whichever promises more, until the estimate is below its share of the tolerance. The estimate
 /// combines the last Chebyshev coefficients with the moments, and counts the full weight of every
-/// point near which a denominator has a zero closer than the next point. Where the denominators are
-/// known between the points, finer ones follow from these. A spectrum equal to 1 at every point
-/// gives exactly the white. If the evaluations run out, error > tolerance.
+/// point near which a denominator has a zero closer than the next point. Next to branch points,
+/// later coefficients are taken to be those of a square root. Where the denominators are known
+/// between the points, finer ones follow from these. A spectrum equal to 1 at every point gives
+/// exactly the white. If the evaluations run out, error > tolerance.
 ///   sensitivity   weighted colour-matching functions
 ///   start         initial panels
 ///   denominators  number in the samples, 0 to 2

@@ -152,6 +152,7 @@ private:
         std::vector<double> effects;
         std::array<LeftOutFringes, 2> left_out;  ///< of s and p
         std::vector<LeftOutFringes::Kink> kinks;
+        std::vector<BranchPoint> branch_points;
     };
 
     /// Which materials absorb and amplify.
@@ -160,11 +161,18 @@ private:
             held_, has_fits() ? smooth_pieces(held_, sensitivity_.support()) : pieces_);
         absorbs_ = at_ends.absorbs();
         amplifies_ = at_ends.amplifies();
+        if (!constant_) branch_points_.emplace(held_, at_ends);
         for (std::size_t m = 0; m < held_.materials.size(); ++m) {
             if (is_surveyed(held_.materials[m])) continue;
             absorbs_[m] = true;
             amplifies_[m] = true;
         }
+    }
+
+    std::span<const BranchPoint> branch_points_at(IncidentAngle incidence, Scratch& scratch) const {
+        if (!branch_points_) return {};
+        branch_points_->find(incidence, scratch.branch_points);
+        return scratch.branch_points;
     }
 
     bool are_fits_repaid() const {
@@ -229,6 +237,7 @@ private:
         if (follows) known.transmission = &through;
         bool is_first = follows;
         if (has_fits()) known.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
+        known.branch_points = branch_points_at(incidence, scratch);
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
         const bool with_p = needs_.p && !(with_s && incidence.cos == 1);
@@ -247,7 +256,7 @@ private:
             const Spectra& at = scratch.spectra;
             const Spectrum& one = with_s ? at.s : at.p;
             const Spectrum* const other = with_s && with_p ? &at.p : nullptr;
-            fill(one, other, samples);
+            fill_samples(request_.sides, one, other, samples);
             if (!is_first) return;
             is_first = false;
             through.holds =
@@ -377,6 +386,7 @@ private:
                                    std::min(request_.evaluations, affordable), limits.simd};
         if (has_fits())
             of_means.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
+        of_means.branch_points = branch_points_at(incidence, scratch);
         integrate_color(sensitivity_, start, polarizations, sample, of_means, scratch.integration,
                         scratch.integrals);
         std::vector<double> errors(colors.size());
@@ -542,28 +552,6 @@ private:
         return true;
     }
 
-    /// Rows from one polarization, or the mean of two.
-    void fill(const Spectrum& first, const Spectrum* second, Samples& samples) const {
-        const std::size_t points = samples.points(), sides = request_.sides.size();
-        for (std::size_t side = 0; side < sides; ++side) {
-            const auto values =
-                request_.sides[side] == Side::reflected ? &Spectrum::R : &Spectrum::T;
-            const double* a = (first.*values).data();
-            double* row = samples.row(side);
-            std::copy_n(a, points, row);
-            if (!second) continue;
-            const double* b = (second->*values).data();
-            for (std::size_t j = 0; j < points; ++j) row[j] = (a[j] + b[j]) / 2;
-        }
-        std::size_t row = sides;
-        for (const Spectrum* spectrum : {&first, second}) {
-            if (!spectrum) break;
-            for (const auto values :
-                 {&Spectrum::denominator_re, &Spectrum::denominator_im, &Spectrum::log_scale})
-                std::copy_n((spectrum->*values).data(), points, samples.row(row++));
-        }
-    }
-
     const ColorTables& tables_;
     const Sensitivity& sensitivity_;
     ColorRequest request_;
@@ -580,6 +568,7 @@ private:
     IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
     Needs needs_;
     std::vector<bool> absorbs_, amplifies_;
+    std::optional<BranchPoints> branch_points_;
     std::vector<std::size_t> varied_;  ///< elements, if only these differ
     mutable FixedLayersCache fixed_layers_;
     mutable PanelTree tree_;

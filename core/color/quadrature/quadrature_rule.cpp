@@ -13,19 +13,67 @@ namespace irido {
 
 namespace {
 
-/// Error of an integral per unit of the last coefficient. The coefficient c_(n+j) that is left out
-/// misses its own moment and comes back on the points as T_(n-j).
-double error_per_coefficient(const std::vector<double>& moment, double fall) {
+std::size_t place_of(std::size_t degree) {
+    return static_cast<std::size_t>(std::ranges::find(kDegrees, degree) - kDegrees.begin());
+}
+
+/// What the moments past the last one are taken to be.
+double high_moments(const std::vector<double>& moment) {
     const std::size_t degree = moment.size() - 1;
-    double high = 0;  // what the moments past the last one are taken to be
+    double high = 0;
     for (std::size_t k = 3 * degree / 4; k <= degree; ++k)
         high = std::max(high, std::abs(moment[k]));
+    return high;
+}
+
+/// Square roots are not alone in their panels.
+constexpr double kSafetyOfRoot = 2;
+
+/// Size of a coefficient of a square root, k of the last one's place, in units of that one.
+double root_fall(double k) {
+    return 1 / (k * std::sqrt(k));
+}
+
+/// Error of an integral per unit of the last coefficient. The coefficient c_(n+j) that is left out
+/// misses its own moment and comes back on the points as T_(n-j).
+double error_per_coefficient(const std::vector<double>& moment, double high, double fall) {
+    const std::size_t degree = moment.size() - 1;
     double sum = 0, size = 1;
     for (std::size_t j = 1; j <= degree; ++j) {
         size *= fall;
         sum += size * (std::abs(moment[degree - j]) + high);
     }
     return 2 * sum;  // c_(3n - j) and later ones come back there too
+}
+
+/// What coefficients of a square root past the last one add to each of a degree, in units of that
+/// one, as T_k and T_(2 p degree +- k) are alike on the points.
+std::vector<double> roots_of_aliases(std::size_t degree) {
+    constexpr int kAliases = 64;
+    const auto n = static_cast<double>(degree);
+    std::vector<double> sums(degree + 1);
+    for (std::size_t k = 0; k <= degree; ++k) {
+        const double part = static_cast<double>(k) / n;
+        for (int p = 1; p <= kAliases; ++p) {
+            if (k < degree || p > 1) sums[k] += root_fall(2 * p - part);
+            if (k > 0) sums[k] += root_fall(2 * p + part);
+        }
+    }
+    return sums;
+}
+
+/// Error of an integral per unit of the last coefficient of a square root.
+double error_per_root(const std::vector<double>& moment, double high) {
+    static std::array<Lazy<const std::vector<double>>, kDegrees.size()> shared;
+    static std::mutex lock;
+    const std::size_t degree = moment.size() - 1;
+    const std::vector<double>& alias = shared.at(place_of(degree)).get(lock, [&] {
+        return std::make_unique<const std::vector<double>>(roots_of_aliases(degree));
+    });
+    // moments past the last one fall as k^-2
+    double sum = high * static_cast<double>(degree) / 2.5;
+    for (std::size_t k = 0; k <= degree; ++k) sum += alias[k] * std::abs(moment[k]);
+    return sum;
 }
 
 }  // namespace
@@ -66,9 +114,7 @@ std::vector<double> coefficient_rows(std::size_t degree) {
 std::span<const double> shared_coefficient_rows(std::size_t degree) {
     static std::array<Lazy<const std::vector<double>>, kDegrees.size()> shared;
     static std::mutex lock;
-    const auto which =
-        static_cast<std::size_t>(std::ranges::find(kDegrees, degree) - kDegrees.begin());
-    return shared.at(which).get(lock, [&] {
+    return shared.at(place_of(degree)).get(lock, [&] {
         return std::make_unique<const std::vector<double>>(coefficient_rows(degree));
     });
 }
@@ -97,9 +143,12 @@ QuadratureRule::QuadratureRule(const Sensitivity& sensitivity, WavelengthRange r
         steepest[rate] = steepest_of(kFallRates[rate], n);
     }
     for (std::size_t c = 0; c < 3; ++c) light[c] = panel.moment[c][0] / sensitivity.white()[c];
-    for (std::size_t rate = 0; rate < kFallRates.size(); ++rate)
-        for (std::size_t c = 0; c < 3; ++c)
-            per_coefficient[rate][c] = error_per_coefficient(panel.moment[c], step[rate]);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double high = high_moments(panel.moment[c]);
+        for (std::size_t rate = 0; rate < kFallRates.size(); ++rate)
+            per_coefficient[rate][c] = error_per_coefficient(panel.moment[c], high, step[rate]);
+        per_coefficient_with_root[c] = error_per_root(panel.moment[c], high);
+    }
 }
 
 namespace {
@@ -123,12 +172,13 @@ double QuadratureRule::fall_seen(std::span<const double> sums) const {
     return largest_of(sums.subspan(3, middle)) / std::max(last, 1e-300);
 }
 
-Triple QuadratureRule::error(std::span<const double> sums, std::size_t rate) const {
+Triple QuadratureRule::error(std::span<const double> sums, std::size_t rate,
+                             std::size_t most) const {
     const std::span<const double> last = sums.subspan(3 + middle, tail);
     if (middle > 0) {
         // over half of the way, with a factor e to spare: twice as fast as the rate claims
         const double fall = std::log(fall_seen(sums)) - 1;
-        while (rate + 1 < kFallRates.size() && fall >= kFallRates[rate + 1]) ++rate;
+        while (rate < most && fall >= kFallRates[rate + 1]) ++rate;
     }
     double size = 0, factor = 1;
     for (std::size_t k = tail; k-- > 0;) {
@@ -137,6 +187,15 @@ Triple QuadratureRule::error(std::span<const double> sums, std::size_t rate) con
     }
     Triple result = per_coefficient[rate];
     for (double& value : result) value *= size;
+    return result;
+}
+
+Triple QuadratureRule::error_with_root(std::span<const double> sums) const {
+    // the middle ones stand in where the cosine is small for all of the last
+    const double size = std::max(largest_of(sums.subspan(3 + middle, tail)),
+                                 root_fall(2) * largest_of(sums.subspan(3, middle)));
+    Triple result = per_coefficient_with_root;
+    for (double& value : result) value *= kSafetyOfRoot * size;
     return result;
 }
 

@@ -37,6 +37,7 @@ struct QuadratureRule {
     std::array<double, kFallRates.size()> step;      ///< from one coefficient to the next
     std::array<double, kFallRates.size()> steepest;  ///< steepest_of() each rate
     Triple light;                                    ///< part of the white that is in the panel
+    Triple per_coefficient_with_root;  ///< error per unit of the last one, see error_with_root()
 
     std::size_t sum_count() const { return 3 + middle + tail; }
     /// X, Y, Z, then the middle and the last Chebyshev coefficients of values - reference.
@@ -46,8 +47,13 @@ struct QuadratureRule {
     /// Ratio of the middle coefficients' size to that of the last ones; for degrees from 16.
     double fall_seen(std::span<const double> sums) const;
     /// Of the integrals, `sums` being those of sum(). `rate` is an index into kFallRates that
-    /// is known to hold; half of the fall from the middle to the last coefficients counts as well.
-    Triple error(std::span<const double> sums, std::size_t rate) const;
+    /// is known to hold; half of the fall from the middle to the last coefficients counts as well,
+    /// up to the rate `most`.
+    Triple error(std::span<const double> sums, std::size_t rate,
+                 std::size_t most = kFallRates.size() - 1) const;
+    /// The same with a square root in or next to the panel, whose coefficients fall as cos(k theta
+    /// + phi) k^-3/2.
+    Triple error_with_root(std::span<const double> sums) const;
 };
 
 }  // namespace irido

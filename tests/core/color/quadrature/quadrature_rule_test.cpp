@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "core/colorimetry/illuminant.hpp"
+#include "core/math/random.hpp"
+#include "core/math/square.hpp"
 
 using namespace irido;
 
@@ -70,5 +72,39 @@ TEST_CASE("the error of a rule bounds that of fringes and of poles off the panel
         for (const double at : {-0.9, -0.2, 0.35, 0.97})
             for (const double width : {0.3, 0.6, 1.5})
                 check([&](double x) { return 1 / (1 + std::pow((x - at) / width, 2)); });
+    }
+}
+
+TEST_CASE("the error of a rule bounds that of square roots in the panel") {
+    const WavelengthRange panel{520, 560};
+    Random random(3);
+    for (int trial = 0; trial < 12; ++trial) {
+        const double nm = random.uniform(panel.first_nm, panel.last_nm);
+        const auto f = [&](double at_nm) { return std::sqrt(std::max(0.0, 1 / at_nm - 1 / nm)); };
+        const double largest = f(panel.first_nm);
+        // short panels next to the root, where it is
+        Triple exact{};
+        double width = nm - panel.first_nm, to = panel.first_nm;
+        for (int i = 0; i < 40; ++i) {
+            const double from = to;
+            to = i < 39 ? nm - (width /= 2) : nm;
+            const QuadratureRule part(d65(), {from, to}, 32);
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t j = 0; j < part.points; ++j)
+                    exact[c] += part.weights[c * part.stride + j] * f(part.wavelength_nm[j]);
+        }
+        for (const std::size_t degree : kDegrees) {
+            const QuadratureRule rule(d65(), panel, degree);
+            std::vector<double> values(rule.stride, 0), sums(rule.sum_count());
+            for (std::size_t j = 0; j < rule.points; ++j) values[j] = f(rule.wavelength_nm[j]);
+            rule.sum(values.data(), 0, sums.data(), SimdLevel::baseline);
+            const Triple error = rule.error_with_root(sums);
+            CAPTURE(nm, degree);
+            for (std::size_t c = 0; c < 3; ++c) {
+                CHECK(std::abs(sums[c] - exact[c]) <= error[c]);
+                CHECK(error[c] < 200 / square(static_cast<double>(degree)) * largest *
+                                     rule.light[c] * d65().white()[c]);
+            }
+        }
     }
 }
