@@ -217,13 +217,13 @@ bool names_measurements(const std::vector<std::string>& header) {
 }  // namespace
 
 std::vector<std::string> measured_quantities(std::string_view text) {
-    constexpr std::string_view kSeparators = ",;\t ";
+    constexpr std::string_view kColumnSeparators = ",;\t ";
     std::vector<std::string> quantities;
     for (const TextLine& line : lines_of(text)) {
         const std::string_view names = trimmed(line.text);
         const bool is_comment = names.starts_with("//") || names.find_first_of("#;!%") == 0;
         std::vector<std::string> header;
-        for (const char separator : kSeparators) {
+        for (const char separator : kColumnSeparators) {
             if (is_comment && separator == ' ') break;
             header = column_names(names, separator);
             if (header.size() > 1 && names_measurements(header)) break;
