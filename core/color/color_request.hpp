@@ -34,6 +34,8 @@ struct ColorRequest {
     /// Layers of the stack whose thickness will vary, if no others do: the rest of the stack is
     /// then computed once for all colours, which changes them within rounding.
     std::vector<LayerPlace> varied{};
+    /// Needs::spread_error and spread_reach, which quadrature does not add to the errors.
+    double spread_error = 0, spread_reach = 0;
     /// Numbers that may be cached for the rest of the stack: trades memory for speed, not accuracy.
     std::size_t kept_numbers = 1U << 23;
     SimdLevel simd = best_simd_level();
@@ -49,7 +51,9 @@ inline Needs needs_of(const ColorRequest& request) {
             .p_at_normal = false,
             .R = wants(Side::reflected),
             .T = wants(Side::transmitted),
-            .A = false};
+            .A = false,
+            .spread_error = request.spread_error,
+            .spread_reach = request.spread_reach};
 }
 
 struct StackColor {

@@ -1,10 +1,12 @@
 #include "core/color/exact_color.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <mutex>
 
 #include "core/color/quadrature/quadrature_color.hpp"
 #include "core/color/spread_color.hpp"
+#include "core/color/spread_means.hpp"
 #include "core/error.hpp"
 #include "core/math/lazy.hpp"
 
@@ -12,11 +14,14 @@ namespace irido {
 
 namespace {
 
+/// One algorithm, and another one for what it cannot do.
 class SpecialColor : public ColorAlgorithm {
 public:
-    SpecialColor(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
-                 std::unique_ptr<ColorAlgorithm> special)
-        : tables_(tables), stack_(stack), request_(request), special_(std::move(special)) {}
+    using Maker = std::function<std::unique_ptr<ColorAlgorithm>()>;
+
+    SpecialColor(const ColorRequest& request, std::unique_ptr<ColorAlgorithm> special,
+                 Maker make_other)
+        : request_(request), special_(std::move(special)), make_other_(std::move(make_other)) {}
 
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
@@ -29,11 +34,10 @@ public:
                     return color.error <= request_.tolerance;
                 }))
                 continue;
-            const ColorAlgorithm& exact = *quadrature_.get(lock_, [&] {
-                return std::make_unique<std::unique_ptr<ColorAlgorithm>>(
-                    quadrature_color(tables_, stack_, request_));
+            const ColorAlgorithm& other = *other_.get(lock_, [&] {
+                return std::make_unique<std::unique_ptr<ColorAlgorithm>>(make_other_());
             });
-            exact(stack, angles_deg.subspan(i, 1), of_angle);
+            other(stack, angles_deg.subspan(i, 1), of_angle);
         }
     }
 
@@ -49,12 +53,11 @@ private:
         }
     }
 
-    const ColorTables& tables_;
-    Stack stack_;
     ColorRequest request_;
     std::unique_ptr<ColorAlgorithm> special_;
+    Maker make_other_;
     mutable std::mutex lock_;
-    mutable Lazy<std::unique_ptr<ColorAlgorithm>> quadrature_;
+    mutable Lazy<std::unique_ptr<ColorAlgorithm>> other_;
 };
 
 }  // namespace
@@ -62,15 +65,22 @@ private:
 std::unique_ptr<ColorAlgorithm> or_quadrature(const ColorTables& tables, const Stack& stack,
                                               const ColorRequest& request,
                                               std::unique_ptr<ColorAlgorithm> special) {
-    return std::make_unique<SpecialColor>(tables, stack, request, std::move(special));
+    return std::make_unique<SpecialColor>(request, std::move(special), [&tables, stack, request] {
+        return quadrature_color(tables, stack, request);
+    });
 }
 
 std::unique_ptr<ColorAlgorithm> exact_color(const ColorTables& tables, const Stack& stack,
                                             const ColorMethod& method,
                                             const ColorRequest& request) {
-    if (auto special = spread_color(tables, stack, method, request))
-        return or_quadrature(tables, stack, request, std::move(special));
-    return quadrature_color(tables, stack, request);
+    const auto without_means = [&tables, stack, method, request] {
+        auto special = spread_color(tables, stack, method, request);
+        return special ? or_quadrature(tables, stack, request, std::move(special))
+                       : quadrature_color(tables, stack, request);
+    };
+    if (auto means = spread_means(tables, stack, request))
+        return std::make_unique<SpecialColor>(request, std::move(means), without_means);
+    return without_means();
 }
 
 }  // namespace irido

@@ -60,6 +60,10 @@ void store_layers(Spectrum& to, std::size_t point, std::span<const double> absor
         to.A_layers[layer * points + point] = absorbed[layer];
 }
 
+[[noreturn]] void throw_no_means() {
+    throw DomainError("the mean over thickness_sigma_nm is not known to the vector kernel");
+}
+
 /// Points by the plain kernel.
 class PlainRun {
 public:
@@ -228,11 +232,13 @@ void set_points(const SpectrumJob& job, const IndexTable& table,
 class VectorRun {
 public:
     /// `layers` is nullptr unless the absorption of each is requested.
-    VectorRun(const ChainProgram& program, const ChainLayers* layers, PlainRun& plain,
-              const IndexTable& table, std::span<const IncidentAngle> incidence, const Needs& needs,
-              SimdLevel simd, Spectra& out, SpectrumMemory& memory)
+    /// `means` is nullptr unless thicknesses are spread.
+    VectorRun(const ChainProgram& program, const ChainLayers* layers, const SpreadProgram* means,
+              PlainRun& plain, const IndexTable& table, std::span<const IncidentAngle> incidence,
+              const Needs& needs, SimdLevel simd, Spectra& out, SpectrumMemory& memory)
         : program_(program),
           layers_(layers),
+          means_(means),
           plain_(plain),
           table_(table),
           incidence_(incidence),
@@ -266,6 +272,9 @@ public:
         redo_.clear();
         redo_layers_.clear();
         const auto pass = [&](bool with_s, bool with_p) {
+            if (means_)
+                return run_spread(*means_, needs_.spread_error, run_, with_s ? &s : nullptr,
+                                  with_p ? &p : nullptr, redo_, memory_, simd_);
             run_chain(program_, run_, with_s ? &s : nullptr, with_p ? &p : nullptr, redo_, memory_,
                       simd_);
             if (layers_)
@@ -282,6 +291,7 @@ public:
         } else {
             pass(with_s, with_p);
         }
+        if (means_ && !redo_.empty()) throw_no_means();
         if (normal && needs_.s && needs_.p && needs_.p_at_normal) {
             copy_points(out_.s, out_.p, first, first + run_.count);
             if (layers_) copy_layers(out_.s, out_.p, points, first, first + run_.count);
@@ -301,6 +311,7 @@ public:
 private:
     const ChainProgram& program_;
     const ChainLayers* layers_;
+    const SpreadProgram* means_;
     PlainRun& plain_;
     const IndexTable& table_;
     std::span<const IncidentAngle> incidence_;
@@ -390,6 +401,9 @@ void SpectrumKernel::update() {
     is_vectorized_ = chain && simd_ != SimdLevel::plain &&
                      compile(*chain, absorbs_, amplifies_, needs_.A, fixed_, program_);
     if (needs_.layers) stack_.require_layer_list();
+    const Block* const block = stack_.spread_block();
+    has_means_ = block && simd_ != SimdLevel::plain && needs_.spread_error > 0 &&
+                 compile(block->down, stack_.substrate(), absorbs_, needs_.spread_reach, means_);
     if (!is_vectorized_) return;
     program_.down[0].mirror = fast_mirror(stack_.mirror(), absorbs_);
     if (needs_.layers) compile_layers(*chain, stack_.listed(), absorbs_, layers_);
@@ -429,6 +443,8 @@ void SpectrumKernel::fix_all_layers(const IndexTable& table,
 }
 
 bool SpectrumKernel::by_vectors(const IndexTable& table) const {
+    if (has_means_)
+        return means_.program.largest_thickness_nm * table.largest_wavenumber() <= kLargestPhase;
     if (!is_vectorized_) return false;
     for (const Program& block : program_.down)
         if (block.largest_thickness_nm * table.largest_wavenumber() > kLargestPhase) return false;
@@ -449,12 +465,13 @@ void SpectrumKernel::run(std::span<const SpectrumJob> jobs, const IndexTable& ta
                          std::span<const IncidentAngle> incidence,
                          std::span<const FixedLayers* const> fixed, Spectra& out,
                          SpectrumMemory& memory) const {
+    if (needs_.spread_error > 0 && !has_means_ && !stack_.chain()) throw_no_means();
     const std::size_t wavelengths = table.wavelength_nm().size();
     PlainRun plain(stack_, table, needs_, out);
     std::optional<VectorRun> vector;
     if (by_vectors(table))
-        vector.emplace(program_, needs_.layers ? &layers_ : nullptr, plain, table, incidence,
-                       needs_, simd_, out, memory);
+        vector.emplace(program_, needs_.layers ? &layers_ : nullptr, has_means_ ? &means_ : nullptr,
+                       plain, table, incidence, needs_, simd_, out, memory);
     for (const SpectrumJob& job : jobs) {
         const bool grazing = !job.along_angles && incidence[job.fixed].cos == 0;
         if (vector && !grazing) {
@@ -504,7 +521,7 @@ Work SpectrumKernel::work(const IndexTable& table, std::span<const IncidentAngle
     Work work{.points = incidence.size() * table.wavelength_nm().size()};
     work.normal_angles =
         static_cast<std::size_t>(std::ranges::count(incidence, 1.0, &IncidentAngle::cos));
-    if (!by_vectors(table)) return work;
+    if (!by_vectors(table) || has_means_) return work;
     work.kernel = simd_;
     work.passes = program_.down.size() + program_.up.size();
     const bool incident_is_constant = table.is_constant(table.incident());

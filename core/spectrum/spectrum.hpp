@@ -8,6 +8,7 @@
 #include "core/spectrum/stack_power.hpp"
 #include "core/stack/index_table.hpp"
 #include "core/vector/chain_program.hpp"
+#include "core/vector/spread_program.hpp"
 
 namespace irido {
 
@@ -19,6 +20,10 @@ struct Needs {
     bool amplitudes = false;    ///< r and t; needs a coherent stack of fixed thicknesses
     bool denominators = false;  ///< of Response
     bool layers = false;        ///< absorption of every layer
+    /// Largest error of R and T where thicknesses are spread, by at most 1/spread_reach of them. If
+    /// above 0, means are those of run_spread(), without A, with a DomainError where these are not
+    /// known; if 0, they are those of StackPower.
+    double spread_error = 0, spread_reach = 0;
 };
 
 /// Results of one polarization, [angle][wavelength]; empty if not requested.
@@ -160,7 +165,9 @@ private:
     FixedRuns fixed_;
     bool is_vectorized_ = false;
     ChainProgram program_;  ///< if it is
-    ChainLayers layers_;    ///< likewise, if the absorption of each is requested
+    bool has_means_ = false;
+    SpreadProgram means_;  ///< if it has them
+    ChainLayers layers_;   ///< likewise, if the absorption of each is requested
 };
 
 /// Spectra of a stack at all wavelengths of a table and all angles. Stacks of fixed thicknesses use

@@ -53,6 +53,12 @@ public:
     /// The coherent blocks if there is no thickness distribution, else nullptr.
     const Chain* chain() const { return spreads_.empty() ? &chain_ : nullptr; }
 
+    /// The coherent block if there is only one and it has thickness distributions, else nullptr.
+    const Block* spread_block() const {
+        return spreads_.empty() || !chain_.gaps.empty() ? nullptr : chain_.blocks.data();
+    }
+    std::size_t substrate() const { return chain_.substrate; }  ///< index of its material
+
     /// The embedded mirror that the whole stack is, if so and without thickness distribution: its
     /// powers are mirror_power().
     const std::optional<HostedMirror>& mirror() const { return mirror_; }

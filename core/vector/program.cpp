@@ -7,6 +7,7 @@
 #include <memory_resource>
 
 #include "core/math/vector_math.hpp"
+#include "core/vector/spread_program.hpp"
 
 namespace irido {
 
@@ -35,8 +36,10 @@ constexpr std::size_t kLongestPeriod = 64;
 /// The steps of a stack, collected from the substrate up.
 class Compiler {
 public:
-    Compiler(Program& program, const std::vector<bool>& absorbs, bool needs_A)
-        : program_(program), absorbs_(absorbs), needs_A_(needs_A) {
+    /// `sigma_nm`, if given, receives those of the layers, and no period may have any.
+    Compiler(Program& program, const std::vector<bool>& absorbs, bool needs_A,
+             std::vector<double>* sigma_nm = nullptr)
+        : program_(program), absorbs_(absorbs), needs_A_(needs_A), sigma_nm_(sigma_nm) {
         program_.media.clear();
         program_.layers.clear();
         program_.order.clear();
@@ -46,7 +49,10 @@ public:
         program_.mirror.reset();
     }
 
-    void add(const Layer& layer) { add(layer.material, layer.thickness_nm); }
+    void add(const Layer& layer) { add(layer, 1); }
+
+    /// Whether a layer of no thickness has a distribution.
+    bool lacks_spread() const { return lacks_spread_; }
 
     /// Call after the layers.
     void add_substrate(std::size_t material) {
@@ -96,6 +102,17 @@ private:
         return entry->second;
     }
 
+    /// One layer that is there `times` times in a row.
+    void add(const Layer& layer, double times) {
+        add(layer.material, layer.thickness_nm * times);
+        if (!sigma_nm_ || layer.thickness_sigma_nm == 0) return;
+        if (layer.thickness_nm > 0) {
+            sigma_nm_->back() = layer.thickness_sigma_nm * times;
+        } else {
+            lacks_spread_ = true;
+        }
+    }
+
     void add(std::size_t material, double thickness_nm) {
         if (thickness_nm == 0) return;
         using Kind = Program::Kind;
@@ -105,17 +122,21 @@ private:
         if (program_.steps.empty() || program_.steps.back().kind != kind)
             program_.steps.push_back({kind, position, 0});
         ++program_.steps.back().count;
+        if (sigma_nm_) sigma_nm_->resize(program_.order.size());
     }
 
     bool add(const Group& group) {
         if (group.repeat == 1) return add(std::span(group.elements));
         if (group.elements.size() == 1 && std::holds_alternative<Layer>(group.elements[0].value)) {
-            const Layer& layer = std::get<Layer>(group.elements[0].value);
-            add(layer.material, layer.thickness_nm * static_cast<double>(group.repeat));
+            add(std::get<Layer>(group.elements[0].value), static_cast<double>(group.repeat));
             return true;
         }
         std::vector<Layer> period;
         if (!write_out(group.elements, period)) return false;
+        if (sigma_nm_ && std::ranges::any_of(period, [](const Layer& layer) {
+                return layer.thickness_sigma_nm > 0;
+            }))
+            return false;
         const bool transparent = std::ranges::none_of(
             period, [&](const Layer& layer) { return absorbs_[layer.material]; });
         const std::uint64_t all = group.repeat * period.size();
@@ -144,6 +165,7 @@ private:
         for (std::size_t i = period.size(); i-- > 0;)
             program_.order.push_back(shared_layer(period[i].material, period[i].thickness_nm));
         program_.steps.push_back(step);
+        if (sigma_nm_) sigma_nm_->resize(program_.order.size());
     }
 
     /// Layers of a period with the groups in it written out; false if they are many.
@@ -164,6 +186,8 @@ private:
     Program& program_;
     const std::vector<bool>& absorbs_;
     const bool needs_A_;
+    std::vector<double>* const sigma_nm_;
+    bool lacks_spread_ = false;
     std::array<std::byte, 4096> room_;
     std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
     std::pmr::map<std::size_t, std::uint32_t> media_{&memory_};
@@ -297,6 +321,23 @@ bool compile(std::span<const Element> elements, std::size_t substrate,
     if (!compiler.add(elements.first(end))) return false;
     compiler.add_substrate(substrate);
     return true;
+}
+
+bool compile(std::span<const Element> elements, std::size_t substrate,
+             const std::vector<bool>& absorbs, double reach, SpreadProgram& program) {
+    program.sigma_nm.clear();
+    Compiler compiler(program.program, absorbs, false, &program.sigma_nm);
+    if (!compiler.add(elements) || compiler.lacks_spread()) return false;
+    compiler.add_substrate(substrate);
+    std::size_t spreads = 0;
+    for (std::size_t i = 0; i < program.sigma_nm.size(); ++i) {
+        const double sigma_nm = program.sigma_nm[i];
+        if (sigma_nm == 0) continue;
+        const Program::PlainLayer& layer = program.program.layers[program.program.order[i]];
+        if (layer.thickness_nm < reach * sigma_nm) return false;
+        ++spreads;
+    }
+    return spreads > 0 && spreads <= kMostMeanSpreads;
 }
 
 void compile_layers(std::span<const Layer> layers, std::span<const std::size_t> listed,

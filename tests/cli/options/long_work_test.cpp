@@ -94,11 +94,12 @@ public:
     }
 
 private:
+    /// Of distributions that are cut at zero: means over these take longest.
     static std::string stack(int spread) {
         std::string layers;
         for (int i = 0; i < spread; ++i)
             layers += std::string(i > 0 ? ", " : "") +
-                      R"({"material": 1.46, "thickness_nm": 300, "thickness_sigma_nm": 10},)"
+                      R"({"material": 1.46, "thickness_nm": 300, "thickness_sigma_nm": 80},)"
                       R"({"material": 2.4, "thickness_nm": 80})";
         return R"({"incident": 1, "layers": [)" + layers + R"(], "substrate": 3.5})";
     }
