@@ -31,8 +31,8 @@ constexpr double kMostLost = 0.6, kMostUnseen = 0.1;
 /// Degree, as an index, at which panels of known denominators begin: their points cost little.
 constexpr std::size_t kKnownDegree = 4;
 
-/// Their errors, at tolerances of 1e-3 and more, are up to 1.5 times what coefficients tell.
-constexpr double kSafetyOfKnown = 2;
+/// Errors of random stacks are up to 1.8 times what coefficients tell.
+constexpr double kSafetyOfTail = 2;
 
 /// Where the points are dense for a denominator, differences of neighbours are its slope.
 constexpr double kDense = 3.2;
@@ -332,7 +332,7 @@ private:
             rule.sum(samples.row(k) + first, reference_[k], sums, limits_.simd);
             panel_errors[k] = has_root ? rule.error_with_root({sums, width})
                                        : rule.error({sums, width}, poles.rate, most_rate);
-            if (job.known) panel_errors[k] = scaled(panel_errors[k], kSafetyOfKnown);
+            if (job.known || !has_root) panel_errors[k] = scaled(panel_errors[k], kSafetyOfTail);
             for (std::size_t c = 0; c < 3; ++c) panel_errors[k][c] += lost[c];
             if (must_end || is_below(panel_errors[k], allowed)) continue;
             const bool halves =

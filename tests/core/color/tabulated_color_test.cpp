@@ -184,6 +184,23 @@ TEST_CASE("absorbing stacks have their colour within the error", "[slow]") {
     }
 }
 
+TEST_CASE("few wavelengths do not understate the error of absorbing stacks") {
+    StackBuilder b;
+    b.add(b.layer({1.518752409232798, 0.15244968617769963}, 1897.4561882827038));
+    b.add(b.layer(0.59843162407537653, 566.95542219641595));
+    b.add(b.layer({2.3840895423198791, 2.0163176699204537}, 68.241519415817422));
+    const Stack stack = b.over({0.97086775434554162, 4.3415712273567211});
+    ColorRequest request{.light = Light::p, .tolerance = 1e-11};
+    const double angle = 83.182897280479779;
+    const Triple exact = color(stack, angle, request).xyz;
+    for (const double tolerance : {1e-2, 1e-3}) {
+        request.tolerance = tolerance;
+        const StackColor result = color(stack, angle, request);
+        CHECK(largest_difference(result.xyz, exact) <= result.error);
+        CHECK(result.error <= tolerance);
+    }
+}
+
 TEST_CASE("an incoherent layer follows every row of its k") {
     Table n, k;
     for (int row = 0; row <= 250; ++row) {
