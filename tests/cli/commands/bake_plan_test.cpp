@@ -38,6 +38,15 @@ const std::string kScene = R"({
          "width_um": [1, 3], "depth_um": [0.1, 0.3], "angle_deg": [0, 180]}]}}
     ]})";
 
+/// A scene that is soon baked.
+const std::string kFewTables = R"({
+    "tolerance": {"delta_e": 1},
+    "materials": [
+        {"name": "film", "stack": "1 | 1.33@300 | 1.5+3i", "angles_deg": [0, 70],
+         "vary": {"layers.0.thickness_nm": [250, 350]}, "shading": "color"},
+        {"name": "black", "stack": "1 | 1.33@6 | 1", "angles_deg": [0, 20], "shading": "color"}
+    ]})";
+
 /// A bakery with the scene's plan.
 class Planned : public Bakery {
 public:
@@ -112,8 +121,8 @@ TEST_CASE("the sizes of a bake are those of its plan", "[cli][bake]") {
 }
 
 TEST_CASE("tables that are not in the plan are made, and a note names them", "[cli][bake]") {
-    const Planned planned;
-    json scene = json::parse(kScene);
+    const Planned planned(kFewTables);
+    json scene = json::parse(kFewTables);
     scene["materials"][0]["stack"] = "1 | 1.34@300 | 1.5+3i";
     planned.set(scene.dump());
     const Outcome with = planned.bake_planned("with");
@@ -126,7 +135,7 @@ TEST_CASE("tables that are not in the plan are made, and a note names them", "[c
 }
 
 TEST_CASE("a plan may come from a pipe, and be written anew by others", "[cli][bake]") {
-    const Planned planned;
+    const Planned planned(kFewTables);
     const Outcome piped = run_shell(
         "\"$IRIDO\" plan scene.json -f json --quiet | \"$IRIDO\" bake scene.json --plan - -o a",
         planned.path("."));
