@@ -173,6 +173,25 @@ TEST_CASE("narrow resonances at grazing angles are resolved over the thickness",
     CHECK(largest_difference(found.xyz, mean) < 2e-6);
 }
 
+TEST_CASE("a narrow resonance passes kinks of the observer while the thickness varies",
+          "[color][regression]") {
+    StackBuilder b(2.0);
+    b.add(oracle::spread(
+        StackBuilder::layer_of(b.material(find_material("Ta2O5")->material), 393.42), 7.32));
+    b.add(StackBuilder::layer_of(b.material(find_material("MgF2")->material), 59.76));
+    const Stack stack = b.over(1.5);
+    const double angle_deg = 89.9;
+    ColorRequest request{.light = Light::p, .tolerance = 1e-9};
+    const StackColor exact = by_spectra(stack, angle_deg, request);
+    for (const double tolerance : {1e-5, 1e-6, 1e-7}) {
+        request.tolerance = tolerance;
+        const StackColor found = color(stack, angle_deg, request);
+        CAPTURE(tolerance);
+        CHECK(found.error <= tolerance);
+        CHECK(largest_difference(found.xyz, exact.xyz) <= found.error + exact.error);
+    }
+}
+
 TEST_CASE("spreads that colours cannot average are left to spectra", "[color]") {
     StackBuilder b;
     b.add(b.layer({1.5, -0.01}, 200));
