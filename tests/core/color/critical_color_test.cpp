@@ -9,17 +9,14 @@
 #include "core/material/library.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/d65_tables.hpp"
 
 using namespace irido;
 using oracle::Random;
 using oracle::StackBuilder;
+using test::d65_tables;
 
 namespace {
-
-const ColorTables& tables() {
-    static const ColorTables of_d65(Sensitivity(observer(2), illuminant("D65")));
-    return of_d65;
-}
 
 /// A stack, and an angle at which its substrate's critical angle is passed within the spectrum.
 struct CriticalStack {
@@ -61,7 +58,8 @@ CriticalStack critical_stack(Random& random) {
 
 StackColor color(const CriticalStack& of, const ColorRequest& request,
                  const ColorMethod& method = color_method("quadrature")) {
-    return stack_color(tables(), of.stack, method, request, std::span(&of.angle_deg, 1)).front();
+    return stack_color(d65_tables(), of.stack, method, request, std::span(&of.angle_deg, 1))
+        .front();
 }
 
 /// IRIDO_TEST_TOLERANCES: number of stacks to try.

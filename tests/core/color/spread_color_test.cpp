@@ -9,39 +9,36 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "core/material/library.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/d65_tables.hpp"
 
 using namespace irido;
 using oracle::Random;
 using oracle::StackBuilder;
+using test::d65_tables;
 
 namespace {
-
-const ColorTables& white_light() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
 
 Layer& layer_of(Stack& stack, std::size_t i) {
     return std::get<Layer>(stack.elements[i].value);
 }
 
 StackColor color(const Stack& stack, double angle_deg, const ColorRequest& request = {}) {
-    return stack_color(white_light(), stack, {}, request, std::span(&angle_deg, 1)).front();
+    return stack_color(d65_tables(), stack, {}, request, std::span(&angle_deg, 1)).front();
 }
 
 /// Means of colours over the thickness, which others may be faster than.
 StackColor by_colors(const Stack& stack, double angle_deg) {
     StackColor result;
-    (*spread_color(white_light(), stack, {}, {}))(stack, std::span(&angle_deg, 1),
-                                                  std::span(&result, 1));
+    (*spread_color(d65_tables(), stack, {}, {}))(stack, std::span(&angle_deg, 1),
+                                                 std::span(&result, 1));
     return result;
 }
 
 /// Means over the thickness at each wavelength.
 StackColor by_spectra(const Stack& stack, double angle_deg, const ColorRequest& request = {}) {
     StackColor result;
-    (*quadrature_color(white_light(), stack, request))(stack, std::span(&angle_deg, 1),
-                                                       std::span(&result, 1));
+    (*quadrature_color(d65_tables(), stack, request))(stack, std::span(&angle_deg, 1),
+                                                      std::span(&result, 1));
     return result;
 }
 
@@ -197,13 +194,13 @@ TEST_CASE("spreads that colours cannot average are left to spectra", "[color]") 
     b.add(b.layer({1.5, -0.01}, 200));
     Stack amplifier = b.over(1.52);
     layer_of(amplifier, 0).thickness_sigma_nm = 5;
-    CHECK(spread_color(white_light(), amplifier, {}, {}) == nullptr);
+    CHECK(spread_color(d65_tables(), amplifier, {}, {}) == nullptr);
     Stack thick = amplifier;
     thick.materials[layer_of(thick, 0).material].model =
         RefractiveIndex{Constant{1.5}, Constant{0}};
-    CHECK(spread_color(white_light(), thick, {}, {}) != nullptr);
+    CHECK(spread_color(d65_tables(), thick, {}, {}) != nullptr);
     layer_of(thick, 0).coherent = false;
-    CHECK(spread_color(white_light(), thick, {}, {}) == nullptr);
+    CHECK(spread_color(d65_tables(), thick, {}, {}) == nullptr);
     layer_of(thick, 0).thickness_sigma_nm = 0;
     CHECK_FALSE(has_spread(thick));
 }

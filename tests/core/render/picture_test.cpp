@@ -10,20 +10,17 @@
 #include "core/render/facet.hpp"
 #include "core/rough/ggx.hpp"
 #include "core/stack/builder.hpp"
+#include "tests/support/d65_tables.hpp"
 
 using namespace irido;
 using Catch::Contains;
 using Catch::Matchers::WithinAbs;
+using test::d65_tables;
 
 namespace {
 
-const ColorTables& daylight() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
-
 const RgbTransform& to_srgb() {
-    static const RgbTransform transform(rgb_space("srgb"), daylight().sensitivity().white(),
+    static const RgbTransform transform(rgb_space("srgb"), d65_tables().sensitivity().white(),
                                         Adaptation::bradford);
     return transform;
 }
@@ -36,7 +33,7 @@ Stack film_between(Complex outside, Complex film, double nm, Complex base) {
 
 Triple color_of(const Stack& stack, double angle_deg, Side side = Side::reflected) {
     return to_srgb()(
-        stack_color(daylight(), stack, {}, {.sides = {side}}, std::array{angle_deg})[0].xyz);
+        stack_color(d65_tables(), stack, {}, {.sides = {side}}, std::array{angle_deg})[0].xyz);
 }
 
 struct Drawing {
@@ -58,10 +55,10 @@ struct Drawing {
                              .threads = threads};
         const auto nothing = [](double) {};
         if (is_simple(scene.shape))
-            return painter.paint(ReflectedColors(daylight(), to_srgb(), surface, plan), threads,
+            return painter.paint(ReflectedColors(d65_tables(), to_srgb(), surface, plan), threads,
                                  nothing);
         return painter.paint(
-            PathColors(daylight(), to_srgb(), surface, is_opaque(scene.shape), plan), threads,
+            PathColors(d65_tables(), to_srgb(), surface, is_opaque(scene.shape), plan), threads,
             nothing);
     }
 };

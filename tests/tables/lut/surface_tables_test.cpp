@@ -11,6 +11,7 @@
 #include "core/rough/walk/layered_nodes.hpp"
 #include "tables/lut/lut_file.hpp"
 #include "tables/lut/measured/half_angle_table.hpp"
+#include "tests/support/d65_tables.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/sample_surfaces.hpp"
 
@@ -21,22 +22,17 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-const ColorTables& daylight() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
-
 FoundNodes nodes_of(const LayeredScattering& scattering, const NodeRequest& request) {
-    const Sensitivity& sensitivity = daylight().sensitivity();
+    const Sensitivity& sensitivity = d65_tables().sensitivity();
     const TabulatedScattering exact(scattering, equal_rule(sensitivity, 471), sensitivity.white(),
                                     Paths::single, Crossings::single, Execution(0));
-    return find_nodes(scattering, exact, daylight(), request, Execution(0));
+    return find_nodes(scattering, exact, d65_tables(), request, Execution(0));
 }
 
 /// The largest CIEDE2000 against exact colours at pairs that no fit has seen.
 double true_error(const LayeredNodes& table, const LayeredScattering& scattering,
                   std::size_t pairs) {
-    const LayeredColor colors(daylight(), scattering.surface(), Crossings::single, 1e-4,
+    const LayeredColor colors(d65_tables(), scattering.surface(), Crossings::single, 1e-4,
                               Execution(0));
     const std::vector<ScatterPair> some = sample_pairs(pairs, 77);
     const std::vector<SurfaceColor> exact = colors.brdf(some, Paths::single);
@@ -45,7 +41,7 @@ double true_error(const LayeredNodes& table, const LayeredScattering& scattering
         Triple truth = exact[p].xyz;
         for (double& part : truth) part /= kPi;
         worst = std::max(worst, scatter_difference(table(scattering, some[p]), truth,
-                                                   daylight().sensitivity().white()));
+                                                   d65_tables().sensitivity().white()));
     }
     return worst;
 }

@@ -12,20 +12,17 @@
 #include "core/stack/builder.hpp"
 #include "core/truth/color_cases.hpp"
 #include "tests/oracle/stack_oracle.hpp"
+#include "tests/support/d65_tables.hpp"
 
 using namespace irido;
 using Catch::Contains;
 using Catch::WithinAbs;
+using test::d65_tables;
 
 namespace {
 
-const ColorTables& d65() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
-
 StackColor color(const Stack& stack, double angle_deg, const ColorMethod& method,
-                 const ColorRequest& request = {}, const ColorTables& tables = d65()) {
+                 const ColorRequest& request = {}, const ColorTables& tables = d65_tables()) {
     StackColor result;
     (*color_algorithm(tables, stack, method, request))(stack, std::span(&angle_deg, 1),
                                                        std::span(&result, 1));
@@ -33,7 +30,7 @@ StackColor color(const Stack& stack, double angle_deg, const ColorMethod& method
 }
 
 Triple exact(const Stack& stack, double angle_deg, Side side = Side::reflected) {
-    return stack_color(d65(), stack, color_method("quadrature"),
+    return stack_color(d65_tables(), stack, color_method("quadrature"),
                        {.sides = {side}, .tolerance = 1e-11}, std::span(&angle_deg, 1))
         .front()
         .xyz;
@@ -52,12 +49,13 @@ Stack film(Complex index, double thickness_nm, Complex substrate, Complex incide
 }
 
 /// XYZ relative to the white.
-Triple relative(const Triple& xyz, const Triple& white = d65().sensitivity().white()) {
+Triple relative(const Triple& xyz, const Triple& white = d65_tables().sensitivity().white()) {
     return {xyz[0] / white[0], xyz[1] / white[1], xyz[2] / white[2]};
 }
 
 Triple linear_srgb(const Triple& xyz) {
-    return RgbTransform(rgb_space("srgb"), d65().sensitivity().white(), Adaptation::bradford)(xyz);
+    return RgbTransform(rgb_space("srgb"), d65_tables().sensitivity().white(),
+                        Adaptation::bradford)(xyz);
 }
 
 constexpr std::array<const char*, 3> kFilmMethods{"gaussian", "gltf", "smits"};
@@ -129,8 +127,8 @@ TEST_CASE("equal wavelengths serve every side, light and angle at once") {
     const auto colors = [&](Light light) {
         request.light = light;
         std::vector<StackColor> result(angles.size() * 2);
-        (*color_algorithm(d65(), stack, color_method("equal", 3000), request))(stack, angles,
-                                                                               result);
+        (*color_algorithm(d65_tables(), stack, color_method("equal", 3000), request))(stack, angles,
+                                                                                      result);
         return result;
     };
     const auto s = colors(Light::s), p = colors(Light::p), u = colors(Light::unpolarized);
@@ -139,7 +137,7 @@ TEST_CASE("equal wavelengths serve every side, light and angle at once") {
         CHECK(largest_error(T, exact(stack, angles[a], Side::transmitted)) < 1e-5);
         CHECK(largest_error(R, exact(stack, angles[a])) < 1e-5);
         for (std::size_t c = 0; c < 3; ++c) {
-            CHECK_THAT(R[c] + T[c], WithinAbs(d65().sensitivity().white()[c], 1e-14));
+            CHECK_THAT(R[c] + T[c], WithinAbs(d65_tables().sensitivity().white()[c], 1e-14));
             CHECK_THAT((s[2 * a].xyz[c] + p[2 * a].xyz[c]) / 2, WithinAbs(T[c], 1e-15));
         }
         CHECK((a == 0) == (largest_error(s[2 * a].xyz, p[2 * a].xyz) < 1e-14));
@@ -200,7 +198,7 @@ TEST_CASE("glTF's base colour is that of the bare base") {
         StackColor result;
         ColorMethod method = color_method("gltf");
         method.base_color = base;
-        (*color_algorithm(d65(), stack, method, {}))(stack, {&angle_deg, 1}, {&result, 1});
+        (*color_algorithm(d65_tables(), stack, method, {}))(stack, {&angle_deg, 1}, {&result, 1});
         return result.xyz;
     };
     for (const char* const metal : {"Au", "Cu", "Ag"}) {
@@ -218,7 +216,7 @@ TEST_CASE("glTF's base colour is that of the bare base") {
 
     // over gold, whose red is 1, which flips the phase
     double sum = 0, count = 0;
-    const Triple& white = d65().sensitivity().white();
+    const Triple& white = d65_tables().sensitivity().white();
     for (double nm = 100; nm <= 400; nm += 50) {
         Stack stack = over("Au");
         std::get<Layer>(stack.elements.front().value).thickness_nm = nm;
@@ -234,7 +232,8 @@ TEST_CASE("glTF's base colour is that of the bare base") {
         CHECK_THROWS_WITH(with_base(boar, bad), Contains("base colour must be in [0, 1]"));
     ColorMethod naive = color_method("naive");
     naive.base_color = Triple{1, 1, 1};
-    CHECK_THROWS_WITH(color_algorithm(d65(), boar, naive, {}), "method naive takes no base colour");
+    CHECK_THROWS_WITH(color_algorithm(d65_tables(), boar, naive, {}),
+                      "method naive takes no base colour");
 }
 
 TEST_CASE("approximations err as much as they are known to") {
@@ -245,7 +244,7 @@ TEST_CASE("approximations err as much as they are known to") {
             for (const ColorFamily& family : color_families(one, 100, 5)) {
                 const Stack& stack = family.variants.front();
                 const double angle = family.angles_deg.front();
-                const Triple& white = d65().sensitivity().white();
+                const Triple& white = d65_tables().sensitivity().white();
                 sum += ciede2000(lab(color(stack, angle, method).xyz, white),
                                  lab(exact(stack, angle), white));
                 ++count;
@@ -267,7 +266,7 @@ TEST_CASE("approximations err as much as they are known to") {
 TEST_CASE("total reflection at the film and polarized light") {
     const Stack stack = film(1.2, 300, 1.5, 1.6);
     for (const std::string_view method : {"gaussian", "gltf"})
-        CHECK(color(stack, 60, color_method(method)).xyz == d65().sensitivity().white());
+        CHECK(color(stack, 60, color_method(method)).xyz == d65_tables().sensitivity().white());
     // not all beams of a thin gap are totally reflected
     CHECK(color(film(1.2, 20, 1.6, 1.6), 60, color_method("smits")).xyz[1] < 0.5);
     for (const std::string_view method : {"gaussian", "smits"}) {
@@ -301,7 +300,7 @@ TEST_CASE("approximations refuse stacks that they do not suit", "[refused]") {
     const auto error = [](const Stack& stack, const ColorMethod& method,
                           ColorRequest request = {}) {
         try {
-            color_algorithm(d65(), stack, method, request);
+            color_algorithm(d65_tables(), stack, method, request);
         } catch (const DomainError& e) {
             return std::string(e.what());
         }

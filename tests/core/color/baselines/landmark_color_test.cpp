@@ -7,16 +7,13 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "core/stack/builder.hpp"
+#include "tests/support/d65_tables.hpp"
 
 using namespace irido;
 using Catch::Matchers::Contains;
+using test::d65_tables;
 
 namespace {
-
-const ColorTables& d65() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
 
 Stack mirror(double n1, double d1, double n2, double d2, std::uint64_t repeat = 20) {
     StackBuilder b(n1);
@@ -26,7 +23,7 @@ Stack mirror(double n1, double d1, double n2, double d2, std::uint64_t repeat = 
 
 StackColor color(const Stack& stack, double angle_deg, std::size_t subdivisions,
                  const ColorRequest& request = {}) {
-    return stack_color(d65(), stack, color_method("landmarks", subdivisions), request,
+    return stack_color(d65_tables(), stack, color_method("landmarks", subdivisions), request,
                        std::span(&angle_deg, 1))
         .front();
 }
@@ -59,7 +56,7 @@ Triple by_list(double n1, double d1, double n2, double d2, double angle_deg,
         const double first = std::max(360.0, turn / ends[i + 1]);
         const double last = std::min(830.0, turn / ends[i]);
         if (!(first < last)) continue;
-        const Triple part = d65().sensitivity().integral({first, last});
+        const Triple part = d65_tables().sensitivity().integral({first, last});
         for (std::size_t c = 0; c < 3; ++c) sum[c] += height * part[c];
     }
     return sum;
@@ -92,14 +89,14 @@ TEST_CASE("s and p are averaged, T is the rest", "[landmark_color]") {
     const Triple T = color(stack, 50, 3, {.sides = {Side::transmitted}}).xyz;
     for (std::size_t c = 0; c < 3; ++c) {
         CHECK(u[c] == Approx((s[c] + p[c]) / 2));
-        CHECK(u[c] + T[c] == Approx(d65().sensitivity().white()[c]));
+        CHECK(u[c] + T[c] == Approx(d65_tables().sensitivity().white()[c]));
     }
 }
 
 TEST_CASE("a gap wider than the visible range is white to landmarks", "[landmark_color]") {
     CHECK(largest_difference(color(mirror(1, 137, 60, 2.3), 0, 1).xyz,
-                             d65().sensitivity().white()) < 1e-14);
-    CHECK(color(mirror(1, 100, 1.5, 100), 90, 1).xyz == d65().sensitivity().white());
+                             d65_tables().sensitivity().white()) < 1e-14);
+    CHECK(color(mirror(1, 100, 1.5, 100), 90, 1).xyz == d65_tables().sensitivity().white());
 }
 
 TEST_CASE("layers of one index have no boxes that reflect", "[landmark_color]") {

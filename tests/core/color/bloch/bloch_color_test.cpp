@@ -14,17 +14,14 @@
 #include "core/stack/builder.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/d65_tables.hpp"
 #include "tests/support/simd_levels.hpp"
 
 using namespace irido;
 using Catch::Matchers::Contains;
+using test::d65_tables;
 
 namespace {
-
-const ColorTables& d65() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
 
 Stack mirror(std::uint64_t repeat, double n1, double d1, double n2, double d2, double n_in,
              double n_out) {
@@ -39,7 +36,7 @@ Stack fpb24(std::uint64_t repeat, double d1 = 101, double d2 = 143) {
 
 StackColor color(const Stack& stack, double angle_deg, const ColorMethod& method,
                  const ColorRequest& request = {}) {
-    return stack_color(d65(), stack, method, request, std::span(&angle_deg, 1)).front();
+    return stack_color(d65_tables(), stack, method, request, std::span(&angle_deg, 1)).front();
 }
 
 std::string error(const Stack& stack, const ColorMethod& method, double angle_deg = 0) {
@@ -105,15 +102,15 @@ TEST_CASE("mirrors of one index reflect nothing, at grazing incidence everything
           "[bloch_color]") {
     const Stack none = mirror(500, 1.4, 100, 1.4, 140, 1.4, 1.4);
     CHECK(largest_difference(color(none, 30, color_method("bloch")).xyz, {}) < 1e-6);
-    CHECK(color(fpb24(20), 90, color_method("bloch")).xyz == d65().sensitivity().white());
+    CHECK(color(fpb24(20), 90, color_method("bloch")).xyz == d65_tables().sensitivity().white());
     CHECK(largest_difference(color(fpb24(20), 89.99999, color_method("bloch")).xyz,
-                             d65().sensitivity().white()) < 1e-4);
+                             d65_tables().sensitivity().white()) < 1e-4);
 }
 
 TEST_CASE("a gap as wide as the visible range is white", "[bloch_color]") {
     const Stack stack = mirror(1000, 1, 137, 4.5, 30.5, 1, 1);
     const StackColor got = color(stack, 0, color_method("bloch"));
-    CHECK(largest_difference(got.xyz, d65().sensitivity().white()) < 1e-3);
+    CHECK(largest_difference(got.xyz, d65_tables().sensitivity().white()) < 1e-3);
     CHECK(color(mirror(100000000, 1, 137, 60, 2.3, 1, 1), 0, color_method("bloch")).xyz[1] <=
           1 + 1e-6);
 }
@@ -173,7 +170,7 @@ TEST_CASE("auto takes Bloch waves where there are many fringes", "[bloch_color]"
 
 TEST_CASE("sums over Bloch waves do not depend on the instructions", "[bloch_color][simd]") {
     Random random(6);
-    const SmoothSensitivity& sensitivity = d65().smooth(2);
+    const SmoothSensitivity& sensitivity = d65_tables().smooth(2);
     BlochMemory memory;
     for (int i = 0; i < 20; ++i) {
         const BlochMirror at = bloch_mirror(
@@ -191,7 +188,7 @@ TEST_CASE("sums over Bloch waves do not depend on the instructions", "[bloch_col
         for (const BlochRange& range : ranges) {
             if (!(range.low < range.high)) continue;
             for (const std::uint64_t terms : {0U, 1U, 4U}) {
-                const CosineNodes& nodes = d65().nodes(100);
+                const CosineNodes& nodes = d65_tables().nodes(100);
                 const auto sum = [&](SimdLevel level) {
                     return bloch_sum(at, range, terms, nodes, sensitivity, memory, level);
                 };

@@ -10,21 +10,18 @@
 #include "core/material/library.hpp"
 #include "tests/oracle/color_oracle.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/d65_tables.hpp"
 #include "tests/support/simd_levels.hpp"
 
 using namespace irido;
 using oracle::Kind;
 using oracle::Random;
 using oracle::StackBuilder;
+using test::d65_tables;
 
 namespace {
 
 const std::vector<Side> kBothSides{Side::reflected, Side::transmitted};
-
-const ColorTables& d65() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
 
 Stack one_film(Complex film, double thickness_nm, Complex substrate, Complex incident = 1) {
     StackBuilder b(incident);
@@ -41,7 +38,7 @@ Stack spread_film(Complex film, double thickness_nm, double sigma_nm, Complex su
 std::vector<StackColor> colors(const Stack& stack, const std::vector<double>& angles_deg,
                                const ColorRequest& request,
                                const ColorMethod& method = color_method("fourier"),
-                               const ColorTables& tables = d65()) {
+                               const ColorTables& tables = d65_tables()) {
     std::vector<StackColor> result(angles_deg.size() * request.sides.size());
     (*film_color(tables, stack, method, request))(stack, angles_deg, result);
     return result;
@@ -54,7 +51,7 @@ StackColor color(const Stack& stack, double angle_deg, const ColorRequest& reque
 
 StackColor quadrature(const Stack& stack, double angle_deg, Side side, double tolerance,
                       Light light = Light::unpolarized) {
-    return stack_color(d65(), stack, color_method("quadrature"),
+    return stack_color(d65_tables(), stack, color_method("quadrature"),
                        {.sides = {side}, .light = light, .tolerance = tolerance},
                        std::span(&angle_deg, 1))
         .front();
@@ -161,7 +158,7 @@ TEST_CASE("a bare surface and a film of no thickness are one", "[film_color]") {
             CHECK(color(one_film(0.5, 0, base), angle).xyz == bare);
         }
     }
-    CHECK(color(one_film(1.5, 300, 2), 90).xyz == d65().sensitivity().white());
+    CHECK(color(one_film(1.5, 300, 2), 90).xyz == d65_tables().sensitivity().white());
 }
 
 TEST_CASE("a spread damps every order by its own path", "[film_color]") {
@@ -203,7 +200,7 @@ TEST_CASE("an angle without a series is refused, and auto does without it", "[fi
         CHECK_THROWS_WITH(color(without, 70), Catch::Contains("no Fourier series at 70 degrees"));
     const std::vector<double> angles{20, 70};
     const std::vector<StackColor> by_auto =
-        stack_color(d65(), stack, {}, {.colors = 1000000}, angles);
+        stack_color(d65_tables(), stack, {}, {.colors = 1000000}, angles);
     CHECK(by_auto[0].method == "fourier");
     CHECK(by_auto[1].method == "quadrature");
     for (std::size_t i = 0; i < angles.size(); ++i)
@@ -236,7 +233,8 @@ TEST_CASE("many angles are the same as one by one, at every level", "[film_color
 }
 
 TEST_CASE("one algorithm serves films of other thicknesses", "[film_color]") {
-    const auto algorithm = film_color(d65(), one_film(1.4, 100, 2), color_method("fourier"), {});
+    const auto algorithm =
+        film_color(d65_tables(), one_film(1.4, 100, 2), color_method("fourier"), {});
     StackColor got;
     const double angle = 30;
     (*algorithm)(one_film(1.4, 777, 2), std::span(&angle, 1), std::span(&got, 1));
@@ -296,11 +294,12 @@ TEST_CASE("what is no film, or out of range, is refused", "[film_color]") {
     group.add(StackBuilder::group(2, {group.layer(1.4, 100)}));
     for (const Stack& stack : {two.over(2), absorbing.over(2), incoherent.over(2), group.over(2)}) {
         CHECK_FALSE(is_one_film(stack));
-        CHECK_THROWS_AS(color_algorithm(d65(), stack, color_method("fourier"), {}), DomainError);
+        CHECK_THROWS_AS(color_algorithm(d65_tables(), stack, color_method("fourier"), {}),
+                        DomainError);
     }
     const Stack film = one_film(1.4, 100, 2);
     CHECK_THROWS_AS(color(film, 90.5), DomainError);
-    CHECK_THROWS_AS(color_algorithm(d65(), film, color_method("fourier"), {.tolerance = 0}),
+    CHECK_THROWS_AS(color_algorithm(d65_tables(), film, color_method("fourier"), {.tolerance = 0}),
                     DomainError);
     CHECK_THROWS_AS(color(one_film(1.4, std::nan(""), 2), 0), DomainError);
     CHECK_THROWS_AS(color(one_film(1.4, 100, 2, {1.5, 0.1}), 0), DomainError);

@@ -9,15 +9,12 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "core/stack/builder.hpp"
 #include "tests/oracle/random_stacks.hpp"
+#include "tests/support/d65_tables.hpp"
 
 using namespace irido;
+using test::d65_tables;
 
 namespace {
-
-const ColorTables& d65_tables() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
 
 std::vector<StackColor> colors_of(const Stack& stack, double angle_deg, double tolerance,
                                   std::size_t evaluations) {

@@ -7,27 +7,24 @@
 #include "core/colorimetry/illuminant.hpp"
 #include "core/error.hpp"
 #include "tests/oracle/color_oracle.hpp"
+#include "tests/support/d65_tables.hpp"
 
 using namespace irido;
 using Catch::WithinAbs;
+using test::d65_tables;
 
 namespace {
 
 constexpr WavelengthRange kVisible{360, 830};
 
-const ColorTables& tables() {
-    static const ColorTables tables(Sensitivity(observer(2), illuminant("D65")));
-    return tables;
-}
-
 const Sensitivity& d65() {
-    return tables().sensitivity();
+    return d65_tables().sensitivity();
 }
 
 ColorIntegral integrate(const IntegrationLimits& limits,
                         const std::function<double(double wavelength_nm)>& f,
                         const std::vector<SpectralPanel>& panels = {{kVisible, 4}}) {
-    PanelTree tree(tables(), [](std::vector<double> wavelength_nm, const IndexFit*) {
+    PanelTree tree(d65_tables(), [](std::vector<double> wavelength_nm, const IndexFit*) {
         return SpectralPoints{std::move(wavelength_nm), nullptr};
     });
     const SampleAt sample = [&](std::span<const SpectralPoints* const> parts, Samples& samples) {
