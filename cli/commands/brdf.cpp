@@ -42,6 +42,9 @@ int run_brdf(const BrdfCommand& command) {
         throw UsageError("--beside: must be given at most 15 times");
     const tables::PictureFormat* const picture = asked_picture(command.output, command.picture);
     if (!picture) resolved_record_format(command.output, RecordTarget::stream_or_picture);
+    if (!command.query.shard.empty() && (picture || resolved_format(command.output) != "csv"))
+        throw UsageError("--shard: must be written as csv, which --merge reads (got " +
+                         resolved_format(command.output) + ")");
     if (command.query.scatterogram && (!picture || picture->name != "png") &&
         resolved_format(command.output) != "csv")
         throw UsageError("--scatterogram: requires --output FILE.png or FILE.csv");
@@ -94,8 +97,7 @@ int run_brdf(const BrdfCommand& command) {
 
 void add_brdf_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
-        "brdf",
-        "How a surface scatters light, rough layers of thin films or scratches: BRDF, albedo.");
+        "brdf", "BRDF and albedo of surfaces with rough layers of thin films, or with scratches.");
     const auto options = std::make_shared<BrdfCommand>();
     add_surface_options(*command, options->surface);
     command->get_option("SURFACE")->required(false);  // unless with --merge
@@ -136,13 +138,14 @@ void add_brdf_command(CLI::App& program, Run& run) {
     offer(*command, "facets", "sampled filter");
     command
         ->add_option("--shard", options->query.shard,
-                     "of a simulation: part K of N of the samples only; adds columns with the\n"
-                     "sums that --merge joins")
+                     "of a simulation: part K of N of the samples only, as CSV; adds columns with\n"
+                     "the sums that --merge joins")
         ->type_name("K/N");
     command
         ->add_option("--merge", options->query.merge,
                      "join the CSV files of all shards of one command, in any order, into what\n"
-                     "it writes without --shard; without a SURFACE the files record of what")
+                     "it writes without --shard. SURFACE may be left out. Refuses files that were\n"
+                     "changed, or computed by another build or at another SIMD level")
         ->type_name("FILE");
     command
         ->add_option("--transmission", options->query.transmission,

@@ -214,7 +214,7 @@ SurfaceRows simulated_colors(const LayeredSurface& surface,
             {simulated.values.mean[k], simulated.values.mean[k + 1], simulated.values.mean[k + 2]});
     SurfaceRows rows = columns.rows(std::move(keys), xyz);
     add_simulated_columns(simulated, names, rows);
-    if (simulated.shard) add_light_columns(query.color, rows);
+    if (simulated.shard) add_shard_marks(query, rows);
     return rows;
 }
 
@@ -387,6 +387,7 @@ private:
         keys.emplace_back(name, found.values.mean);
         SurfaceRows rows = rows_of(std::move(keys), key_count);
         add_simulated_columns(found, {name}, rows);
+        if (found.shard) add_shard_marks(query_, rows);
         return rows;
     }
 

@@ -6,10 +6,13 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "schemas/documents/canonical_stack.hpp"
 #include "schemas/input_error.hpp"
 #include "schemas/readers/points_csv.hpp"
 #include "schemas/readers/text_file.hpp"
 #include "tables/files/hash.hpp"
+#include "tables/records/record_format.hpp"
+#include "tables/version.hpp"
 
 namespace irido::cli {
 
@@ -19,7 +22,8 @@ namespace {
 constexpr std::uint64_t kFirstSamples = 4096, kMostTolerated = 1'000'000'000;
 
 constexpr const char *kFirstSample = "first_sample", *kSamples = "samples",
-                     *kAllSamples = "all_samples", *kRequest = "request", *kStderr = "stderr";
+                     *kAllSamples = "all_samples", *kRequest = "request", *kStderr = "stderr",
+                     *kBuild = "build", *kSimd = "simd", *kDigest = "digest";
 constexpr std::array<const char*, 3> kShardColors{"X", "Y", "Z"};
 
 /// Columns of a shard that hold the sums of a value, which follow its name.
@@ -33,6 +37,42 @@ constexpr std::array kSumColumns{
     SumColumn{"_sum_low", &LayeredSimulation::Values::sum, &LongSum::low},
     SumColumn{"_square", &LayeredSimulation::Values::square, &LongSum::high},
     SumColumn{"_square_low", &LayeredSimulation::Values::square, &LongSum::low}};
+
+struct LightColumn {
+    const char* name;
+    std::string ColorOptions::*option;
+};
+constexpr std::array kLightColumns{LightColumn{"illuminant", &ColorOptions::illuminant},
+                                   LightColumn{"observer", &ColorOptions::observer},
+                                   LightColumn{"space", &ColorOptions::space},
+                                   LightColumn{"adaptation", &ColorOptions::adaptation}};
+
+/// A whole number that differs for different texts.
+double hash_number(const std::string& text) {
+    constexpr std::size_t kDigits = 13;  // 52 bits
+    const std::string digits = tables::sha256_of(text).substr(0, kDigits);
+    return static_cast<double>(std::stoull(digits, nullptr, 16));
+}
+
+std::size_t rows_of_column(const schemas::PointsColumn& column) {
+    return column.texts.empty() ? column.numbers.size() : column.codes.size();
+}
+
+std::string text_of(const schemas::PointsColumn& column, std::size_t row) {
+    return column.texts.empty() ? to_text(column.numbers[row]) : column.texts[column.codes[row]];
+}
+
+/// Of all cells of a shard, however its numbers are spelt, but for the digest itself.
+double digest_of(const std::vector<schemas::PointsColumn>& columns) {
+    std::string cells;
+    for (const schemas::PointsColumn& column : columns) {
+        if (column.path == kDigest) continue;
+        cells += column.path + '\n';
+        for (std::size_t row = 0; row < rows_of_column(column); ++row)
+            cells += text_of(column, row) + '\n';
+    }
+    return hash_number(cells);
+}
 
 /// The largest standard error relative to max(floor, |value|).
 double worst_of(const LayeredSimulation::Values& values, double floor) {
@@ -85,6 +125,11 @@ struct ShardRows {
             fail(name + ": " + problem);
         return found->numbers;
     }
+    /// "" without such a column.
+    std::string first_text_of(const char* name) const {
+        const auto found = std::ranges::find(columns, name, &schemas::PointsColumn::path);
+        return found == columns.end() ? "" : text_of(*found, 0);
+    }
     /// Of a column that is the same in every row.
     std::uint64_t number_of(const char* name) const {
         const std::vector<double>& numbers = numbers_of(name);
@@ -112,6 +157,8 @@ ShardRows read_shard(const std::string& path) {
         shard.names = {value->path};
     for (auto key = shard.columns.begin(); key != value; ++key)
         shard.keys.emplace_back(key->path, shard.numbers_of(key->path));
+    if (static_cast<double>(shard.number_of(kDigest)) != digest_of(shard.columns))
+        shard.fail("was altered: it does not match its digest; run the shard again");
     shard.request = static_cast<double>(shard.number_of(kRequest));
     shard.first = shard.number_of(kFirstSample);
     shard.all_samples = shard.number_of(kAllSamples);
@@ -130,6 +177,24 @@ ShardRows read_shard(const std::string& path) {
     return shard;
 }
 
+/// Refuses shards that belong to different requests or that were computed differently.
+void require_same(const ShardRows& shard, const ShardRows& first) {
+    const auto require = [&](const char* name, const std::string& words, const std::string& hint) {
+        const std::string a = shard.first_text_of(name), b = first.first_text_of(name);
+        if (a != b) shard.fail(words + a + ", " + first.file + " " + b + hint);
+    };
+    require(kBuild, "was written by irido ",
+            ", whose numbers may differ: run all shards with the same build");
+    for (const LightColumn& column : kLightColumns)
+        require(column.name, std::string("has the ") + column.name + " ", "");
+    if (shard.request != first.request || shard.keys != first.keys || shard.names != first.names ||
+        shard.all_samples != first.all_samples)
+        shard.fail("is a shard of another request than " + first.file);
+    require(kSimd, "was computed at SIMD level ",
+            ", whose last digits differ: run all shards at one level (set the environment variable "
+            "IRIDO_SIMD)");
+}
+
 /// The shards of one request, by their samples, of which none is missing.
 std::vector<ShardRows> read_shards(const std::vector<std::string>& files) {
     std::vector<ShardRows> shards;
@@ -137,10 +202,7 @@ std::vector<ShardRows> read_shards(const std::vector<std::string>& files) {
     std::ranges::sort(shards, {}, &ShardRows::first);
     std::uint64_t done = 0;
     for (const ShardRows& shard : shards) {
-        const ShardRows& one = shards.front();
-        if (shard.request != one.request || shard.keys != one.keys || shard.names != one.names ||
-            shard.all_samples != one.all_samples)
-            shard.fail("is a shard of another request than " + one.file);
+        require_same(shard, shards.front());
         if (shard.first != done)
             shard.fail("begins with sample " + std::to_string(shard.first) +
                        "; the shards before it end at " + std::to_string(done));
@@ -164,9 +226,7 @@ double request_number(const SimulationPlan& plan, const NumberColumns& keys,
     nlohmann::json facts = plan.facts;
     for (const auto& [name, numbers] : keys) facts["keys"][name] = numbers;
     facts["names"] = names;
-    constexpr std::size_t kDigits = 13;  // 52 bits
-    const std::string digits = tables::sha256_of(facts.dump()).substr(0, kDigits);
-    return static_cast<double>(std::stoull(digits, nullptr, 16));
+    return hash_number(facts.dump());
 }
 
 LayeredSimulation::Values merged(const SimulationPlan& plan, const NumberColumns& keys,
@@ -224,6 +284,11 @@ SimulationPlan parse_simulation(const LayeredSurface& surface, const SurfaceQuer
     plan.facts["samples"] = request.samples;
     plan.facts["seed"] = request.seed;
     plan.facts["facets"] = choices[static_cast<std::size_t>(request.facets)];
+    plan.facts["media"] = schemas::canonical_stack({{surface.outside, surface.inside}, 0, {}, 1});
+    if (query.wants_color) {
+        const Table light = parse_illuminant(query.color.illuminant);  // its file may have changed
+        plan.facts["light"] = {light.wavelength_nm, light.value};
+    }
     return plan;
 }
 
@@ -286,37 +351,33 @@ void add_simulated_columns(const SimulatedValues& simulated, const std::vector<s
 
 namespace {
 
-struct LightColumn {
-    const char* name;
-    std::string ColorOptions::*option;
-};
-constexpr std::array kLightColumns{LightColumn{"illuminant", &ColorOptions::illuminant},
-                                   LightColumn{"observer", &ColorOptions::observer},
-                                   LightColumn{"space", &ColorOptions::space},
-                                   LightColumn{"adaptation", &ColorOptions::adaptation}};
-
 /// The options of the query, those that were not typed as the shard has them.
 ColorOptions light_of(const ShardRows& shard, const ColorOptions& typed) {
     ColorOptions light = typed;
     const ColorOptions untyped;
     for (const LightColumn& column : kLightColumns) {
-        const auto found =
-            std::ranges::find(shard.columns, column.name, &schemas::PointsColumn::path);
-        if (found == shard.columns.end() || light.*column.option != untyped.*column.option)
-            continue;
-        light.*column.option =
-            found->texts.empty() ? to_text(found->numbers.front()) : found->texts.front();
+        const std::string text = shard.first_text_of(column.name);
+        if (!text.empty() && light.*column.option == untyped.*column.option)
+            light.*column.option = text;
     }
     return light;
 }
 
 }  // namespace
 
-void add_light_columns(const ColorOptions& typed, SurfaceRows& rows) {
+void add_shard_marks(const SurfaceQuery& query, SurfaceRows& rows) {
     const std::size_t count = rows.records.rows();
-    for (const LightColumn& column : kLightColumns)
-        rows.records.columns.push_back(
-            {column.name, tables::Column::Texts(count, typed.*column.option)});
+    const auto add = [&](const char* name, const std::string& text) {
+        rows.records.columns.push_back({name, tables::Column::Texts(count, text)});
+    };
+    if (query.wants_color)
+        for (const LightColumn& column : kLightColumns)
+            add(column.name, query.color.*column.option);
+    add(kBuild, tables::version_text(tables::this_build()));
+    add(kSimd, std::string(name_of(query.execution.simd)));
+    const std::string csv = tables::written(*tables::find_record_format("csv"), rows.records);
+    rows.records.columns.push_back(
+        {kDigest, tables::Column::Numbers(count, digest_of(schemas::read_points_csv(csv, "")))});
 }
 
 SurfaceRows rows_of_shards(const SurfaceQuery& query) {

@@ -59,8 +59,9 @@ SimulatedValues simulate(const schemas::SurfaceDocument& document, const Simulat
 void add_simulated_columns(const SimulatedValues& simulated, const std::vector<std::string>& names,
                            SurfaceRows& rows);
 
-/// Appends the light and the space of colours, by which the files of shards tell them.
-void add_light_columns(const ColorOptions& typed, SurfaceRows& rows);
+/// Appends what tells whether the files of shards belong together: the light and the space of
+/// colours, the build, the SIMD level, and a digest of all cells.
+void add_shard_marks(const SurfaceQuery& query, SurfaceRows& rows);
 
 /// The rows of the whole from the files of all of its shards alone, `query.merge`; colours in the
 /// light and space of the shards, which options of the query must not contradict. Throws

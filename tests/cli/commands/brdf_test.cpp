@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cstdlib>
 
 #include "tests/support/program.hpp"
 
@@ -174,6 +175,78 @@ TEST_CASE("shards of a simulation are joined", "[cli][brdf]") {
     check_refused(run_irido({"brdf", "--merge", a, other}), "is a shard of another request");
 }
 
+TEST_CASE("shards that were altered or computed otherwise are refused", "[cli][brdf]") {
+    const TemporaryFolder folder;
+    write_text(folder / "lamp.csv", "nm,power\n380,1\n780,2\n");
+    write_text(folder / "pale.json", read_file(kPale));
+    const auto shard = [&](const std::string& number, const std::string& name,
+                           const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{
+            "brdf",      "pale.json", "--light-theta", "30",   "--paths", "simulation",
+            "--samples", "400",       "--shard",       number, "-o",      name};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        REQUIRE(run_irido(arguments, "", folder.path()).status == 0);
+    };
+    const auto refuse = [&](const std::string& second, const std::string& error) {
+        check_refused(run_irido({"brdf", "--merge", "one.csv", second}, "", folder.path()), error);
+    };
+    shard("1/2", "one.csv", {"--color"});
+    shard("2/2", "two.csv", {"--color"});
+    REQUIRE(run_irido({"brdf", "--merge", "one.csv", "two.csv"}, "", folder.path()).status == 0);
+    auto rows = parse_csv(read_file(folder / "two.csv"));
+    const auto with = [&](const std::string& column, const std::string& value) {
+        const auto place = std::ranges::find(rows[0], column);
+        REQUIRE(place != rows[0].end());
+        std::string text = read_file(folder / "two.csv");
+        const std::string& old = rows[1][static_cast<std::size_t>(place - rows[0].begin())];
+        REQUIRE(old != value);
+        text.replace(text.rfind("," + old + ",") + 1, old.size(), value);
+        write_text(folder / "altered.csv", text);
+    };
+    for (const auto& [column, value] :
+         std::vector<std::pair<std::string, std::string>>{{"X_sum", "150"},
+                                                          {"Z_square_low", "1e-3"},
+                                                          {"illuminant", "A"},
+                                                          {"observer", "10"},
+                                                          {"build", "0.0.1"}}) {
+        INFO(column);
+        with(column, value);
+        refuse("altered.csv", "altered.csv: was altered: it does not match its digest");
+    }
+    // spelt otherwise, as by a spreadsheet, the numbers are the same
+    with("all_samples", "400.0");
+    CHECK(run_irido({"brdf", "--merge", "one.csv", "altered.csv"}, "", folder.path()).status == 0);
+    shard("2/2", "warm.csv", {"--color", "--illuminant", "A"});
+    refuse("warm.csv", "warm.csv: has the illuminant A, one.csv D65");
+    shard("2/2", "wide.csv", {"--color", "--space", "rec2020"});
+    refuse("wide.csv", "wide.csv: has the space rec2020, one.csv srgb");
+    ::setenv("IRIDO_SIMD", "baseline", 1);
+    shard("2/2", "plain.csv", {"--color"});
+    ::unsetenv("IRIDO_SIMD");
+    refuse("plain.csv", "plain.csv: was computed at SIMD level baseline, one.csv ");
+    shard("1/2", "one.csv", {"--color", "--illuminant", "lamp.csv"});
+    write_text(folder / "lamp.csv", "nm,power\n380,2\n780,1\n");
+    shard("2/2", "lit.csv", {"--color", "--illuminant", "lamp.csv"});
+    refuse("lit.csv", "lit.csv: is a shard of another request than one.csv");
+}
+
+TEST_CASE("shards of surfaces in different media are not joined", "[cli][brdf]") {
+    const TemporaryFolder folder;
+    const auto shard = [&](const std::string& number, const std::string& outside) {
+        write_text(folder / "coated.json",
+                   R"({"outside": )" + outside + R"(, "inside": 1.35, "base": {"albedo": 0.5}})");
+        const Outcome outcome =
+            run_irido({"brdf", "coated.json", "-w", "550", "--paths", "simulation", "--samples",
+                       "400", "--shard", number + "/2", "-o", number + ".csv"},
+                      "", folder.path());
+        REQUIRE(outcome.status == 0);
+    };
+    shard("1", "1");
+    shard("2", "1.1");
+    check_refused(run_irido({"brdf", "--merge", "1.csv", "2.csv"}, "", folder.path()),
+                  "2.csv: is a shard of another request than 1.csv");
+}
+
 TEST_CASE("shards in any number join to the bytes of a single run", "[cli][brdf][slow]") {
     const TemporaryFolder folder;
     const std::vector<std::vector<std::string>> requests{
@@ -242,6 +315,9 @@ TEST_CASE("brdf refuses what cannot be", "[cli][brdf]") {
            "--tolerance of a simulation excludes --samples");
     refuse({kPale, "--paths", "simulation", "--shard", "3/2"}, "--shard: must be");
     refuse({kPale, "--shard", "1/2"}, "--shard: requires --paths simulation");
+    for (const std::string format : {"png", "svg", "json", "npy"})
+        refuse({kPale, "--paths", "simulation", "--shard", "1/2", "-o", "shard." + format},
+               "--shard: must be written as csv, which --merge reads (got " + format + ")");
     refuse({kPale, "--color", "--method", "gaussian"}, "--method: takes the BRDF of one rough");
     refuse({kPale, "--method", "gaussian"}, "--method: requires --color");
     refuse({kPale, "--side", "T"}, "--side T: takes one rough layer without a coating");
