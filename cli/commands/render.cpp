@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/rough/ggx.hpp"
 #include "schemas/documents/canonical_stack.hpp"
+#include "schemas/documents/document_kind.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/scene_document.hpp"
 #include "schemas/documents/varied_stack.hpp"
@@ -290,7 +291,7 @@ void write_sheet(const RenderCommand& command, const PictureQuery& query,
 /// A picture for every combination of the varied values.
 std::vector<Shown> varied_pictures(const schemas::StackSource& source, const SweepSpace& space,
                                    std::size_t width) {
-    const bool is_surface = schemas::is_surface(source.document);
+    const bool is_surface = schemas::kind_of(source.document) == schemas::DocumentKind::surface;
     std::vector<std::string> paths;
     for (const SweptColumn& column : space.columns())
         if (column.path != kRoughness) paths.push_back(column.path);
@@ -424,10 +425,9 @@ void check_column(const SweptColumn& column, ShapeKind shape, bool is_surface) {
 int run_render(const RenderCommand& command) {
     const RenderFormat format = render_format(command);
     const schemas::StackSource source = schemas::load_stack(command.stack);
-    const bool is_surface = schemas::is_surface(source.document);
-    const bool is_scene = source.document.is_object() && source.document.contains("materials") &&
-                          !source.document.contains("incident") && !is_surface;
-    if (is_scene) return render_scene(command, source, format);
+    const schemas::DocumentKind kind = schemas::kind_of(source.document);
+    const bool is_surface = kind == schemas::DocumentKind::surface;
+    if (kind == schemas::DocumentKind::scene) return render_scene(command, source, format);
     if (!command.show.empty()) throw UsageError("--show: takes a scene, of which it is a material");
     const bool is_sheet = !command.vary.empty();
     const PictureQuery query(command.picture, execution_of(command.threads), is_sheet ? 192 : 512);

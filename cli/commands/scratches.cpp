@@ -169,7 +169,7 @@ int check_grids(const std::vector<std::string>& files) {
     std::string out;
     for (const std::string& file : files) {
         const auto header = schemas::parse_json(schemas::read_text(file + ".json"), file + ".json");
-        const auto problems = tables::grid_problems(schemas::read_text(file), header);
+        const auto problems = tables::grid_problems(schemas::read_bytes(file), header);
         if (problems.empty()) out += escaped(file) + ": ok\n";
         for (const std::string& problem : problems)
             out += message_line(file + ": " + problem) + "\n";
@@ -192,6 +192,7 @@ void add_scratches_command(CLI::App& program, Run& run) {
         "surface file with scratches (.json; see irido validate --schema surface),\n"
         "or - for standard input");
     command->remove_option(command->get_option("--alpha"));
+    options->surface.takes_stacks = false;
     command->get_option("--set")->description(
         "override a value of the document by dotted path; repeatable:\n"
         "--set seed=2 --set fields.0.count_per_mm2=80");

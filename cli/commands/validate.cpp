@@ -7,6 +7,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/options/command.hpp"
 #include "schemas/documents/design_document.hpp"
+#include "schemas/documents/document_kind.hpp"
 #include "schemas/documents/json_document.hpp"
 #include "schemas/documents/scene_document.hpp"
 #include "schemas/documents/surface_document.hpp"
@@ -39,14 +40,6 @@ constexpr std::array<SchemaText, 7> kSchemas{{{"stack", schemas::stack_schema_te
                                               {"manifest", tables::manifest_schema_text},
                                               {"lut", tables::lut_schema_text}}};
 
-/// A document with keys of a stack counts as a stack, whatever else it contains by mistake.
-bool is_stack(const json& document) {
-    return !document.is_object() ||
-           !(document.contains("materials") || document.contains("tables")) ||
-           document.contains("layers") || document.contains("incident") ||
-           document.contains("substrate");
-}
-
 std::vector<std::string> table_problems(const std::string& text, const std::string& path) {
     std::string of_material;
     try {
@@ -76,26 +69,35 @@ std::vector<std::string> expression_problems(const std::string& expression) {
 
 std::vector<std::string> problems_of(const std::string& path) {
     if (path.find('|') != std::string::npos) return expression_problems(path);
-    const std::string text = schemas::read_text(path), file = schemas::shown_path(path);
-    if (schemas::is_material_file(path)) return table_problems(text, path);
+    const std::string text = schemas::read_bytes(path), file = schemas::shown_path(path);
     const std::string folder = std::filesystem::path(path).parent_path().string();
     json document;
     try {
+        schemas::require_no_utf16(text, file);
+        if (schemas::is_material_file(path)) return table_problems(text, path);
         document = schemas::parse_json(text, file);
     } catch (const schemas::InputError& error) {
         return {error.what()};
     }
-    if (schemas::is_surface(document)) return schemas::surface_problems(document, file, folder);
-    if (schemas::is_design_task(document)) return schemas::design_problems(document, file, folder);
-    if (is_stack(document)) return schemas::stack_problems(document, file, folder);
-    if (document.contains("tables") && document["tables"].is_array())
-        return tables::plan_problems(document, file);
-    if (document.contains("tables"))
-        return tables::manifest_problems(document, file,
-                                         path == "-"      ? ""
-                                         : folder.empty() ? "."
-                                                          : folder);
-    return tables::problems_of_scene(document, file, folder, execution_of());
+    using Kind = schemas::DocumentKind;
+    switch (schemas::kind_of(document)) {
+        case Kind::surface:
+            return schemas::surface_problems(document, file, folder);
+        case Kind::design:
+            return schemas::design_problems(document, file, folder);
+        case Kind::scene:
+            return tables::problems_of_scene(document, file, folder, execution_of());
+        case Kind::plan:
+            return tables::plan_problems(document, file);
+        case Kind::manifest:
+            return tables::manifest_problems(document, file,
+                                             path == "-"      ? ""
+                                             : folder.empty() ? "."
+                                                              : folder);
+        case Kind::stack:
+            break;
+    }
+    return schemas::stack_problems(document, file, folder);
 }
 
 int run_validate(const std::vector<std::string>& files) {
@@ -134,7 +136,7 @@ int print_schema(const std::string& name) {
 void add_validate_command(CLI::App& program, Run& run) {
     CLI::App* command = program.add_subcommand(
         "validate",
-        "Check stacks, surfaces, designs, scenes, plans, manifests and tables of text: print every "
+        "Check stacks, surfaces, designs, scenes, plans, manifests and text tables: print every "
         "error, or FILE: ok.");
     const auto files = std::make_shared<std::vector<std::string>>();
     const auto schema = std::make_shared<std::string>();

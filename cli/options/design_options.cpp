@@ -64,8 +64,9 @@ json typed_or_file(const TaskOptions& options) {
     if (path.empty()) throw UsageError("TASK is required, or --refine STACK (see --help)");
     if (path.find('|') != std::string::npos) return json{{"stack", path}};
     json document = schemas::parse_json(schemas::read_text(path), schemas::shown_path(path));
-    if (schemas::is_design_task(document)) return document;
-    if (const std::string other = schemas::other_kind(document, "stack"); !other.empty())
+    if (schemas::kind_of(document) == schemas::DocumentKind::design) return document;
+    if (const std::string other = schemas::other_kind(document, schemas::DocumentKind::stack);
+        !other.empty())
         throw schemas::InputError(schemas::shown_path(path), "", other);
     return json{{"stack", std::move(document)}};
 }
@@ -91,7 +92,7 @@ void add_task_options(CLI::App& command, TaskOptions& options) {
                     "QUANTITY [WAVELENGTHS] [@ANGLES] [s|p|u] = | >= | <= VALUE,\n"
                     "repeatable: \"R 400:700:5 @0,45 = 0\", \"T 500:600 s >= 0.9\",\n"
                     "\"lab @0 = 60,-15,-20\", \"hex = #ff8800\"")
-        ->type_name("TEXT")
+        ->type_name("TARGET")
         ->take_all();
     command.add_option("--merit", options.merit, "rms, mean_abs, chi2, delta_e_76 or delta_e_2000")
         ->type_name("NAME");

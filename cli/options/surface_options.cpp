@@ -105,7 +105,7 @@ void add_table_paths_options(CLI::App& command, std::string& paths, std::string&
 }
 
 schemas::SurfaceDocument read_noted_surface(const SurfaceOptions& options, bool quiet) {
-    schemas::SurfaceRequest request{options.source, {}};
+    schemas::SurfaceRequest request{options.source, {}, options.takes_stacks};
     if (!options.alpha.empty())
         request.alpha = parse_one_number("--alpha", options.alpha, kSmoothest, kRoughest);
     schemas::SurfaceDocument document = schemas::read_surface(request);

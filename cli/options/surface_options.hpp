@@ -11,7 +11,8 @@ namespace irido::cli {
 /// The surface, as given on the command line.
 struct SurfaceOptions {
     schemas::StackRequest source;
-    std::string alpha;  ///< "" if not given
+    std::string alpha;         ///< "" if not given
+    bool takes_stacks = true;  ///< with --alpha
 };
 
 /// Adds SURFACE, --alpha, --set and --material.

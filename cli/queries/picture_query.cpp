@@ -70,7 +70,7 @@ Environment parse_environment(const std::string& text, std::string& hash) {
         names.emplace_back("an .exr file");
         throw UsageError("--environment: " + not_one_of(names, text));
     }
-    const std::string bytes = schemas::read_text(text, schemas::TextSource::regular_file);
+    const std::string bytes = schemas::read_bytes(text, schemas::TextSource::regular_file);
     hash = tables::sha256_of(bytes);
     try {
         return image_environment(

@@ -50,7 +50,9 @@ void from_origin(const SweepSpace& space, std::size_t column, std::size_t index,
 /// The source with each varied thickness in the middle of its range, as used to prepare structures.
 schemas::StackSource with_thicknesses(schemas::StackSource source, const SweepSpace& space,
                                       const std::vector<std::size_t>& thicknesses) {
-    if (const std::string other = schemas::other_kind(source.document, "stack"); !other.empty())
+    if (const std::string other =
+            schemas::other_kind(source.document, schemas::DocumentKind::stack);
+        !other.empty())
         throw schemas::InputError(source.file, "", other);
     for (const std::size_t c : thicknesses) {
         const SweptColumn& column = space.columns()[c];

@@ -86,10 +86,6 @@ DesignTask read_checked(const json& document, const std::string& file, const std
 
 }  // namespace
 
-bool is_design_task(const json& document) {
-    return document.is_object() && (document.contains("targets") || document.contains("free"));
-}
-
 DesignTask read_design(const json& document, const std::string& file, const std::string& folder) {
     for (const Problem& problem : broken_design_rules(document))
         throw InputError(file, problem.pointer, problem.message);

@@ -36,9 +36,6 @@ struct DesignTask {
     std::vector<std::size_t> target_numbers;
 };
 
-/// Whether a JSON document is a design task and not a stack.
-bool is_design_task(const nlohmann::json& document);
-
 /// Checks a document against design.schema.json and further rules, and reads its stack and the
 /// files that it names. Throws InputError for the first problem.
 /// file      its name in messages

@@ -70,7 +70,8 @@ public:
 
     Scene read() {
         for (const Problem& problem : broken_rules(document_)) {
-            if (const std::string other = other_kind(document_, "scene"); !other.empty())
+            if (const std::string other = other_kind(document_, DocumentKind::scene);
+                !other.empty())
                 throw InputError(file_, "", other);
             throw InputError(file_, problem.pointer, problem.message);
         }
@@ -206,7 +207,7 @@ private:
         const std::string pointer = material.pointer + "/surface";
         try {
             const StackSource source = inner_stack(object["surface"], pointer, folder_);
-            if (!is_surface(source.document))
+            if (kind_of(source.document) != DocumentKind::surface)
                 throw InputError("", pointer, "must be a surface (a stack goes into \"stack\")");
             for (const std::string& line :
                  surface_problems(source.document, source.file, source.folder))

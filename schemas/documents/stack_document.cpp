@@ -461,7 +461,7 @@ StackDocument read_stack(const json& document, const std::string& file, const st
                          MaterialFiles& files) {
     StackReader reader(document, file, folder, files);
     if (!reader.problems.empty()) {
-        if (const std::string other = other_kind(document, "stack"); !other.empty())
+        if (const std::string other = other_kind(document, DocumentKind::stack); !other.empty())
             throw InputError(file, "", other);
         throw InputError(reader.problems.front());
     }

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/rough/ggx.hpp"
+#include "schemas/documents/document_kind.hpp"
 #include "schemas/documents/inner_stack.hpp"
 #include "schemas/documents/schema_check.hpp"
 #include "schemas/documents/scratched_document.hpp"
@@ -176,19 +177,6 @@ SurfaceDocument rough_stack(const StackSource& source, std::optional<double> alp
 
 }  // namespace
 
-bool is_surface(const json& document) {
-    if (!document.is_object()) return false;
-    constexpr std::array kOwn{"outside", "inside", "base", "scratches", "fields"};
-    if (std::ranges::any_of(kOwn, [&](const char* key) { return document.contains(key); }))
-        return true;
-    if (document.contains("incident") || document.contains("substrate")) return false;
-    const auto layers = document.find("layers");
-    if (layers == document.end() || !layers->is_array()) return false;
-    return std::ranges::any_of(*layers, [](const json& layer) {
-        return layer.is_object() && (layer.contains("stack") || layer.contains("alpha"));
-    });
-}
-
 const char* surface_schema_text() {
     return
 #include "surface_schema.inc"
@@ -205,7 +193,11 @@ SurfaceDocument read_surface(const json& document, const std::string& file,
 
 SurfaceDocument read_surface(const SurfaceRequest& request) {
     const StackSource source = load_stack(request.source);
-    if (!is_surface(source.document)) return rough_stack(source, request.alpha);
+    if (kind_of(source.document) != DocumentKind::surface) {
+        if (!request.takes_stacks)
+            throw InputError(source.file, "", "must be a surface with scratches");
+        return rough_stack(source, request.alpha);
+    }
     if (request.alpha)
         throw InputError(source.file, "",
                          "--alpha applies to stacks only: a surface document states its roughness");

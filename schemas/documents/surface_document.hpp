@@ -16,6 +16,7 @@ namespace irido::schemas {
 struct SurfaceRequest {
     StackRequest source;          ///< its `stack` is a surface or stack file, "-" or an expression
     std::optional<double> alpha;  ///< roughness to give to a plain stack
+    bool takes_stacks = true;     ///< false: plain stacks are refused whatever their alpha
 };
 
 /// A surface of any kind that a document can describe.
@@ -28,9 +29,6 @@ struct SurfaceDocument {
     std::string name;                ///< "" if the document has none
     std::vector<std::string> notes;  ///< notes from reading the stacks
 };
-
-/// Whether a JSON document has keys that only surfaces have.
-bool is_surface(const nlohmann::json& document);
 
 /// Checks a document against surface.schema.json and further rules, and builds its surface. Throws
 /// InputError for the first problem.

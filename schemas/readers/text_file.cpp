@@ -99,6 +99,17 @@ std::string shown_path(const std::string& path) {
 }
 
 std::string read_text(const std::string& path, TextSource source) {
+    std::string text = read_bytes(path, source);
+    require_no_utf16(text, shown_path(path));
+    return text;
+}
+
+void require_no_utf16(std::string_view text, const std::string& file) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+        throw InputError(file, "", "must be UTF-8 text (got UTF-16)");
+}
+
+std::string read_bytes(const std::string& path, TextSource source) {
     const OpenFile file(path, source);
     const std::size_t most = file.is_regular() ? kLongestFile : kLongestFlow;
     std::string text;

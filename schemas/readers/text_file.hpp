@@ -13,6 +13,12 @@ enum class TextSource { anything, regular_file };
 /// The bytes of an input; "-" is standard input. A regular file is registered as an input, see
 /// is_input(). Throws InputError with the system's reason, or if the input exceeds 64 MiB (pipes
 /// and devices) or 1 GiB (files). Thread-safe.
+std::string read_bytes(const std::string& path, TextSource source = TextSource::anything);
+
+/// Throws InputError for text in UTF-16.
+void require_no_utf16(std::string_view text, const std::string& file);
+
+/// read_bytes() of a text, for which require_no_utf16() holds.
 std::string read_text(const std::string& path, TextSource source = TextSource::anything);
 
 /// The bytes of a regular file that irido has written, of any length. It is not registered as an

@@ -97,6 +97,7 @@ const std::vector<RefusedFile>& refused_files() {
                      "4\0,\0",
                      6),
          "must be UTF-8 text (got UTF-16)"},
+        {"mark.csv", "\xFE\xFF", "must be UTF-8 text (got UTF-16)"},
         {"model.mat", "x\nnm\nCAUCHY\n1.45 0.01 0\n", "must be NK or E1E2"},
         {"pairs.nk", "4 400 500 2\n1.5 0.1\n1.4 0.3\n", "must have 3 pairs n k"},
         {"odd.yml",

@@ -89,6 +89,27 @@ TEST_CASE("validate prints the schema that it uses", "[cli][validate]") {
     CHECK(run_irido({"validate"}).status == 2);
 }
 
+TEST_CASE("text in UTF-16 is refused as such by every reader", "[cli][refused]") {
+    const TemporaryFolder folder;
+    for (const std::string mark : {"\xFF\xFE", "\xFE\xFF"}) {
+        write_text(folder / "t.json", mark);
+        write_text(folder / "t.csv", mark + "n");
+        for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+                 {"spectrum", "t.json"},
+                 {"color", "1 | 1.5", "--illuminant", "t.csv"},
+                 {"brdf", "1 | 1.5", "--alpha", "0.1", "--directions", "t.csv"},
+                 {"sweep", "1 | 1.5@1 | 1", "--points", "t.csv", "--compute", "color"},
+                 {"plan", "t.json"},
+                 {"fit", "t.json"}})
+            check_refused(run_irido(arguments, "", folder.path()),
+                          "must be UTF-8 text (got UTF-16)");
+        const Outcome outcome = run_irido({"validate", "t.json", "t.csv"}, "", folder.path());
+        CHECK(outcome.status == 1);
+        CHECK(outcome.out ==
+              "t.json: must be UTF-8 text (got UTF-16)\nt.csv: must be UTF-8 text (got UTF-16)\n");
+    }
+}
+
 TEST_CASE("validate knows the tables that other commands read", "[cli]") {
     const TemporaryFolder folder;
     CHECK(out_of({"validate", "schemas/examples/designs/oxide-psi-delta.csv",
@@ -102,10 +123,15 @@ TEST_CASE("validate knows the tables that other commands read", "[cli]") {
     };
     const std::string ok = "t.csv: ok\n";
     CHECK(validate("# spot 3\nnm;R [%]\n500;4,1\n600;4,2\n") == ok);
-    CHECK(
-        validate("nm,R,T\n500,4,0.9\n") ==
-        "t.csv: 2:5: R must be a fraction (got 4); name the column \"R [%]\" if it is in percent, "
-        "R_fraction if it exceeds 1\n");
+    CHECK(validate("nm,R,T\n500,4,0.9\n") ==
+          "t.csv: 2:5: R must be a fraction in [-0.02, 1.02] (got 4); name the column \"R [%]\" if "
+          "it "
+          "is in percent, R_fraction if it exceeds 1\n");
+    CHECK(validate("nm,R_s,R_p\n500,0.1,0.2\n") == ok);  // a target names one
+    CHECK(validate("nm,R_s,R_p\n500,0.1,2\n")
+              .starts_with("t.csv: 2:9: R_p must be a fraction in [-0.02, 1.02] (got 2)"));
+    CHECK(validate("nm,R,R\n500,0.1,0.2\n") ==
+          "t.csv: has two columns for one purpose, 'R' and 'R'\n");
     CHECK(validate("nm,R,T\n500,0.1,0.9\n510,0.1\n") ==
           "t.csv: 3:1: must have 3 columns (got 2)\n");
     CHECK(validate("layers.0.thickness_nm,substrate\n1,Ag\n2,Au\n") == ok);

@@ -56,6 +56,10 @@ TEST_CASE("grids of scratches pass their check, and altered ones do not", "[cli]
     check_refused(run_irido({"scratches", kSpoon, "--grid", folder / "x.csv"}),
                   "--grid: a grid is binary; name it otherwise than .csv");
     check_refused(run_irido({"scratches"}), "SURFACE");
+    check_refused(run_irido({"scratches", "1 | 1.5@100 | 1"}),
+                  "must be a surface with scratches\n");
+    check_refused(run_irido({"scratches", "schemas/examples/soap-bubble.json"}),
+                  "soap-bubble.json: must be a surface with scratches\n");
     check_refused(run_irido({"scratches", "schemas/examples/surfaces/green-on-pale.json"}),
                   "scratches");
 }
