@@ -197,17 +197,18 @@ void SweepSpace::add_list(const std::string& text) {
 }
 
 void SweepSpace::check() const {
+    std::vector<std::string> paths;
+    for (const SweptColumn& column : columns_) paths.push_back(column.path);
+    if (const auto overlap = schemas::overlap_of(paths)) {
+        const SweptColumn& column = columns_[overlap->inner];
+        const std::string by = column.of_points   ? "--points: "
+                               : column.scattered ? "--scatter: "
+                                                  : "--vary: ";
+        if (overlap->is_same) throw UsageError(by + column.path + " is varied twice");
+        throw UsageError(by + column.path + " is inside " + paths[overlap->outer] +
+                         ", which also varies");
+    }
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-        for (std::size_t b = 0; b < columns_.size(); ++b) {
-            const std::string &path = columns_[c].path, &other = columns_[b].path;
-            if (b == c || (columns_[c].scattered && columns_[b].scattered)) continue;
-            if (!schemas::is_part_of(path, other)) continue;
-            const std::string by = columns_[c].of_points   ? "--points: "
-                                   : columns_[c].scattered ? "--scatter: "
-                                                           : "--vary: ";
-            if (schemas::is_part_of(other, path)) throw UsageError(by + path + " is varied twice");
-            throw UsageError(by + path + " is inside " + other + ", which also varies");
-        }
         if (!schemas::is_well_formed(columns_[c].path))
             throw UsageError("--vary: " + schemas::well_formed(columns_[c].path) + ": " +
                              schemas::kNoText);

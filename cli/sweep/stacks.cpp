@@ -19,12 +19,13 @@ constexpr std::size_t kMostChecked = 1000;
 
 std::vector<std::size_t> columns_where(const SweepSpace& space, const nlohmann::json& document,
                                        bool thickness) {
+    const schemas::VariedStack::OtherEffects effects(document);
     std::vector<std::size_t> columns;
     for (std::size_t c = 0; c < space.columns().size(); ++c) {
         const SweptColumn& column = space.columns()[c];
         if (!column.is_of_stack()) continue;
-        const bool is_thickness = schemas::VariedStack::is_thickness(column.path) &&
-                                  !schemas::VariedStack::has_other_effects(document, column.path);
+        const bool is_thickness =
+            schemas::VariedStack::is_thickness(column.path) && !effects.are_of(column.path);
         if (is_thickness == thickness) columns.push_back(c);
     }
     return columns;
@@ -90,6 +91,12 @@ SweptStacks::SweptStacks(schemas::StackSource source, const SweepSpace& space, c
 
 void SweptStacks::read_values() {
     const std::vector<std::size_t> first = key_of(0);
+    bool first_is_read = true;
+    try {
+        first_ = document(first);
+    } catch (const schemas::InputError&) {
+        first_is_read = false;  // some column's value is to blame
+    }
     for (std::size_t s = 0; s < structural_.size(); ++s) {
         std::vector<std::size_t> key = first;
         const std::size_t column = structural_[s];
@@ -97,9 +104,10 @@ void SweptStacks::read_values() {
                                        ? 1
                                        : std::min(space_.columns()[column].size(), kMostChecked);
         for (key[s] = 0; key[s] < values; ++key[s])
-            from_origin(space_, column, key[s], [&] { document(key); });
+            if (!first_is_read || key[s] != first[s])
+                from_origin(space_, column, key[s], [&] { document(key); });
     }
-    first_ = document(first);
+    if (!first_is_read) first_ = document(first);
 }
 
 std::vector<std::size_t> SweptStacks::key_of(std::uint64_t combination) const {

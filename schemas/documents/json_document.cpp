@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -175,6 +176,14 @@ std::string take_step(std::string_view& path) {
     return step;
 }
 
+/// The same, indices without leading zeros.
+std::string take_plain_step(std::string_view& path) {
+    std::string step = take_step(path);
+    const bool is_index = step.find_first_not_of("0123456789") == std::string::npos;
+    if (is_index) step.erase(0, std::min(step.find_first_not_of('0'), step.size()));
+    return step;
+}
+
 std::vector<std::string> keys_of(const json& object) {
     std::vector<std::string> keys;
     for (const auto& member : object.items()) keys.push_back(member.key());
@@ -250,15 +259,28 @@ bool has_value(const json& document, std::string_view path) {
 }
 
 bool is_part_of(std::string_view path, std::string_view whole) {
-    const auto step_of = [](std::string_view& rest) {
-        std::string step = take_step(rest);  // indices may have leading zeros
-        const bool is_index = step.find_first_not_of("0123456789") == std::string::npos;
-        if (is_index) step.erase(0, std::min(step.find_first_not_of('0'), step.size()));
-        return step;
-    };
     while (!path.empty() && !whole.empty())
-        if (step_of(path) != step_of(whole)) return false;
+        if (take_plain_step(path) != take_plain_step(whole)) return false;
     return whole.empty();
+}
+
+std::optional<PathOverlap> overlap_of(const std::vector<std::string>& paths) {
+    std::unordered_map<std::string, std::size_t> known;  // by their plain steps
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        std::string plain;
+        for (std::string_view rest = paths[i]; !rest.empty();) plain += take_plain_step(rest) + '.';
+        const auto [found, is_new] = known.emplace(std::move(plain), i);
+        if (!is_new) return PathOverlap{found->second, i, true};
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        std::string plain;
+        for (std::string_view rest = paths[i]; !rest.empty();) {
+            plain += take_plain_step(rest) + '.';
+            const auto outer = known.find(plain);
+            if (outer != known.end() && !rest.empty()) return PathOverlap{i, outer->second};
+        }
+    }
+    return std::nullopt;
 }
 
 json value_from_text(std::string_view path, std::string_view text) {

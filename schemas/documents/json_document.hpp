@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +26,15 @@ bool has_value(const nlohmann::json& document, std::string_view path);
 
 /// Whether a dotted path names the same value as `whole`, or a part of it.
 bool is_part_of(std::string_view path, std::string_view whole);
+
+/// Two of the paths, by number.
+struct PathOverlap {
+    std::size_t inner = 0, outer = 0;
+    bool is_same = false;  ///< both name the same value; otherwise the inner one names a part
+};
+
+/// Two paths of which one names the same value as the other, or a part of it, if there are any.
+std::optional<PathOverlap> overlap_of(const std::vector<std::string>& paths);
 
 /// The value that `text` means at a dotted path: JSON if it parses, otherwise a string; where a
 /// material is expected, 1.9+1.5i is {"n": 1.9, "k": 1.5}. Throws InputError("PATH=TEXT", place,

@@ -32,12 +32,11 @@ std::optional<std::size_t> take_layer(std::string_view& path) {
 
 /// Refuses paths inside each other: setting one would overwrite the other.
 void require_apart(const std::vector<std::string>& paths) {
-    for (const std::string& path : paths)
-        for (const std::string& other : paths) {
-            if (&path == &other || !is_part_of(path, other)) continue;
-            if (is_part_of(other, path)) throw InputError(path, "", "is varied twice");
-            throw InputError(path, "", "is inside \"" + other + "\", which also varies");
-        }
+    const std::optional<PathOverlap> overlap = overlap_of(paths);
+    if (!overlap) return;
+    if (overlap->is_same) throw InputError(paths[overlap->inner], "", "is varied twice");
+    throw InputError(paths[overlap->inner], "",
+                     "is inside \"" + paths[overlap->outer] + "\", which also varies");
 }
 
 }  // namespace
@@ -70,8 +69,9 @@ VariedStack::VariedStack(StackSource source, std::vector<std::string> paths)
     nlohmann::json document = source_.document;
     for (const std::string& path : paths_) set_value(document, path, nullptr);
     Stack written = as_written(own_.stack);
+    const OtherEffects effects(source_.document);
     varies_thickness_only_ = std::ranges::all_of(paths_, [&](const std::string& path) {
-        return layer_at(written, path) != nullptr && !has_other_effects(source_.document, path);
+        return layer_at(written, path) != nullptr && !effects.are_of(path);
     });
 }
 
@@ -127,10 +127,13 @@ bool VariedStack::is_thickness(std::string_view path) {
     return !place_of(path).empty();
 }
 
-bool VariedStack::has_other_effects(const nlohmann::json& document, std::string_view path) {
-    if (has_rough_faces(document)) return true;
+VariedStack::OtherEffects::OtherEffects(const nlohmann::json& document)
+    : document_(document), has_rough_faces_(has_rough_faces(document)) {}
+
+bool VariedStack::OtherEffects::are_of(std::string_view path) const {
+    if (has_rough_faces_) return true;
     const std::string layer(path.substr(0, path.rfind('.') + 1));
-    return has_value(document, layer + "graded") || has_value(document, layer + "qwot");
+    return has_value(document_, layer + "graded") || has_value(document_, layer + "qwot");
 }
 
 Layer* VariedStack::layer_at(Stack& stack, std::string_view path) {

@@ -37,9 +37,18 @@ public:
     /// any depth.
     static bool is_thickness(std::string_view path);
 
-    /// Whether setting this thickness affects more than one layer's thickness in the stack: if the
+    /// Whether setting a thickness affects more than one layer's thickness in the stack: if the
     /// layer is graded or in quarter waves, or if any face is rough.
-    static bool has_other_effects(const nlohmann::json& document, std::string_view path);
+    class OtherEffects {
+    public:
+        /// The document must outlive this object.
+        explicit OtherEffects(const nlohmann::json& document);
+        bool are_of(std::string_view path) const;
+
+    private:
+        const nlohmann::json& document_;
+        bool has_rough_faces_;
+    };
 
     /// The indices I, J, ... of such a path; empty for any other path.
     static LayerPlace place_of(std::string_view path);

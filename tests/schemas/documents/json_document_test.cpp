@@ -122,6 +122,25 @@ TEST_CASE("A text stands for JSON, for an index where a material is, or for itse
           "substrate={1}: 1:2: unexpected number literal; expected string literal");
 }
 
+TEST_CASE("Paths that name parts of each other are found") {
+    const auto overlap = [](const std::vector<std::string>& paths) {
+        const auto found = irido::schemas::overlap_of(paths);
+        if (!found) return std::string();
+        return paths[found->inner] + (found->is_same ? " = " : " in ") + paths[found->outer];
+    };
+    CHECK(overlap({}).empty());
+    CHECK(overlap({"a.1", "a.10", "a.1b", "b", "ba"}).empty());
+    CHECK(overlap({"a.b", "c", "a.b"}) == "a.b = a.b");
+    CHECK(overlap({"a.01.n", "a.1.n"}) == "a.01.n = a.1.n");
+    CHECK(overlap({"a.0", "a.1", "a.00.b"}) == "a.00.b in a.0");
+    CHECK(overlap({"a.b.c.d", "a.b"}) == "a.b.c.d in a.b");
+    for (const auto& [path, whole] :
+         {std::pair("a.b", "a"), {"a", "a.b"}, {"a.00", "a.0"}, {"ab", "a"}, {"", ""}})
+        CHECK(irido::schemas::is_part_of(path, whole) ==
+              (std::string(overlap({path, whole})) == std::string(path) + " in " + whole ||
+               overlap({path, whole}).find(" = ") != std::string::npos));
+}
+
 TEST_CASE("Lists of values are split at the commas between them") {
     const auto split = [](std::string_view text) {
         const auto parts = irido::schemas::split_values(text);
