@@ -58,9 +58,9 @@ bool check_other_table(const std::string& text, const std::string& path) {
         parse_directions({.file = path});
     } else if (has_any(heading, kStackPaths, begins)) {
         schemas::read_points_csv(text, file);
-    } else if (const auto quantities = schemas::measured_quantities(text); !quantities.empty()) {
-        for (const std::string& quantity : quantities)
-            schemas::read_measured_table(text, file, quantity, "");
+    } else if (const auto columns = schemas::measured_columns(text); !columns.empty()) {
+        for (const schemas::MeasuredColumn& one : columns)
+            schemas::read_measured_table(text, file, one.quantity, one.column);
     } else if (has_any(heading, kSpectrumWords, contains)) {
         schemas::read_spectrum_csv(text, file);
     } else {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <tuple>
@@ -130,20 +131,28 @@ private:
     }
 
     /// One number per entry.
+    /// One whose square is a finite number.
+    double number(const json& value, const std::string& where) const {
+        constexpr double kLargest = 1e100;
+        const auto result = value.get<double>();
+        if (std::abs(result) <= kLargest) return result;
+        fail(where, "must be in [-1e100, 1e100] (got " + short_text(value) + ")");
+    }
+
     std::vector<double> numbers(const char* key, const DesignTarget& target,
                                 double otherwise) const {
         const std::size_t count = entry_count(target);
         if (!json_.contains(key)) return std::vector<double>(count, otherwise);
         const json& value = json_[key];
         const std::string where = std::string("/") + key;
-        if (value.is_number()) return std::vector<double>(count, value.get<double>());
+        if (value.is_number()) return std::vector<double>(count, number(value, where));
         if (!value.is_array()) fail(where, "must be a number or an array of numbers");
         std::vector<double> values;
         for (std::size_t i = 0; i < value.size(); ++i) {
+            const std::string place = where + "/" + std::to_string(i);
             if (!value[i].is_number())
-                fail(where + "/" + std::to_string(i),
-                     "must be a number (got " + short_text(value[i]) + ")");
-            values.push_back(value[i].get<double>());
+                fail(place, "must be a number (got " + short_text(value[i]) + ")");
+            values.push_back(number(value[i], place));
         }
         if (values.size() == count) return values;
         const std::size_t period =

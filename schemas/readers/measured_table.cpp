@@ -56,6 +56,7 @@ bool names_quantity(const std::vector<std::string>& words, std::string_view quan
 constexpr std::array<std::string_view, 1> kPercent{"percent"};
 constexpr std::array<std::string_view, 2> kFraction{"fraction", "fractions"};
 constexpr std::array<std::string_view, 3> kRadians{"rad", "radian", "radians"};
+constexpr std::array<std::string_view, 3> kDegrees{"deg", "degree", "degrees"};
 
 bool is_percent(std::string_view column) {
     return column.find('%') != std::string_view::npos || has_word(words_of(column), kPercent);
@@ -67,8 +68,15 @@ double scale_of(std::string_view column) {
     return has_word(words_of(column), kRadians) ? 1 / kDegree : 1;
 }
 
-/// The largest power that noise and a bad reference leave credible.
-constexpr double kMostPower = 1.2;
+struct Bounds {
+    double low, high;
+};
+
+/// Powers that noise and drift leave credible, and those in a column that states its unit, which
+/// may be relative to a poor reference.
+constexpr Bounds kPower{-0.02, 1.02}, kStatedPower{-0.2, 1.5};
+/// psi is in [0, 90].
+constexpr Bounds kPsi_deg{-1, 91};
 
 bool names_columns(const std::vector<std::string>& header) {
     return std::ranges::any_of(
@@ -85,7 +93,7 @@ public:
           lines_(lines_of(text)),
           table_(read_columns(lines_, name,
                               {names_columns,
-                               "one of wavelengths with its unit, such as wavelength_nm, and " +
+                               "a wavelength with its unit, such as wavelength_nm, and " +
                                    std::string(column.empty() ? quantity : column),
                                2, kMostColumns})) {
         if (table_.header.empty())
@@ -128,13 +136,19 @@ private:
     }
 
     double value(const ColumnRow& row) const {
-        const double number = row.values[value_] * scale_;
-        if (!is_power_ || is_fraction_ || number <= kMostPower) return number;
-        const std::string& column = table_.header[value_];
-        throw InputError(name_, place_of(row.line, row.cells[value_]),
-                         column + " must be a fraction (got " + to_text(number) +
-                             "); name the column \"" + quantity_ + " [%]\" if it is in percent, " +
-                             quantity_ + "_fraction if it exceeds 1");
+        const double cell = row.values[value_], number = cell * scale_;
+        const bool is_psi = quantity_ == "psi_deg", is_unstated = is_power_ && !is_fraction_;
+        if (!is_power_ && !is_psi) return number;
+        const Bounds& bounds = is_psi ? kPsi_deg : is_fraction_ ? kStatedPower : kPower;
+        if (number >= bounds.low && number <= bounds.high) return number;
+        std::string text = table_.header[value_] + " must be " +
+                           (is_unstated ? "a fraction " : "") + "in [" +
+                           to_text(bounds.low / scale_) + ", " + to_text(bounds.high / scale_) +
+                           "] (got " + to_text(cell) + ")";
+        if (is_unstated && number > bounds.high)
+            text += "; name the column \"" + quantity_ + " [%]\" if it is in percent, " +
+                    quantity_ + "_fraction if it exceeds 1";
+        throw InputError(name_, place_of(row.line, row.cells[value_]), text);
     }
 
     double sigma(const ColumnRow& row) const {
@@ -144,25 +158,34 @@ private:
                          "a standard deviation must be above 0 (got " + to_text(value) + ")");
     }
 
+    /// Sets the column of a role that only one may have.
+    void take(std::optional<std::size_t>& role, std::size_t column, const std::string& hint) const {
+        if (role)
+            throw InputError(name_, "",
+                             "has two columns for one purpose, " + in_quotes(table_.header[*role]) +
+                                 " and " + in_quotes(table_.header[column]) + hint);
+        role = column;
+    }
+
     void find_columns(std::string_view quantity, std::string_view column) {
         std::optional<std::size_t> spectral, value;
         for (std::size_t c = 0; c < table_.header.size(); ++c) {
             const std::string& name = table_.header[c];
             const std::vector<std::string> words = words_of(name);
-            if (const auto own = spectral_column(name); own && !spectral) {
+            if (const auto own = spectral_column(name)) {
                 if (!own->unit)
                     throw InputError(
                         name_, "",
                         "the column " + name + " must name its unit: nm, um, angstrom, eV or cm-1");
-                spectral = c;
+                if (spectral && *own->unit != unit_) continue;  // the same in another unit
+                take(spectral, c, "");
                 unit_ = *own->unit;
             } else if (has_word(words, kErrors)) {
-                if (names_quantity(words, quantity)) sigma_ = c;
+                if (names_quantity(words, quantity)) take(sigma_, c, "");
             } else if (has_word(words, kAngles)) {
-                angle_ = c;
-            } else if (column.empty() ? !value && names_quantity(words, quantity)
-                                      : name == column) {
-                value = c;
+                take(angle_, c, "");
+            } else if (column.empty() ? names_quantity(words, quantity) : name == column) {
+                take(value, c, column.empty() ? "; \"column\" of a target names one" : "");
             }
         }
         if (!value)
@@ -172,11 +195,23 @@ private:
         spectral_ = spectral.value();
         value_ = *value;
         const std::string& name = table_.header[value_];
+        for (const std::size_t c : {value_, sigma_.value_or(value_), angle_.value_or(value_)})
+            require_one_unit(table_.header[c]);
         scale_ = scale_of(name);
         is_fraction_ = has_word(words_of(name), kFraction) || is_percent(name);
         if (sigma_) sigma_scale_ = scale_ != 1 ? scale_ : scale_of(table_.header[*sigma_]);
         if (angle_ && has_word(words_of(table_.header[*angle_]), kRadians))
             angle_scale_ = 1 / kDegree;
+    }
+
+    void require_one_unit(const std::string& column) const {
+        const std::vector<std::string> words = words_of(column);
+        const auto refuse = [&](const char* units) {
+            throw InputError(name_, "",
+                             "the column " + in_quotes(column) + " states both " + units);
+        };
+        if (is_percent(column) && has_word(words, kFraction)) refuse("percent and fraction");
+        if (has_word(words, kDegrees) && has_word(words, kRadians)) refuse("degrees and radians");
     }
 
     std::string names() const {
@@ -188,7 +223,7 @@ private:
     const std::string& name_;
     std::string quantity_;
     bool is_power_ = false;     ///< a quantity from 0 to 1
-    bool is_fraction_ = false;  ///< the column's name says so
+    bool is_fraction_ = false;  ///< the column's name states that or percent
     std::vector<TextLine> lines_;
     ColumnText table_;
     std::size_t spectral_ = 0, value_ = 0;
@@ -216,9 +251,9 @@ bool names_measurements(const std::vector<std::string>& header) {
 
 }  // namespace
 
-std::vector<std::string> measured_quantities(std::string_view text) {
+std::vector<MeasuredColumn> measured_columns(std::string_view text) {
     constexpr std::string_view kColumnSeparators = ",;\t ";
-    std::vector<std::string> quantities;
+    std::vector<MeasuredColumn> columns;
     for (const TextLine& line : lines_of(text)) {
         const std::string_view names = trimmed(line.text);
         const bool is_comment = names.starts_with("//") || names.find_first_of("#;!%") == 0;
@@ -230,14 +265,16 @@ std::vector<std::string> measured_quantities(std::string_view text) {
             header.clear();
         }
         if (header.empty()) continue;
-        for (const std::string_view quantity : kMeasured)
-            if (std::ranges::any_of(header, [&](const std::string& column) {
-                    return is_column_of(column, quantity);
-                }))
-                quantities.emplace_back(quantity);
+        for (const std::string_view quantity : kMeasured) {
+            std::vector<std::string> of_quantity;
+            for (const std::string& column : header)
+                if (is_column_of(column, quantity)) of_quantity.push_back(column);
+            for (const std::string& column : of_quantity)
+                columns.push_back({std::string(quantity), of_quantity.size() > 1 ? column : ""});
+        }
         break;
     }
-    return quantities;
+    return columns;
 }
 
 std::vector<MeasuredRows> read_measured_table(std::string_view text, const std::string& name,

@@ -17,9 +17,10 @@ struct MeasuredRows {
 
 /// Reads one quantity of a table whose header names its columns (column_text.hpp): the spectral
 /// column with its unit, the values and, optionally, the angle (angle_deg, angle, aoi, theta) and
-/// the standard deviation (sigma_R, R_sigma, R_error). Percentages, `R [%]` or R_percent, become
-/// fractions; R, T and A above 1.2 in a column that states neither percent nor fraction are
-/// refused. Angles in rad become degrees. Rows are grouped by angle. Throws InputError with file
+/// the standard deviation (sigma_R, R_sigma, R_error). Two columns for one purpose are refused.
+/// Percentages, `R [%]` or R_percent, become fractions. R, T and A outside [-0.02, 1.02] are
+/// refused, in a column that states percent or fraction outside [-0.2, 1.5]; psi outside [-1, 91]
+/// degrees. Angles in rad become degrees. Rows are grouped by angle. Throws InputError with file
 /// `name` and "line:column".
 /// text      the file's content
 /// name      the file's name in messages
@@ -28,8 +29,13 @@ struct MeasuredRows {
 std::vector<MeasuredRows> read_measured_table(std::string_view text, const std::string& name,
                                               std::string_view quantity, std::string_view column);
 
-/// The quantities of which such a table has columns, as read_measured_table() takes them: R, T, A,
-/// psi_deg, delta_deg. None of a text that is not such a table.
-std::vector<std::string> measured_quantities(std::string_view text);
+/// A quantity and its column, as read_measured_table() takes them.
+struct MeasuredColumn {
+    std::string quantity;
+    std::string column;  ///< "" if there is no other of that quantity
+};
+
+/// The columns of R, T, A, psi_deg and delta_deg. None of a text that is not such a table.
+std::vector<MeasuredColumn> measured_columns(std::string_view text);
 
 }  // namespace irido::schemas

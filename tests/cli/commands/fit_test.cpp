@@ -93,7 +93,8 @@ TEST_CASE("percentages without a percent sign are not taken as fractions", "[cli
         return run_irido({"fit", "task.json", "--quiet"}, "", folder.path());
     };
     check_refused(fit("wavelength_nm,R\n500,0.9\n600,12.3\n"),
-                  "data.csv: 3:5: R must be a fraction (got 12.3); name the column \"R [%]\"");
+                  "data.csv: 3:5: R must be a fraction in [-0.02, 1.02] (got 12.3); name the "
+                  "column \"R [%]\"");
     const Outcome percent = fit("wavelength_nm,R [%]\n500,4.1\n600,3.9\n");
     CHECK(percent.status == 0);
     const auto index = [](const Outcome& of) { return std::stod(parse_csv(of.out)[1][1]); };
@@ -105,6 +106,46 @@ TEST_CASE("percentages without a percent sign are not taken as fractions", "[cli
                                       "layers.0.thickness_nm=50:150", "--target", "R 500 = 50"},
                                      "", folder.path());
     CHECK(design.err.find("R, T and A are fractions; the target is 50") != std::string::npos);
+    check_refused(run_irido({"fit", "1 | 1.38@100 | 1.5", "--free", "layers.0.thickness_nm=50:150",
+                             "--target", "R 500 = 1e308"}),
+                  "/targets/0/target: must be in [-1e100, 1e100] (got 1e+308)");
+}
+
+TEST_CASE("measured tables that contradict themselves or the physics are refused", "[cli][fit]") {
+    TemporaryFolder folder;
+    const auto fit = [&](const std::string& quantity, const std::string& data,
+                         const std::string& more = "") {
+        write_text(folder / "task.json",
+                   R"({ "stack": "1 | 1.5@100 | 3.88+0.02i",
+                   "free": [{ "path": "layers.0.thickness_nm", "bounds": [50, 150] }],
+                   "targets": [{ "quantity": ")" +
+                       quantity + R"(", "file": "data.csv", "sigma": 0.01, "angle_deg": 0)" + more +
+                       "}] }");
+        write_text(folder / "data.csv", data);
+        return run_irido({"fit", "task.json", "--quiet"}, "", folder.path());
+    };
+    const auto refuse = [&](const std::string& quantity, const std::string& data,
+                            const std::string& error) {
+        check_refused(fit(quantity, data), error);
+    };
+    refuse("R", "nm,R\n500,-0.5\n",
+           "data.csv: 2:5: R must be a fraction in [-0.02, 1.02] (got -0.5)\n");
+    refuse("T", "nm,T [%]\n500,-50\n", "2:5: T [%] must be in [-20, 150] (got -50)");
+    refuse("T", "nm,T_fraction\n500,1.6\n", "2:5: T_fraction must be in [-0.2, 1.5] (got 1.6)");
+    refuse("psi_deg", "nm,psi_deg\n500,250\n", "psi_deg must be in [-1, 91] (got 250)");
+    CHECK(fit("R", "nm,R\n500,-0.015\n600,1.015\n").status == 0);  // noise
+    refuse("R", "nm,R [%] fraction\n500,4\n",
+           "data.csv: the column 'R [%] fraction' states both percent and fraction");
+    refuse("psi_deg", "nm,psi_deg [rad]\n500,0.5\n",
+           "the column 'psi_deg [rad]' states both degrees and radians");
+    refuse("R", "nm,R,R\n500,0.1,0.2\n", "has two columns for one purpose, 'R' and 'R'");
+    refuse("R", "nm,R_s,R_p\n500,0.1,0.2\n",
+           "has two columns for one purpose, 'R_s' and 'R_p'; \"column\" of a target names one");
+    CHECK(fit("R", "nm,R_s,R_p\n500,0.1,0.2\n", R"(, "column": "R_p")").status == 0);
+    refuse("R", "nm,R,sigma_R,R_error\n500,0.1,0.01,0.02\n", "'sigma_R' and 'R_error'");
+    refuse("R", "nm,nm,R\n500,600,0.1\n", "'nm' and 'nm'");
+    refuse("R", "nm,aoi,angle_deg,R\n500,0,10,0.1\n", "'aoi' and 'angle_deg'");
+    CHECK(fit("R", "nm,energy_eV,R\n500,2.48,0.1\n").status == 0);
 }
 
 TEST_CASE("angles of a table may be in radians", "[cli][fit]") {
