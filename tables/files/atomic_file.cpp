@@ -4,12 +4,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "schemas/readers/text_file.hpp"
@@ -38,6 +42,48 @@ mode_t default_mode() {
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
     return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+/// The process that wrote a temporary file, from what follows ".part" in its name.
+std::optional<pid_t> writer_of(std::string_view ending) {
+    const std::size_t dash = std::min(ending.find('-'), ending.size());
+    const bool is_numbered = ending.find_first_not_of("0123456789", dash + 1) == ending.npos;
+    pid_t writer = 0;
+    const char* const end = ending.data() + dash;
+    const auto [stop, error] = std::from_chars(ending.data(), end, writer);
+    if (error != std::errc() || stop != end || writer <= 0 || !is_numbered) return std::nullopt;
+    return writer;
+}
+
+bool is_locked_or_young(int descriptor) {
+    constexpr time_t kYoung_s = 10;  // a new file is not locked at once
+    struct stat status {};
+    if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid() ||
+        time(nullptr) - status.st_mtime < kYoung_s)
+        return true;
+    struct flock lock {};
+    lock.l_type = F_WRLCK;
+    return fcntl(descriptor, F_SETLK, &lock) != 0;
+}
+
+/// Removes temporary files of a target that killed processes left behind. The lock tells whether
+/// one is being written on another machine or in another container, where numbers of processes
+/// mean others.
+void remove_stale_parts(const std::filesystem::path& target) {
+    const std::string beginning = target.filename().string() + ".part";
+    std::error_code error;
+    for (std::filesystem::directory_iterator file(folder_of(target), error), end;
+         !error && file != end; file.increment(error)) {
+        const std::string name = file->path().filename().string();
+        if (!name.starts_with(beginning)) continue;
+        const auto writer = writer_of(std::string_view(name).substr(beginning.size()));
+        if (!writer || kill(*writer, 0) == 0 || errno != ESRCH) continue;
+        const int descriptor =
+            open(file->path().c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+        if (descriptor < 0) continue;
+        if (!is_locked_or_young(descriptor)) unlink(file->path().c_str());
+        close(descriptor);
+    }
 }
 
 /// Whether both paths lead to the same regular file, which need not exist yet.
@@ -108,6 +154,7 @@ OutputTarget output_target(const std::string& path) {
 
 NewFile::NewFile(const std::string& path, const OutputTarget& target)
     : path_(path), target_(target), descriptor_(-1) {
+    remove_stale_parts(target.path);
     // a killed process may have left the name of this one's number behind
     constexpr int kMostNames = 100;
     const std::string name = target.path + ".part" + std::to_string(getpid());
@@ -118,6 +165,9 @@ NewFile::NewFile(const std::string& path, const OutputTarget& target)
         if (descriptor_ < 0 && errno != EEXIST) break;
     }
     if (descriptor_ < 0) fail_to_write(path, errno);
+    struct flock lock {};
+    lock.l_type = F_WRLCK;
+    fcntl(descriptor_, F_SETLK, &lock);  // see remove_stale_parts()
     std::memcpy(unfinished_name.data(), name_.c_str(), name_.size() + 1);
     is_unfinished = 1;
 }

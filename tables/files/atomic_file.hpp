@@ -47,7 +47,8 @@ void check_outputs(const std::vector<std::string>& paths);
 int write_all(int descriptor, std::string_view bytes);
 
 /// A file under a temporary name in the folder of `path`, at most one per process at a time;
-/// commit() renames it to `path`, otherwise it is removed.
+/// commit() renames it to `path`, otherwise it is removed. Those that killed processes left there
+/// for the same path are removed first.
 class NewFile {
 public:
     /// Throws OutputError.

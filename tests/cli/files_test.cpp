@@ -60,6 +60,38 @@ TEST_CASE("what a killed process of the same number left does not stop the next 
     CHECK(folder.shell("wc -l < out.csv").out == "2\n");
 }
 
+TEST_CASE("what killed processes left of the same output is removed", "[cli][files]") {
+    const InputFolder folder;
+    const Outcome outcome = folder.shell(
+        "sleep 60 > wait.txt 2>&1 & live=$!; dead=$(sh -c 'echo $$'); "
+        "touch -d '1 hour ago' out.csv.part$dead out.csv.part$dead-3 out.csv.part$live "
+        "out.csv.part$dead.gz out.csv.part other.csv.part$dead && touch out.csv.part$dead-1 && "
+        "$IRIDO spectrum '1 | 2@9 | 1' -w 550 -o out.csv && "
+        "ls out.csv* other.csv* | sed \"s/$dead/DEAD/;s/$live/LIVE/\" | "
+        "LC_ALL=C sort | tr '\\n' ' '; kill $live");
+    INFO(outcome.err);
+    // a young one may be about to be locked; others are not irido's, or another output's
+    CHECK(outcome.out ==
+          "other.csv.partDEAD out.csv out.csv.part out.csv.partDEAD-1 out.csv.partDEAD.gz "
+          "out.csv.partLIVE ");
+}
+
+TEST_CASE("a part that another process is writing is left", "[cli][files]") {
+    const InputFolder folder;
+    // the lock of a process on another machine, whose number means no process here
+    const Outcome outcome = folder.shell(
+        "python3 -c 'import fcntl, os, time\n"
+        "part = open(\"out.csv.part4194303\", \"w\")\n"
+        "fcntl.lockf(part, fcntl.LOCK_EX)\n"
+        "os.utime(\"out.csv.part4194303\", (0, 0))\n"
+        "print(flush=True)\n"
+        "time.sleep(60)' > ready & until [ -s ready ]; do sleep 0.05; done; "
+        "$IRIDO spectrum '1 | 2@9 | 1' -w 550 -o out.csv; ls out.csv.part*; kill $!; wait; "
+        "$IRIDO spectrum '1 | 2@9 | 1' -w 550 -o out.csv; ls | grep -c part");
+    INFO(outcome.err);
+    CHECK(outcome.out == "out.csv.part4194303\n0\n");
+}
+
 TEST_CASE("an output that is one of the inputs is refused, whatever it is called", "[cli][files]") {
     const InputFolder folder;
     const std::size_t files = folder.files();
