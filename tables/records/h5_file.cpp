@@ -100,7 +100,7 @@ Offsets create(const std::string& file, const RecordLayout& layout, std::uint64_
     const hsize_t count = rows;
     const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, file);
     Offsets offsets;
-    for (const RecordField& field : layout) {
+    for (const RecordField& field : with_distinct_names(layout)) {
         const Handle type(type_of(field), H5Tclose, file);
         const Handle data(
             H5Dcreate2(h5, field.name.c_str(), type, space, H5P_DEFAULT, plain, H5P_DEFAULT),
@@ -118,7 +118,7 @@ Offsets offsets_in(const std::string& file, const RecordLayout& layout, std::uin
     const char* const what = ": does not match its journal";
     const Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, file, what);
     Offsets offsets;
-    for (const RecordField& field : layout) {
+    for (const RecordField& field : with_distinct_names(layout)) {
         const Handle data(H5Dopen2(h5, field.name.c_str(), H5P_DEFAULT), H5Dclose, file, what);
         const Handle type(H5Dget_type(data), H5Tclose, file, what);
         const Handle wanted(type_of(field), H5Tclose, file, what);

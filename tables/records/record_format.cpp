@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #define IRIDO_DECLARE(name) extern const RecordFormat name;
 namespace irido::tables {
@@ -50,6 +51,19 @@ RecordLayout layout_of(const Records& records) {
     RecordLayout layout;
     for (const Column& column : records.columns)
         layout.push_back(std::visit(FieldOf{column.name}, column.values));
+    return layout;
+}
+
+RecordLayout with_distinct_names(RecordLayout layout) {
+    std::set<std::string> names, taken;
+    for (const RecordField& field : layout) names.insert(field.name);
+    for (RecordField& field : layout) {
+        const std::string name = field.name;
+        for (std::size_t number = 2; taken.contains(field.name); ++number)
+            if (const std::string next = name + "_" + std::to_string(number); !names.contains(next))
+                field.name = next;
+        taken.insert(field.name);
+    }
     return layout;
 }
 

@@ -53,6 +53,10 @@ const RecordFormat* find_record_format(std::string_view name);
 /// The layout of complete records: strings are as wide as the longest one.
 RecordLayout layout_of(const Records& records);
 
+/// The layout with a number after names that occur again, as in b, b_2: for formats whose readers
+/// find columns by their names.
+RecordLayout with_distinct_names(RecordLayout layout);
+
 /// The bytes of a file with these records, for a format without `finish`.
 std::string written(const RecordFormat& format, const Records& records);
 

@@ -31,7 +31,8 @@ std::string head(const RecordLayout&, std::uint64_t, HeadKind) {
 std::string rows(const RecordLayout& layout, const Records& records) {
     check_columns(layout, records);
     std::vector<std::string> keys;
-    for (const Column& column : records.columns) keys.push_back(quoted_json(column.name) + ":");
+    for (const RecordField& field : with_distinct_names(layout))
+        keys.push_back(quoted_json(field.name) + ":");
     const RowWriter writer(records, append_text, "null");
     const std::size_t count = records.rows();
     std::size_t row_bytes = 4;

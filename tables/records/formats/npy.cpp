@@ -39,7 +39,7 @@ std::string python_literal(const std::string& name) {
 
 std::string head(const RecordLayout& layout, std::uint64_t rows, HeadKind kind) {
     std::string type = "[";
-    for (const RecordField& field : layout)
+    for (const RecordField& field : with_distinct_names(layout))
         type += "(" + python_literal(field.name) + ", '" + type_name(field) + "'), ";
     const std::string count = std::to_string(rows);
     return npy_header(type + "]", "(" + count + ",)",

@@ -179,6 +179,28 @@ TEST_CASE("an HDF5 stream of more rows than a buffer holds", "[tables][stream]")
     CHECK(wrong == 0);
 }
 
+TEST_CASE("formats that find columns by name number those of one name", "[tables][stream]") {
+    const Records records{{{"b", Column::Numbers{1}},
+                           {"b", Column::Numbers{2}},
+                           {"b_2", Column::Numbers{3}},
+                           {"b", Column::Numbers{4}}}};
+    const auto of = [&](const char* format) {
+        return written(*find_record_format(format), records);
+    };
+    CHECK(of("csv") == "b,b,b_2,b\n1,2,3,4\n");
+    CHECK(of("json") == "[\n{\"b\":1,\"b_3\":2,\"b_2\":3,\"b_4\":4}\n]\n");
+    CHECK_THAT(of("npy"), Contains("('b', '<f8'), ('b_3', '<f8'), ('b_2', '<f8'), ('b_4', '<f8')"));
+    const TemporaryFolder folder;
+    const RecordFormat& h5 = *find_record_format("h5");
+    write_text(folder / "part", h5.rows(layout_of(records), records));
+    h5.finish(layout_of(records), 1, folder / "part", folder / "x.h5");
+    std::vector<std::string> names;
+    const H5Content content = read_h5(folder / "x.h5");
+    for (const H5Column& column : content.columns)
+        names.push_back(column.name + "=" + column.values[0]);
+    CHECK(names == std::vector<std::string>{"b=1", "b_3=2", "b_2=3", "b_4=4"});
+}
+
 TEST_CASE("HDF5 refuses names that it cannot have, before the first row", "[tables][stream]") {
     const RecordFormat& h5 = *find_record_format("h5");
     for (const char* const name : {"", ".", "R/T"})
