@@ -94,12 +94,25 @@ void reverse(schemas::StackSource& source) {
     if (document.contains("layers")) reverse_layers(document["layers"], source.file);
 }
 
+/// Refuses options for files of other programs.
+void require_no_reading(const ConvertCommand& command) {
+    for (const auto& [name, is_typed] : {std::pair("--coating", !command.reading.coating.empty()),
+                                         {"--primary", !command.primary.empty()},
+                                         {"--mirror", command.reading.is_mirror}})
+        if (is_typed)
+            throw UsageError(std::string(name) +
+                             ": applies to files of other programs (COATING.DAT, .ofp, .csv)");
+}
+
 /// The stack from a file of another program, or from any source that other commands accept.
 schemas::StackSource load(const ConvertCommand& command) {
     const std::string& path = command.stack.stack;
     const auto* const format =
         path.find('|') == std::string::npos ? schemas::stack_format_of(path) : nullptr;
-    if (!format) return schemas::load_stack(command.stack);
+    if (!format) {
+        require_no_reading(command);
+        return schemas::load_stack(command.stack);
+    }
     schemas::StackReadOptions reading = command.reading;
     if (!command.primary.empty())
         reading.primary_nm = parse_one_number("--primary", command.primary, 1, 1e7);
@@ -130,7 +143,14 @@ int write_other(const ConvertCommand& command, const schemas::StackFormat& forma
         const auto [first_nm, last_nm] = parse_range("--range", command.range, 1, 1e7);
         options.range = {first_nm, last_nm};
     }
-    const schemas::WrittenStack written = format.write(document.stack, options);
+    const schemas::WrittenStack written = [&] {
+        try {
+            return format.write(document.stack, options);
+        } catch (const schemas::InputError& error) {
+            if (!error.file.empty()) throw;
+            throw schemas::InputError(document.file, error.where, error.message);
+        }
+    }();
     const bool is_file = !command.output.file.empty();
     const std::filesystem::path folder = std::filesystem::path(command.output.file).parent_path();
     std::set<std::string> kept;
@@ -168,7 +188,7 @@ void add_format_options(CLI::App& command, ConvertCommand& typed) {
     command
         .add_option("--coating", typed.reading.coating,
                     "which coating of a COATING.DAT or filter of a project with several")
-        ->type_name("TEXT");
+        ->type_name("NAME");
     command
         .add_option("--primary", typed.primary,
                     "wavelength of thicknesses in waves (COATING.DAT) or quarter waves\n"

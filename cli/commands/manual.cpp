@@ -21,13 +21,23 @@ std::string current_man_page(const CommandPage& program, const CommandPage& page
 }
 
 const CommandPage& page_of(const CommandPage& program, const std::vector<std::string>& command) {
-    const std::string typed = program.name + (command.empty() ? "" : " ") + joined(command, " ");
-    std::vector<std::string> names;
-    for (const CommandPage* page : all_pages(program)) {
-        if (page->name == typed) return *page;
-        names.push_back(page->name);
+    const CommandPage* page = &program;
+    for (const std::string& word : command) {
+        const std::string path = page->name + " ";
+        const CommandPage* next = nullptr;
+        std::vector<std::string> names;
+        for (const CommandPage* one : all_pages(program)) {
+            if (!one->name.starts_with(path) || one->name.find(' ', path.size()) != path.npos)
+                continue;
+            names.push_back(one->name.substr(path.size()));
+            if (names.back() == word) next = one;
+        }
+        if (!next)
+            throw UsageError("unknown command '" + joined(command, " ") + "'" +
+                             did_you_mean(word, names));
+        page = next;
     }
-    throw UsageError("unknown command '" + typed + "'" + did_you_mean(typed, names));
+    return *page;
 }
 
 std::vector<std::string> command_names(const CLI::App& program) {

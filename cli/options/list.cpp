@@ -14,7 +14,8 @@ namespace {
 
 /// A hint for a wavelength out of range, which is often in um.
 std::string unit_hint(std::string_view option, double value, double lowest) {
-    if (option != "--wavelengths" && option != "--at") return "";
+    const bool is_wavelength = option == "--wavelengths" || option == "--at";
+    if (!is_wavelength || lowest < 0) return "";  // --at of scratches is a place
     const std::string hint = "; wavelengths are in nm";
     if (!(value > 0 && value < lowest)) return hint;
     return hint + ", " + to_text(value) + " um is " + to_text(std::round(value * 1e9) / 1e6);

@@ -116,13 +116,13 @@ using PlacedCells = std::vector<Rows::Cell>;
 
 std::vector<PointsColumn> read_header(Rows& rows) {
     PlacedCells cells;
-    if (!rows.next(cells)) rows.fail(0, "must have a header that names the paths");
+    if (!rows.next(cells)) rows.fail(0, "must have a header that names the columns");
     std::vector<PointsColumn> columns;
     std::set<std::string_view> paths;
     for (const auto& [text, at] : cells) {
         if (text.empty()) rows.fail(at, "the name of a column must not be empty");
         if (parse_number(text))
-            rows.fail(at, "the first row must name the paths (got " + in_quotes(text) + ")");
+            rows.fail(at, "the first row must name the columns (got " + in_quotes(text) + ")");
         if (!paths.insert(text).second) rows.fail(at, "duplicate column " + in_quotes(text));
         columns.emplace_back().path = text;
     }

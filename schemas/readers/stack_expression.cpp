@@ -38,7 +38,7 @@ std::optional<double> take_number(std::string_view& text) {
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc()) return std::nullopt;
     text = trim(text.substr(static_cast<std::size_t>(stop - text.data())));
-    return value;
+    return value + 0.0;  // no negative zero
 }
 
 bool take(char mark, std::string_view& text) {

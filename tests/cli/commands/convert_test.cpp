@@ -155,7 +155,13 @@ TEST_CASE("a stack goes to COATING.DAT and back", "[cli][convert]") {
     CHECK(has_line(done({"convert", "1 | 1.5@1mm! | 1", "-f", "zemax"}).err,
                    "cannot hold: \"coherent\": false"));
     check_refused(run_irido({"convert", "1 | (2@1 | 1.5@1)^6000 | 1", "-f", "zemax"}),
-                  "must have at most 10000 layers");
+                  "\"1 | (2@1 | 1.5@1)^6000 | 1\": must have at most 10000 layers");
+    for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{
+             {"--primary", "550"}, {"--coating", "AR"}, {"--mirror"}}) {
+        std::vector<std::string> arguments{"convert", "1 | 1.5@100 | 2"};
+        arguments.insert(arguments.end(), option.begin(), option.end());
+        check_refused(run_irido(arguments), option[0] + ": applies to files of other programs");
+    }
 }
 
 TEST_CASE("an OpenFilters project runs from the substrate outwards", "[cli][convert]") {

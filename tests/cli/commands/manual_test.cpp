@@ -190,6 +190,12 @@ TEST_CASE("values from fixed lists are completed in every command", "[cli][manua
 TEST_CASE("unknown shells, commands and folders are refused", "[cli][manual]") {
     check_refused(run_irido({"completion", "tcsh"}), "SHELL: must be one of bash, zsh, fish");
     check_refused(run_irido({"completion"}), "SHELL is required");
-    check_refused(run_irido({"manual", "spectrun"}), "did you mean \"irido spectrum\"?");
+    check_refused(run_irido({"manual", "spectrun"}),
+                  "unknown command 'spectrun' (did you mean \"spectrum\"?)\n");
+    check_refused(run_irido({"manual", "lut", "colour"}),
+                  "unknown command 'lut colour' (did you mean \"color\"?)\n");
+    check_refused(run_irido({"manual", "nosuch"}), "unknown command 'nosuch'\n");
+    check_refused(run_irido({"manual", "lut", "nosuch"}), "unknown command 'lut nosuch'\n");
+    check_refused(run_irido({"manual", "lut", "color", "more"}), "'lut color more'\n");
     check_refused(run_irido({"manual", "-o", "/no/such/folder"}), "/no/such/folder");
 }

@@ -285,6 +285,8 @@ TEST_CASE("what was typed wrong is one line and exit status 2", "[cli][refused]"
         {{"sweep", "schemas/examples/scenes/vehicle.json", "--vary", "layers.0.thickness_nm=1,2",
           "--compute", "color"},
          "vehicle.json: is a scene"},
+        {{"brdf", "schemas/examples/surfaces/worn-spoon.json", "--at", "1e300,0"},
+         "--at: must be in [-1e+09, 1e+09] (got 1e+300)\n"},
         {{"spectrum", stack, "-o", "."}, "--output: must name a file, not a folder (got '.')"},
         {{"spectrum", "1 | gold@10 | Agg"}, "/substrate: "},
         {{"spectrum", "1+0.1i | 1"}, "/incident: "},
@@ -348,6 +350,17 @@ TEST_CASE("an interrupted program exits 130 and leaves nothing behind", "[cli][o
         folder.path());
     CHECK(stopped.status == 130);
     CHECK(run_shell("ls -A | wc -l", folder.path()).out == "0\n");
+}
+
+TEST_CASE("a negative zero that is typed is printed as 0", "[cli][spectrum]") {
+    const TemporaryFolder folder;
+    write_text(folder / "points.csv", "layers.0.thickness_nm\n-0\n");
+    CHECK_THAT(done({"spectrum", "1 | 1.5", "-w", "500", "-a", "-0"}).out, Contains("\n500,0,u,"));
+    CHECK_THAT(done({"sweep", "1 | 2@1 | 1", "--points", folder / "points.csv", "--compute",
+                     "spectrum", "-w", "500", "--vary", "angle_deg=-0.0"})
+                   .out,
+               Contains("\n0,0,500,u,"));
+    CHECK(done({"convert", "1 | 1.5@-0 | 2", "-f", "expression"}).out == "1 | 1.5@0 | 2\n");
 }
 
 TEST_CASE("the incident medium is judged at the wavelengths asked for", "[spectrum]") {

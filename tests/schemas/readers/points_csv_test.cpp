@@ -68,15 +68,15 @@ TEST_CASE("points may be written in all the ways of RFC 4180", "[points]") {
 
 TEST_CASE("points that are no table are refused at line and column", "[points][refused]") {
     const std::vector<std::pair<std::string, std::string>> cases{
-        {"", "1:1: must have a header that names the paths"},
-        {"\xEF\xBB\xBF\n \n", "1:1: must have a header that names the paths"},
+        {"", "1:1: must have a header that names the columns"},
+        {"\xEF\xBB\xBF\n \n", "1:1: must have a header that names the columns"},
         {"a,b\n", "1:1: has no rows below its header"},
         {"a,b", "1:1: has no rows below its header"},
         {"a,,c\n1,2,3\n", "1:3: the name of a column must not be empty"},
         {"a,b,a\n1,2,3\n", "1:5: duplicate column 'a'"},
         {"a,\"a\"\n1,2\n", "1:3: duplicate column 'a'"},
-        {"100,1.5\n200,1.6\n", "1:1: the first row must name the paths (got '100')"},
-        {"a,2\n3,4\n", "1:3: the first row must name the paths (got '2')"},
+        {"100,1.5\n200,1.6\n", "1:1: the first row must name the columns (got '100')"},
+        {"a,2\n3,4\n", "1:3: the first row must name the columns (got '2')"},
         {"a,b\n1,2\n\n1\n", "4:1: must have as many cells as the header, 2 (got 1)"},
         {"a,b\n1,2,\n", "2:1: must have as many cells as the header, 2 (got 3)"},
         {"a,b\n1,{\"n\":2}\n",
