@@ -104,7 +104,7 @@ int run_command_line(int argc, char** argv) {
         "incident side, with thicknesses in nm after @, such as\n"
         "    \"air | (TiO2@58.5 | 1.46@94.2)^10 | BK7\"\n"
         "(irido materials list names materials). Rows go to standard output, or with -o to a\n"
-        "file, whose extension says the format. Each command has a page of its own: irido\n"
+        "file, whose extension sets the format. Each command has a page of its own: irido\n"
         "COMMAND --help, or man irido-COMMAND.\n\n"
         "A LIST, of wavelengths with -w and of angles with -a, is\n" +
             std::string(kListHelp));

@@ -190,10 +190,10 @@ void add_fit_command(CLI::App& program, Run& run) {
         *command,
         {"irido fit oxide.json",
          "irido fit oxide.json --correlation --plot residuals.svg -o fitted.json"},
-        "Rows parameter,value,stderr, one a free value, then chi2 and dof. The fit begins with\n"
-        "the given values and, if all bounds are finite, with 100 others inside them (not with\n"
-        "--method refine). stderr follows from the sigma of the targets and is not scaled; if\n"
-        "none is stated, it is scaled by sqrt(chi2/dof).");
+        "Rows are parameter,value,stderr, one for each free value, then chi2 and dof. The fit\n"
+        "begins with the given values and, if all bounds are finite, with 100 others inside\n"
+        "them (not with --method refine). stderr follows from the sigma of the targets and is\n"
+        "not scaled; if none is stated, it is scaled by sqrt(chi2/dof).");
     set_run(*command, run, options, run_fit);
 }
 

@@ -13,6 +13,14 @@ public:
         const std::string footer = Formatter::make_footer(command);
         return takes_list(*command) ? "LIST: " + std::string(kListHelp) + "\n\n" + footer : footer;
     }
+
+    /// Without the type of a positional argument, which its name says.
+    std::string make_option_opts(const CLI::Option* option) const override {
+        constexpr std::string_view kType = " TEXT";
+        std::string words = Formatter::make_option_opts(option);
+        if (option->get_positional() && words.starts_with(kType)) words.erase(0, kType.size());
+        return words;
+    }
 };
 
 }  // namespace
@@ -47,6 +55,7 @@ void set_help_pages(CLI::App& program) {
     constexpr std::size_t kColumn = 26;
     const auto pages = std::make_shared<HelpPages>();
     pages->column_width(kColumn);
+    pages->label("Excludes", "not with");
     program.formatter(pages);
 }
 
