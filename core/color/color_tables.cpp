@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/color/quadrature/panel_starts.hpp"
+
 namespace irido {
 
 namespace {
@@ -10,6 +12,9 @@ constexpr std::array kAccuracies{1e-8, 1e-13};
 constexpr double kLongestPath_nm = 5e5;
 
 }  // namespace
+
+ColorTables::ColorTables(Sensitivity sensitivity) : sensitivity_(std::move(sensitivity)) {}
+ColorTables::~ColorTables() = default;
 
 const SensitivityTransform& ColorTables::transform(double accuracy) const {
     const std::size_t which = accuracy >= kAccuracies[0] ? 0 : 1;
@@ -76,6 +81,19 @@ std::shared_ptr<const SampleRule> ColorTables::equal(std::size_t count) const {
     std::shared_ptr<const SampleRule>& rule = equal_[count];
     if (!rule) rule = std::make_shared<const SampleRule>(equal_rule(sensitivity_, count));
     return rule;
+}
+
+std::shared_ptr<const PanelStarts> ColorTables::constant_starts() const {
+    const std::scoped_lock guard(lock_);
+    if (!constant_starts_ || constant_starts_->size() > kMostShared) {
+        const WavelengthRange support = sensitivity_.support();
+        constant_starts_ = std::make_shared<const PanelStarts>(
+            *this, std::vector{support.first_nm, support.last_nm},
+            [](std::vector<double> wavelength_nm, const IndexFit*) {
+                return SpectralPoints{std::move(wavelength_nm), nullptr};
+            });
+    }
+    return constant_starts_;
 }
 
 }  // namespace irido

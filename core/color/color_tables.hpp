@@ -17,11 +17,16 @@
 
 namespace irido {
 
+class PanelStarts;
+
 /// Data shared by the colours of all stacks under the same weighted colour-matching functions. Each
 /// part is computed once, on first use. Thread-safe.
 class ColorTables {
 public:
-    explicit ColorTables(Sensitivity sensitivity) : sensitivity_(std::move(sensitivity)) {}
+    explicit ColorTables(Sensitivity sensitivity);
+    ~ColorTables();
+    ColorTables(const ColorTables&) = delete;
+    ColorTables& operator=(const ColorTables&) = delete;
 
     const Sensitivity& sensitivity() const { return sensitivity_; }
 
@@ -52,7 +57,12 @@ public:
     /// Nodes for at least `least` points; their number is 2^k or 3 2^k.
     const CosineNodes& nodes(std::size_t least) const;
 
+    /// Panels and points for spectra of constant indices, which all such stacks share. Others, once
+    /// there are kMostShared points or so.
+    std::shared_ptr<const PanelStarts> constant_starts() const;
+
     static constexpr std::size_t kMostNumbers = 1U << 22;
+    static constexpr std::size_t kMostShared = 1U << 12;
 
 private:
     Sensitivity sensitivity_;
@@ -74,6 +84,7 @@ private:
     mutable std::unordered_map<RuleKey, std::shared_ptr<const QuadratureRule>, RuleHash> rules_;
     mutable std::size_t numbers_ = 0;  ///< in the rules
     mutable std::map<std::size_t, std::shared_ptr<const SampleRule>> equal_;
+    mutable std::shared_ptr<const PanelStarts> constant_starts_;
 };
 
 }  // namespace irido

@@ -54,6 +54,7 @@ std::vector<double> smooth_pieces(const Stack& stack, WavelengthRange support, b
             ends.push_back(wavelength);
     };
     for (const Material& material : stack.materials) {
+        if (is_constant(material)) continue;
         const std::vector<double> rows =
             with_rows ? std::vector<double>{} : table_rows(material, support);
         const WavelengthRange range = range_of(material);

@@ -409,6 +409,16 @@ void SpectrumKernel::update() {
     if (needs_.layers) compile_layers(*chain, stack_.listed(), absorbs_, layers_);
 }
 
+void SpectrumKernel::serve(const std::vector<bool>& absorbs, const std::vector<bool>& amplifies,
+                           const Needs& needs, SimdLevel simd) {
+    absorbs_ = absorbs;
+    amplifies_ = amplifies;
+    needs_ = needs;
+    simd_ = simd;
+    fixed_ = {};
+    update();
+}
+
 void SpectrumKernel::fix_layers(const IndexTable& table, IncidentAngle incidence, FixedLayers& out,
                                 SpectrumMemory& memory) const {
     out.points = table.wavelength_nm().size();

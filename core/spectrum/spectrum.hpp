@@ -114,6 +114,10 @@ public:
     /// reused. Throws as the constructor does.
     void update();
 
+    /// The same, for a stack of any other materials and needs, of which no elements are varied.
+    void serve(const std::vector<bool>& absorbs, const std::vector<bool>& amplifies,
+               const Needs& needs, SimdLevel simd);
+
     /// Whether layers that do not vary enter as FixedLayers: if that saves work, if the stack is a
     /// single coherent block that the vector kernel supports, and unless the absorption of
     /// absorbing layers is requested. Results then differ within rounding.
@@ -144,6 +148,9 @@ public:
 
     /// Whether the vector kernel supports the stack, except for the largest phases.
     bool is_vectorized() const { return is_vectorized_; }
+
+    /// StackPower::has_amplitudes().
+    bool has_amplitudes() const { return stack_.has_amplitudes(); }
 
     /// How such a call is computed.
     Work work(const IndexTable& table, std::span<const IncidentAngle> incidence) const;

@@ -15,6 +15,7 @@ namespace {
 /// See IndexTable::extraordinary().
 std::vector<std::size_t> rows_of_extraordinary(const std::vector<Material>& materials) {
     std::vector<std::size_t> rows;
+    rows.reserve(materials.size());
     std::size_t next = materials.size();
     for (std::size_t m = 0; m < materials.size(); ++m)
         rows.push_back(is_uniaxial(materials[m]) ? next++ : m);
@@ -51,6 +52,9 @@ IndexTable::IndexTable(const Stack& stack, std::vector<double> wavelength_nm)
             note_sign(m, index);
         }
     };
+    rows_.reserve(materials_);
+    n_.reserve(materials_ + kMostLanes);
+    k_.reserve(materials_ + kMostLanes);
     clear_rows();
     for (std::size_t m = 0; m < materials_; ++m) fill(m, index_at);
     for (std::size_t m = 0; m < materials_; ++m)

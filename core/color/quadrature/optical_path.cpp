@@ -79,10 +79,11 @@ PathLengths longest_paths(std::span<const Element> elements, const IndexTable& t
     normal.resize(table.materials());
     bool varies = false;
     for (std::size_t m = 0; m < normal.size(); ++m) varies = varies || !table.is_constant(m);
+    const bool all_vary = !table.is_constant(table.incident());
     PathLengths longest;
     for (std::size_t w = 0; w < table.wavelength_nm().size(); ++w) {
-        if (w == 0 || varies)
-            for (std::size_t m = 0; m < normal.size(); ++m)
+        for (std::size_t m = 0; m < normal.size(); ++m)
+            if (w == 0 || all_vary || !table.is_constant(m))
                 normal[m] = longest_normal(table, m, w, incidence);
         const auto path_of = [&](Gaps gaps) {
             Path path;
@@ -113,11 +114,15 @@ double work_of(std::span<const Element> elements) {
 
 namespace {
 
-/// kz/k0 from its square; real ones are quicker.
+/// kz/k0 from its square, where a library's square root would care for overflow and NaN.
 Complex normal_of(const Medium& medium) {
     const Complex q2 = medium.q2;
-    if (q2.imag() != 0) return std::sqrt(q2);
-    return q2.real() < 0 ? Complex(0, std::sqrt(-q2.real())) : Complex(std::sqrt(q2.real()));
+    const double size = q2.imag() == 0 ? std::abs(q2.real()) : std::sqrt(std::norm(q2));
+    if (size == 0) return 0;
+    const double larger = std::sqrt((size + std::abs(q2.real())) / 2);
+    const double smaller = q2.imag() / (2 * larger);
+    return q2.real() >= 0 ? Complex(larger, smaller)
+                          : Complex(std::abs(smaller), std::copysign(larger, q2.imag()));
 }
 
 }  // namespace

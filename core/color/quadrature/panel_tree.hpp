@@ -98,6 +98,8 @@ public:
                 std::size_t most_panels = kMostPanels, bool follows = false);
     static constexpr std::size_t kMostPanels = 1024;
 
+    std::size_t points_made() const { return points_made_; }  ///< ids given so far
+
 private:
     SpectralPoints make_points(std::vector<double> wavelength_nm, const IndexFit* fit) const;
     /// How far bisection goes, and what the points of the panels resolve.

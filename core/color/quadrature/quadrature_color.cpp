@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
-#include <mutex>
 
 #include "core/coherent/fringe_mean.hpp"
 #include "core/coherent/media.hpp"
@@ -17,6 +16,8 @@
 #include "core/color/quadrature/integration.hpp"
 #include "core/color/quadrature/left_out_fringes.hpp"
 #include "core/color/quadrature/optical_path.hpp"
+#include "core/color/quadrature/panel_starts.hpp"
+#include "core/color/quadrature/point_indices.hpp"
 #include "core/color/quadrature/sampled_fringes.hpp"
 #include "core/error.hpp"
 #include "core/math/pool.hpp"
@@ -85,27 +86,16 @@ public:
           sensitivity_(tables.sensitivity()),
           request_(request),
           held_(held_stack(stack, sensitivity_)),
+          constant_(std::ranges::all_of(held_.materials,
+                                        [](const Material& m) { return is_constant(m); })),
           smooth_(held_, sensitivity_),
           has_gaps_(has_incoherent_layers(held_.elements)),
           keeps_rows_(has_gaps_ || !are_fits_repaid()),
-          pieces_(smooth_pieces(held_, sensitivity_.support(), keeps_rows_)),
-          constant_(std::ranges::all_of(held_.materials,
-                                        [](const Material& m) { return is_constant(m); })),
           on_path_(held_, path_wavelengths(constant_, sensitivity_.support())),
           needs_(needs_of(request)),
           varied_(varied_elements(held_, request.varied)),
           fixed_layers_(request.kept_numbers),
-          tree_(
-              tables,
-              [this](std::vector<double> wavelength_nm, const IndexFit* fit) {
-                  SpectralPoints points{std::move(wavelength_nm), nullptr};
-                  if (constant_) return points;
-                  auto indices = std::make_unique<IndexTable>(held_, points.wavelength_nm);
-                  if (fit) fit->replace(*indices);
-                  points.indices = std::move(indices);
-                  return points;
-              },
-              keeps_rows_ ? nullptr : &smooth_) {
+          starts_(constant_ && varied_.empty() ? tables.constant_starts() : own_starts()) {
         survey();
         needs_.denominators = true;
         is_lossless_ = constant_ && !has_gaps_ && std::ranges::none_of(absorbs_, std::identity()) &&
@@ -115,9 +105,24 @@ public:
     void operator()(const Stack& stack, std::span<const double> angles_deg,
                     std::span<StackColor> colors) const override {
         const Pool<Scratch>::Loan scratch = scratch_of_all().borrow();
+        if (varied_.empty())
+            return compute(kernel_of(stack, scratch->prepared), stack, angles_deg, colors,
+                           *scratch);
         const Pool<Prepared>::Loan prepared = prepared_.borrow();
-        scratch->prepared = &*prepared;
-        const SpectrumKernel& kernel = kernel_of(stack, *prepared);
+        compute(kernel_of_varied(stack, *prepared), stack, angles_deg, colors, *scratch);
+    }
+
+private:
+    struct Prepared {
+        std::optional<StackPower> power;
+        std::optional<SpectrumKernel> kernel;
+    };
+    struct Scratch;
+
+    void compute(const SpectrumKernel& kernel, const Stack& stack,
+                 std::span<const double> angles_deg, std::span<StackColor> colors,
+                 Scratch& scratch) const {
+        scratch.kernel = &kernel;
         const std::size_t sides = request_.sides.size();
         const double most = kernel.is_vectorized() ? kMostVectorWork : kMostPlainWork;
         const auto affordable =
@@ -126,26 +131,20 @@ public:
                                        std::min(request_.evaluations, affordable), request_.simd};
         for (std::size_t i = 0; i < angles_deg.size(); ++i)
             integrate(kernel, stack, incident_angle(angles_deg[i]), limits,
-                      colors.subspan(i * sides, sides), *scratch);
+                      colors.subspan(i * sides, sides), scratch);
     }
 
-private:
-    /// Of such stacks.
-    struct Prepared {
-        std::optional<StackPower> power;
-        std::optional<SpectrumKernel> kernel;
-        std::optional<IndexTable> indices;  ///< of several parts
-    };
     /// Memory for colours of any stacks.
     struct Scratch {
-        Prepared* prepared = nullptr;
+        Prepared prepared;
+        const SpectrumKernel* kernel = nullptr;  ///< of the stack at hand
+        PointIndices indices;
+        const SpectralPoints* first = nullptr;  ///< with which its colour begins
         FixedLayers fixed;
         std::vector<const FixedLayers*> fixed_parts;
         Spectra spectra;
         SpectrumMemory memory;
         std::vector<Complex> normal;
-        std::vector<const IndexTable*> parts;
-        std::vector<const std::vector<double>*> wavelengths;
         IntegrationMemory integration;
         std::vector<ColorIntegral> integrals;
         std::vector<Medium> media;
@@ -155,13 +154,28 @@ private:
         std::vector<BranchPoint> branch_points;
     };
 
+    std::shared_ptr<const PanelStarts> own_starts() const {
+        return std::make_shared<const PanelStarts>(
+            tables_, smooth_pieces(held_, sensitivity_.support(), keeps_rows_),
+            [this](std::vector<double> wavelength_nm, const IndexFit* fit) {
+                auto indices = std::make_unique<IndexTable>(held_, wavelength_nm);
+                if (fit) fit->replace(*indices);
+                return SpectralPoints{std::move(wavelength_nm), std::move(indices)};
+            },
+            keeps_rows_ ? nullptr : &smooth_);
+    }
+
     /// Which materials absorb and amplify.
     void survey() {
-        const IndexTable at_ends(
-            held_, has_fits() ? smooth_pieces(held_, sensitivity_.support()) : pieces_);
+        if (constant_) {
+            absorbs_ = on_path_.absorbs();
+            amplifies_ = on_path_.amplifies();
+            return;
+        }
+        const IndexTable at_ends(held_, smooth_pieces(held_, sensitivity_.support()));
         absorbs_ = at_ends.absorbs();
         amplifies_ = at_ends.amplifies();
-        if (!constant_) branch_points_.emplace(held_, at_ends);
+        branch_points_.emplace(held_, at_ends);
         for (std::size_t m = 0; m < held_.materials.size(); ++m) {
             if (is_surveyed(held_.materials[m])) continue;
             absorbs_[m] = true;
@@ -186,7 +200,19 @@ private:
     }
 
     const SpectrumKernel& kernel_of(const Stack& stack, Prepared& prepared) const {
-        auto& [power, kernel, indices] = prepared;
+        auto& [power, kernel] = prepared;
+        if (kernel) {
+            power->assign(stack);
+            kernel->serve(absorbs_, amplifies_, needs_, request_.simd);
+        } else {
+            power.emplace(stack);
+            kernel.emplace(*power, absorbs_, amplifies_, needs_, request_.simd);
+        }
+        return *kernel;
+    }
+
+    const SpectrumKernel& kernel_of_varied(const Stack& stack, Prepared& prepared) const {
+        auto& [power, kernel] = prepared;
         if (!kernel) {
             power.emplace(held_);
             kernel.emplace(*power, absorbs_, amplifies_, needs_, request_.simd, varied_);
@@ -231,6 +257,7 @@ private:
         if (has_samples && try_samples(stack, incidence, longest_nm, limits, colors, scratch))
             return;
         const PanelTree::Start& start = start_of(path_class(path_nm), follows);
+        scratch.first = &start.points;
         IntegrationLimits known = limits;
         Transmission through;
         through.sides = request_.sides;
@@ -313,7 +340,7 @@ private:
 
     /// Whether the stack has a fringe_form().
     bool has_forms(IncidentAngle incidence, const Scratch& scratch) const {
-        return !has_gaps_ && incidence.cos > 0 && scratch.prepared->power->has_amplitudes() &&
+        return !has_gaps_ && incidence.cos > 0 && scratch.kernel->has_amplitudes() &&
                std::ranges::find(amplifies_, true) == amplifies_.end();
     }
 
@@ -371,6 +398,7 @@ private:
         const double mean_nm = fast.rest_nm + kPeriodsOfMean * fast.period_nm;
         if (kPointsPerPath * mean_nm > static_cast<double>(affordable)) return false;
         const PanelTree::Start& start = start_of(path_class(mean_nm));
+        scratch.first = &start.points;
         const std::size_t polarizations = needs_.s && needs_.p && incidence.cos < 1 ? 2 : 1;
         for (LeftOutFringes& fringes : scratch.left_out) fringes.clear();
         const SampleAt sample = [&](std::span<const SpectralPoints* const> parts,
@@ -507,34 +535,16 @@ private:
     }
 
     const PanelTree::Start& start_of(std::size_t path, bool follows = false) const {
-        const std::scoped_lock guard(lock_);
-        std::unique_ptr<PanelTree::Start>& start = starts_[{path, follows}];
-        if (start) return *start;
-        start = std::make_unique<PanelTree::Start>(
-            tree_.start(panels_of(pieces_, path_of_class(path)), request_.tolerance,
-                        request_.evaluations / kPanelPoints / 4, follows));
-        if (constant_)
-            start->points.indices =
-                std::make_unique<IndexTable>(held_, start->points.wavelength_nm);
-        return *start;
+        return starts_->at(
+            {path, follows, request_.tolerance, request_.evaluations / kPanelPoints / 4});
     }
 
     const IndexTable& indices_at(std::span<const SpectralPoints* const> parts,
                                  Scratch& scratch) const {
-        if (parts.size() == 1 && parts[0]->indices) return *parts[0]->indices;
-        std::optional<IndexTable>& indices = scratch.prepared->indices;
-        if (!indices) indices = on_path_;
-        if (constant_) {
-            scratch.wavelengths.clear();
-            for (const SpectralPoints* part : parts)
-                scratch.wavelengths.push_back(&part->wavelength_nm);
-            indices->assign(on_path_, scratch.wavelengths);
-        } else {
-            scratch.parts.clear();
-            for (const SpectralPoints* part : parts) scratch.parts.push_back(part->indices.get());
-            indices->assign(scratch.parts);
-        }
-        return *indices;
+        const IndexTable* const constant = constant_ ? &on_path_ : nullptr;
+        if (parts.size() == 1 && parts[0] == scratch.first)
+            return scratch.indices.at_first(*parts[0], constant, id_);
+        return scratch.indices.at(parts, constant);
     }
 
     /// Gathers what does not vary; false if there is no room for it.
@@ -556,26 +566,24 @@ private:
     const Sensitivity& sensitivity_;
     ColorRequest request_;
     Stack held_;
+    bool constant_;             ///< all indices
+    bool is_lossless_ = false;  ///< and without k
     SmoothIndices smooth_;
     bool has_gaps_;
     /// Rows of tables end panels, as they must with incoherent layers: what these absorb follows k
     /// however fast it changes, and no slope of the coherent denominators tells how much a fit of k
     /// would lose.
     bool keeps_rows_;
-    std::vector<double> pieces_;  ///< ends of what is smooth
-    bool constant_;               ///< all indices
-    bool is_lossless_ = false;    ///< and without k
-    IndexTable on_path_;          ///< at the wavelengths that tell how long the path is
+    IndexTable on_path_;  ///< at the wavelengths that tell how long the path is
     Needs needs_;
     std::vector<bool> absorbs_, amplifies_;
     std::optional<BranchPoints> branch_points_;
     std::vector<std::size_t> varied_;  ///< elements, if only these differ
     mutable FixedLayersCache fixed_layers_;
-    mutable PanelTree tree_;
-    mutable Pool<Prepared> prepared_;
-    mutable std::mutex lock_;
-    /// By path class, and whether spectra follow from denominators.
-    mutable std::map<std::pair<std::size_t, bool>, std::unique_ptr<PanelTree::Start>> starts_;
+    mutable Pool<Prepared> prepared_;  ///< if only these differ
+    std::shared_ptr<const PanelStarts> starts_;
+    static inline std::atomic<std::size_t> made_ = 0;
+    std::size_t id_ = ++made_;  ///< of this object alone
 };
 
 }  // namespace

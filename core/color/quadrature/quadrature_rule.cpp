@@ -153,6 +153,17 @@ QuadratureRule::QuadratureRule(const Sensitivity& sensitivity, WavelengthRange r
 
 namespace {
 
+/// Falls that tell each of kFallRates.
+const std::array<double, kFallRates.size()>& needed_falls() {
+    static const auto falls = [] {
+        std::array<double, kFallRates.size()> result{};
+        for (std::size_t rate = 0; rate < kFallRates.size(); ++rate)
+            result[rate] = std::exp(kFallRates[rate] + 1);
+        return result;
+    }();
+    return falls;
+}
+
 double largest_of(std::span<const double> values) {
     double largest = 0;
     for (const double value : values) largest = std::max(largest, std::abs(value));
@@ -177,8 +188,8 @@ Triple QuadratureRule::error(std::span<const double> sums, std::size_t rate,
     const std::span<const double> last = sums.subspan(3 + middle, tail);
     if (middle > 0) {
         // over half of the way, with a factor e to spare: twice as fast as the rate claims
-        const double fall = std::log(fall_seen(sums)) - 1;
-        while (rate < most && fall >= kFallRates[rate + 1]) ++rate;
+        const double fall = fall_seen(sums);
+        while (rate < most && fall >= needed_falls()[rate + 1]) ++rate;
     }
     double size = 0, factor = 1;
     for (std::size_t k = tail; k-- > 0;) {

@@ -214,6 +214,7 @@ void IndexFit::replace(IndexTable& table) const {
 
 SmoothIndices::SmoothIndices(const Stack& stack, const Sensitivity& sensitivity)
     : stack_(stack), sensitivity_(sensitivity) {
+    material_rows_.reserve(stack.materials.size());
     for (const Material& material : stack.materials) {
         material_rows_.push_back(table_rows(material, sensitivity.support()));
         rows_.insert(rows_.end(), material_rows_.back().begin(), material_rows_.back().end());
@@ -258,9 +259,8 @@ std::span<const double> SmoothIndices::effects(const IndexTable& table, Incident
         if (!is_tabulated(m)) continue;
         for (std::size_t w = 0; w < table.wavelength_nm().size(); ++w) {
             const Medium here = medium(table.index(m, w), table.n(table.incident(), w), incidence);
-            effects[m] = std::max(
-                effects[m], std::sqrt(std::abs(here.eps)) /
-                                std::max(std::abs(here.q2), kLeastNormal * std::abs(here.eps)));
+            const double eps = std::sqrt(std::norm(here.eps)), q2 = std::sqrt(std::norm(here.q2));
+            effects[m] = std::max(effects[m], std::sqrt(eps) / std::max(q2, kLeastNormal * eps));
         }
     }
     return effects;
