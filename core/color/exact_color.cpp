@@ -9,7 +9,6 @@
 #include "core/color/spread_means.hpp"
 #include "core/error.hpp"
 #include "core/math/lazy.hpp"
-#include "core/spectrum/stack_power.hpp"
 
 namespace irido {
 
@@ -80,10 +79,6 @@ std::unique_ptr<ColorAlgorithm> exact_color(const ColorTables& tables, const Sta
                        : quadrature_color(tables, stack, request);
     };
     if (auto means = spread_means(tables, stack, request)) {
-        // what it leaves has narrow resonances or tunnelling: colours over the thickness have
-        // kinks, by which rules may agree by chance
-        if (StackPower(stack).spread_layers() == 1)
-            return or_quadrature(tables, stack, request, std::move(means));
         return std::make_unique<SpecialColor>(request, std::move(means), without_means);
     }
     return without_means();

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 
 #include "core/color/held_stack.hpp"
 #include "core/color/stack_color.hpp"
-#include "core/colorimetry/difference.hpp"
+#include "core/complex.hpp"
 #include "core/stack/index_table.hpp"
 
 namespace irido {
@@ -19,11 +18,19 @@ namespace {
 /// Parts of the tolerance: of the colours without spread, and of thicknesses that are left out.
 constexpr double kOfColors = 0.7, kOfTails = 0.05;
 
-/// The error of a rule is the square of the one inside it, both as parts of how much the colours
-/// differ, once the rule resolves them; beside narrow resonances it is larger, and the power 3/2 is
-/// taken, this many times. Where nine points of one layer did not do, it is the error of the rule
-/// inside: a resonance that passes a kink of the observer makes one in the colours.
-constexpr double kSafety = 4;
+/// A rule averages waves wrongly that turn by as much as twice what its nodes resolve. In smooth
+/// functions these are far smaller than the fastest ones that it resolves; but a narrow resonance
+/// that passes a kink of the observer makes one in the colours, whose waves fall slowly, with the
+/// square of their frequency at most. The error is taken to be so much of the largest of the
+/// latter: all of one layer's, and of two layers, either of which blurs the kinks of the other.
+constexpr double kOfOne = 1, kOfTwo = 0.25;
+
+/// Fastest waves that a rule resolves, as parts of the fastest one.
+constexpr std::array kFastest{0.75, 0.9, 1.0};
+
+/// Degree of polynomials that have no part in these, and those that stand for them in nine points.
+constexpr std::size_t kSmooth = 6;
+constexpr std::array<std::size_t, kFastest.size()> kSteepest{8, 7, 6};
 
 /// Wavelength at which light turns most of what the observer sees.
 constexpr double kShort_nm = 400;
@@ -47,16 +54,16 @@ constexpr double kLeastTolerance = 5e-8;
 /// One thickness of a rule, in standard deviations from the mean or in parts of a range.
 struct RuleNode {
     double x, weight;
-    double inner;  ///< weight in the rule inside
+    double probing = 0;  ///< weight in the sums that probe: of Chebyshev coefficients, twice these
 };
 
 /// Rules for the weight exp(-x^2/2), for x >= 0.
 constexpr std::array kNine{
-    RuleNode{0, 0.253968253968253968, 0.666666666666666667},
-    RuleNode{0.741095349994540842, 0.270074329577937871, 0},
-    RuleNode{1.73205080756887729, 0.0948509485094850949, 0.166666666666666667},
-    RuleNode{2.86127957605705812, 0.00799632547089353277, 0},
-    RuleNode{4.18495601767273186, 0.0000942694575565174894, 0},
+    RuleNode{0, 0.253968253968253968},
+    RuleNode{0.741095349994540842, 0.270074329577937871},
+    RuleNode{1.73205080756887729, 0.0948509485094850949},
+    RuleNode{2.86127957605705812, 0.00799632547089353277},
+    RuleNode{4.18495601767273186, 0.0000942694575565174894},
 };
 constexpr std::array<std::size_t, 4> kIntervals{16, 32, 64, 128};
 
@@ -81,17 +88,17 @@ std::vector<double> curtis_weights(std::size_t n) {
 
 /// On [-1, 1]: equal steps for Gaussians, which vanish at both ends, else Clenshaw and Curtis's.
 std::vector<RuleNode> rule_of(std::size_t n, bool equal_steps) {
-    const auto steps = static_cast<double>(n);
-    std::vector<double> all(n + 1, 1), inside(n / 2 + 1, 1);
-    if (!equal_steps) {
-        all = curtis_weights(n);
-        inside = curtis_weights(n / 2);
-    }
     std::vector<RuleNode> rule;
+    const std::vector<double> curtis = equal_steps ? std::vector<double>() : curtis_weights(n);
     for (std::size_t j = 0; j <= n; ++j) {
-        const auto at = static_cast<double>(j);
-        rule.push_back({equal_steps ? 2 * at / steps - 1 : std::cos(std::numbers::pi * at / steps),
-                        all[j], j % 2 == 0 ? inside[j / 2] : 0});
+        const double part = static_cast<double>(j) / static_cast<double>(n);
+        if (equal_steps) {
+            rule.push_back({2 * part - 1, 1, 1});
+        } else {
+            const double end = j == 0 || j == n ? 0.5 : 1;
+            rule.push_back(
+                {-std::cos(std::numbers::pi * part), curtis[j], 4 * end / static_cast<double>(n)});
+        }
     }
     return rule;
 }
@@ -106,38 +113,107 @@ const std::vector<RuleNode>& shared_rule(std::size_t which, bool equal_steps) {
     return rules.at(which)[equal_steps ? 1 : 0];
 }
 
-/// A layer's thicknesses and their weights.
+/// A layer's thicknesses, their weights, and sums that tell what these do not resolve.
 struct Nodes {
-    std::vector<double> thickness_nm, weight, inner;
+    using Probe = std::array<Complex, kFastest.size()>;
 
-    void add(double nm, double w, double inside) {
+    std::vector<double> thickness_nm, weight;
+    std::vector<Probe> probe;
+
+    void add(double nm, double w) {
         thickness_nm.push_back(nm);
         weight.push_back(w);
-        inner.push_back(inside);
+        probe.emplace_back();
     }
 };
 
-Nodes nodes_of(const Layer& layer, std::size_t level, double reach) {
-    Nodes nodes;
-    const double mean = layer.thickness_nm, sigma = layer.thickness_sigma_nm;
-    if (level < kGaussLevels) {
-        for (const RuleNode& node : kNine) {
-            nodes.add(mean + sigma * node.x, node.weight, node.inner);
-            if (node.x > 0) nodes.add(mean - sigma * node.x, node.weight, node.inner);
+/// Polynomials up to a degree that are orthonormal under the weights of nodes.
+std::vector<std::vector<double>> orthonormal(const std::vector<double>& x,
+                                             const std::vector<double>& weight,
+                                             std::size_t degree) {
+    std::vector<std::vector<double>> all;
+    std::vector<double> next(x.size(), 1);
+    for (std::size_t k = 0; k <= degree; ++k) {
+        for (const std::vector<double>& known : all) {
+            double along = 0;
+            for (std::size_t j = 0; j < x.size(); ++j) along += weight[j] * known[j] * next[j];
+            for (std::size_t j = 0; j < x.size(); ++j) next[j] -= along * known[j];
+        }
+        double squares = 0;
+        for (std::size_t j = 0; j < x.size(); ++j) squares += weight[j] * next[j] * next[j];
+        for (double& value : next) value /= std::sqrt(squares);
+        all.push_back(next);
+        for (std::size_t j = 0; j < x.size(); ++j) next[j] *= x[j];
+    }
+    return all;
+}
+
+/// Nine points, which are probed by polynomials.
+Nodes nine_nodes(double mean, double sigma) {
+    static const auto rule = [] {
+        std::vector<double> x, weight;
+        for (const RuleNode& node : kNine)
+            for (const double sign : {1.0, -1.0}) {
+                if (node.x == 0 && sign < 0) continue;
+                x.push_back(sign * node.x);
+                weight.push_back(node.weight);
+            }
+        const auto steep = orthonormal(x, weight, kSteepest[0]);
+        Nodes nodes;
+        for (std::size_t j = 0; j < x.size(); ++j) {
+            nodes.add(x[j], weight[j]);
+            for (std::size_t f = 0; f < kSteepest.size(); ++f)
+                nodes.probe[j].at(f) = weight[j] * steep[kSteepest.at(f)][j];
         }
         return nodes;
+    }();
+    Nodes nodes = rule;
+    for (double& nm : nodes.thickness_nm) nm = mean + sigma * nm;
+    return nodes;
+}
+
+/// Steps, equal in the thickness or, from the cut on, in the angle of its cosine, are probed by
+/// waves along them without what polynomials have of these.
+///   weight  that of the steps
+void probe_steps(double mean, double sigma, bool is_cut, const std::vector<double>& weight,
+                 Nodes& nodes) {
+    std::vector<double> x;
+    for (const double nm : nodes.thickness_nm) x.push_back((nm - mean) / sigma);
+    const auto smooth = orthonormal(x, weight, kSmooth);
+    for (std::size_t f = 0; f < kFastest.size(); ++f) {
+        std::vector<Complex> wave;
+        for (std::size_t j = 0; j < x.size(); ++j) {
+            const Complex turn =
+                std::polar(1.0, kFastest.at(f) * std::numbers::pi * static_cast<double>(j));
+            wave.push_back(is_cut ? turn.real() : turn);
+        }
+        for (const std::vector<double>& polynomial : smooth) {
+            Complex along = 0;
+            for (std::size_t j = 0; j < x.size(); ++j) along += weight[j] * polynomial[j] * wave[j];
+            for (std::size_t j = 0; j < x.size(); ++j) wave[j] -= along * polynomial[j];
+        }
+        for (std::size_t j = 0; j < x.size(); ++j) nodes.probe[j].at(f) = weight[j] * wave[j];
     }
+}
+
+Nodes nodes_of(const Layer& layer, std::size_t level, double reach) {
+    const double mean = layer.thickness_nm, sigma = layer.thickness_sigma_nm;
+    if (level < kGaussLevels) return nine_nodes(mean, sigma);
+    Nodes nodes;
     const double from = std::max(0.0, mean - reach * sigma), to = mean + reach * sigma;
-    double all = 0, inside = 0;
-    for (const RuleNode& node : shared_rule(level - kGaussLevels, mean >= reach * sigma)) {
+    const bool is_cut = mean < reach * sigma;
+    std::vector<double> probing;
+    double all = 0;
+    for (const RuleNode& node : shared_rule(level - kGaussLevels, !is_cut)) {
         const double nm = std::clamp((from + to) / 2 + (to - from) / 2 * node.x, from, to);
         const double density = std::exp(-std::pow((nm - mean) / sigma, 2) / 2);
-        nodes.add(nm, density * node.weight, density * node.inner);
+        nodes.add(nm, density * node.weight);
+        probing.push_back(density * node.probing);
         all += nodes.weight.back();
-        inside += nodes.inner.back();
     }
     for (double& weight : nodes.weight) weight /= all;
-    for (double& weight : nodes.inner) weight /= inside;
+    for (double& weight : probing) weight /= all;
+    probe_steps(mean, sigma, is_cut, probing, nodes);
     return nodes;
 }
 
@@ -242,7 +318,8 @@ private:
     std::size_t first_level(const Layer& layer, std::size_t spread) const {
         const double phase = turn_per_nm_[spread] * layer.thickness_sigma_nm;
         if (!(phase < kForAny)) return kLevels;
-        if (!is_cut(layer) && phase < kForNine) return 0;
+        const bool has_nine = layer.thickness_nm >= kNine.back().x * layer.thickness_sigma_nm;
+        if (!is_cut(layer) && has_nine && phase < kForNine) return 0;
         const double wide = reach_ * layer.thickness_sigma_nm +
                             std::min(layer.thickness_nm, reach_ * layer.thickness_sigma_nm);
         // equal steps need two a wave, Clenshaw and Curtis's pi
@@ -269,23 +346,10 @@ private:
         std::vector<StackColor> fresh(some_deg.size() * sides_);
         std::vector<std::size_t> at(nodes.size());
         std::vector<double> thickness_nm(nodes.size());
-        struct Sum {
-            Triple all{}, inside{}, least{}, most{};
-            double error = 0;
-            std::size_t evaluations = 0;
-        };
         std::vector<Sum> sums(fresh.size());
-        for (Sum& sum : sums) {
-            sum.least.fill(std::numeric_limits<double>::infinity());
-            sum.most.fill(-std::numeric_limits<double>::infinity());
-        }
         for (bool more = true; more;) {
-            double weight = 1, inner = 1;
-            for (std::size_t s = 0; s < nodes.size(); ++s) {
+            for (std::size_t s = 0; s < nodes.size(); ++s)
                 thickness_nm[s] = nodes[s].thickness_nm[at[s]];
-                weight *= nodes[s].weight[at[s]];
-                inner *= nodes[s].inner[at[s]];
-            }
             auto [entry, is_new] = known.try_emplace(thickness_nm);
             std::vector<StackColor>& of_node = entry->second;
             if (is_new) {
@@ -296,38 +360,77 @@ private:
                 for (std::size_t i = 0; i < fresh.size(); ++i)
                     of_node[open[i / sides_] * sides_ + i % sides_] = fresh[i];
             }
-            for (std::size_t i = 0; i < sums.size(); ++i) {
-                const StackColor& color = of_node[open[i / sides_] * sides_ + i % sides_];
-                Sum& sum = sums[i];
-                for (std::size_t c = 0; c < 3; ++c) {
-                    sum.all[c] += weight * color.xyz[c];
-                    sum.inside[c] += inner * color.xyz[c];
-                    sum.least[c] = std::min(sum.least[c], color.xyz[c]);
-                    sum.most[c] = std::max(sum.most[c], color.xyz[c]);
-                }
-                sum.error += std::abs(weight) * color.error;
-                sum.evaluations += color.evaluations;
-            }
+            const Node node = node_at(nodes, at);
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i].add(node, of_node[open[i / sides_] * sides_ + i % sides_]);
             more = false;
             for (std::size_t s = nodes.size(); s-- > 0 && !more;) {
                 more = ++at[s] < nodes[s].weight.size();
                 if (!more) at[s] = 0;
             }
         }
-        const bool may_have_kinks =
-            nodes.size() == 1 && nodes[0].weight.size() > 2 * kNine.size() - 1;
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            const Sum& sum = sums[i];
-            const double range = largest_difference(sum.most, sum.least);
-            const double agreement = largest_difference(sum.all, sum.inside);
-            double rule = agreement;
-            if (agreement > 0 && !may_have_kinks)
-                rule = std::min(agreement, kSafety * agreement * std::sqrt(agreement / range));
-            StackColor& color = colors[open[i / sides_] * sides_ + i % sides_];
-            color = {sum.all, sum.error + rule + kOfTails * tolerance_, sum.evaluations,
-                     "quadrature"};
-        }
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            colors[open[i / sides_] * sides_ + i % sides_] = {
+                sums[i].xyz, sums[i].error + sums[i].of_rules(nodes.size()) + kOfTails * tolerance_,
+                sums[i].evaluations, "quadrature"};
     }
+
+    /// Waves along one of two layers, along the other one, and along both in the same direction
+    /// and in the opposite one.
+    static constexpr std::size_t kDirections = 4;
+
+    /// The weight of a point of all spread layers, and its probes.
+    struct Node {
+        double weight;
+        std::array<Nodes::Probe, kDirections> probe{};
+    };
+    static Node node_at(std::span<const Nodes> nodes, const std::vector<std::size_t>& at) {
+        const double first = nodes[0].weight[at[0]];
+        const Nodes::Probe& along = nodes[0].probe[at[0]];
+        if (nodes.size() == 1) return {first, {along}};
+        const double second = nodes[1].weight[at[1]];
+        Node node{first * second};
+        for (std::size_t f = 0; f < along.size(); ++f) {
+            const Complex one = along.at(f), other = nodes[1].probe[at[1]].at(f);
+            node.probe[0].at(f) = one * second;
+            node.probe[1].at(f) = first * other;
+            node.probe[2].at(f) = one * other;
+            node.probe[3].at(f) = one * std::conj(other);
+        }
+        return node;
+    }
+
+    /// Of colours at all nodes.
+    struct Sum {
+        Triple xyz{};
+        double error = 0;  ///< of the colours
+        std::size_t evaluations = 0;
+        std::array<std::array<Nodes::Probe, 3>, kDirections> probes{};
+
+        void add(const Node& node, const StackColor& color) {
+            error += node.weight * color.error;
+            evaluations += color.evaluations;
+            for (std::size_t c = 0; c < 3; ++c) {
+                xyz[c] += node.weight * color.xyz[c];
+                for (std::size_t d = 0; d < kDirections; ++d)
+                    for (std::size_t f = 0; f < kFastest.size(); ++f)
+                        probes.at(d).at(c).at(f) += node.probe.at(d).at(f) * color.xyz[c];
+            }
+        }
+
+        /// Error of the rules of so many layers.
+        double of_rules(std::size_t layers) const {
+            double error_of_rules = 0;
+            for (std::size_t d = 0; d < (layers == 1 ? 1 : kDirections); ++d) {
+                double largest = 0;
+                for (const Nodes::Probe& channel : probes.at(d))
+                    for (const Complex probe : channel)
+                        largest = std::max(largest, std::abs(probe));
+                error_of_rules += (layers == 1 ? kOfOne : kOfTwo) * largest;
+            }
+            return error_of_rules;
+        }
+    };
 
     std::vector<LayerPlace> places_;
     std::size_t sides_;

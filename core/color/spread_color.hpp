@@ -11,12 +11,14 @@ bool has_spread(const Stack& stack);
 
 /// Colours of stacks with thickness_sigma_nm as means of colours of stacks without: X, Y and Z are
 /// linear in R and T, and as functions of a thickness they are much smoother than these, because
-/// the observer has already averaged over the wavelengths. Rules for one layer are nested, each
-/// compared with the one inside it; several layers take their products.
-///   few fringes  3 and 9 points, exact for polynomials of degree 5 and 15
-///   more         8 to 128 equal steps
-///   cut at 0     Clenshaw and Curtis's rules of 8 to 128 intervals
-/// An error is infinite where the spread holds too many fringes for these.
+/// the observer has already averaged over the wavelengths. Several layers take products of rules.
+///   few fringes  9 points, exact for polynomials of degree 15
+///   more         16 to 128 equal steps
+///   cut at 0     Clenshaw and Curtis's rules of 16 to 128 intervals
+/// The error of a rule is that of the fastest waves, or the steepest polynomials, that its points
+/// resolve: their amplitudes in the colours. Two rules that are compared may agree by chance where
+/// a narrow resonance passes a kink of the observer. An error is infinite where the spread holds
+/// too many fringes for these.
 /// Source: A. Genz and B. D. Keister, J. Comput. Appl. Math. 71 (1996) 299.
 ///   stack    one of those to come, as of color_algorithm()
 ///   request  of them

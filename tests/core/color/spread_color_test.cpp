@@ -27,10 +27,10 @@ StackColor color(const Stack& stack, double angle_deg, const ColorRequest& reque
 }
 
 /// Means of colours over the thickness, which others may be faster than.
-StackColor by_colors(const Stack& stack, double angle_deg) {
+StackColor by_colors(const Stack& stack, double angle_deg, const ColorRequest& request = {}) {
     StackColor result;
-    (*spread_color(d65_tables(), stack, {}, {}))(stack, std::span(&angle_deg, 1),
-                                                 std::span(&result, 1));
+    (*spread_color(d65_tables(), stack, {}, request))(stack, std::span(&angle_deg, 1),
+                                                      std::span(&result, 1));
     return result;
 }
 
@@ -62,7 +62,69 @@ Stack spread_stack(Random& random, std::size_t spreads) {
     return stack;
 }
 
+/// A stack with narrow resonances in a spread layer, and light that meets it.
+struct ResonantStack {
+    Stack stack;
+    double angle_deg = 0;
+    ColorRequest request;
+};
+
+/// A spread layer between mirrors, or on silver at grazing angles.
+ResonantStack resonant_stack(Random& random, std::size_t spreads) {
+    StackBuilder b;
+    const std::size_t silver = b.material(find_material("Ag")->material);
+    const std::size_t tantala = b.material(find_material("Ta2O5")->material);
+    const bool is_cavity = spreads == 2, has_mirrors = !is_cavity && random.one_in(2);
+    ResonantStack result;
+    result.angle_deg =
+        has_mirrors || is_cavity ? random.uniform(0, 60) : 90 - random.log_uniform(0.03, 2);
+    const Element high = b.layer(2.3, 57), low = b.layer(1.42, 92);
+    if (is_cavity) b.add(StackBuilder::layer_of(silver, random.uniform(25, 45)));
+    if (has_mirrors) b.add(StackBuilder::group(5, {high, low}));
+    for (std::size_t i = 0; i < spreads; ++i) {
+        const double nm = random.uniform(100, 500);
+        Element layer = random.one_in(2)
+                            ? StackBuilder::layer_of(tantala, nm)
+                            : b.layer({random.uniform(1.4, 2.6), random.one_in(2) ? 1e-5 : 0}, nm);
+        b.add(oracle::spread(std::move(layer), std::min(nm / 7, random.log_uniform(1, 30))));
+    }
+    if (has_mirrors) b.add(StackBuilder::group(5, {low, high}));
+    if (is_cavity) b.add(StackBuilder::layer_of(silver, random.uniform(25, 45)));
+    result.stack = has_mirrors || is_cavity ? b.over(1.5) : b.over_material(silver);
+    result.request.light = random.one_in(2) ? Light::s : Light::p;
+    if (has_mirrors || is_cavity)
+        result.request.sides = {random.one_in(2) ? Side::transmitted : Side::reflected};
+    return result;
+}
+
+void check_resonant_stacks(std::uint64_t seed, std::size_t spreads, int count) {
+    Random random(seed);
+    for (int i = 0; i < count; ++i) {
+        ResonantStack of = resonant_stack(random, spreads);
+        of.request.tolerance = 1e-9;
+        const StackColor exact = color(of.stack, of.angle_deg, of.request);
+        for (const double tolerance : {1e-5, 1e-6}) {
+            of.request.tolerance = tolerance;
+            of.request.simd = i % 8 == 0 ? SimdLevel::plain : best_simd_level();
+            const StackColor found = by_colors(of.stack, of.angle_deg, of.request);
+            CAPTURE(i, tolerance, oracle::text_of(of.stack), of.angle_deg, found.error);
+            if (std::isfinite(found.error))
+                CHECK(largest_difference(found.xyz, exact.xyz) <= found.error + exact.error);
+        }
+    }
+}
+
 }  // namespace
+
+TEST_CASE("means of colours have their error beside narrow resonances", "[color][regression]") {
+    check_resonant_stacks(23, 1, 7);
+}
+
+TEST_CASE("means of more colours have their error beside narrow resonances",
+          "[color][regression][slow]") {
+    check_resonant_stacks(24, 1, 100);
+    check_resonant_stacks(25, 2, 6);
+}
 
 TEST_CASE("means of colours over a thickness are colours of mean spectra", "[color]") {
     Random random(20);
