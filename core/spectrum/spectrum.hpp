@@ -152,6 +152,9 @@ public:
     /// StackPower::has_amplitudes().
     bool has_amplitudes() const { return stack_.has_amplitudes(); }
 
+    /// StackPower::spread_layers().
+    std::size_t spread_layers() const { return stack_.spread_layers(); }
+
     /// How such a call is computed.
     Work work(const IndexTable& table, std::span<const IncidentAngle> incidence) const;
 

@@ -410,7 +410,9 @@ private:
         if (!is_dense || !(largest < degree / std::numbers::pi))
             return {false, 0, std::max(largest, job.half_turn)};
         std::size_t rate = 0;
-        while (rate + 1 < kFallRates.size() && largest <= rule.steepest[rate + 1]) ++rate;
+        while (limits_.has_all_poles && rate + 1 < kFallRates.size() &&
+               largest <= rule.steepest[rate + 1])
+            ++rate;
         return {true, rate, largest};
     }
 

@@ -95,6 +95,9 @@ struct IntegrationLimits {
     /// nullptr where spectra do not follow from denominators.
     const Transmission* transmission = nullptr;
     std::span<const BranchPoint> branch_points{};  ///< near the spectrum
+    /// False for means of spectra: the zeros of their denominators tell where lines are, but not
+    /// that no other spectrum of the mean has some that are closer.
+    bool has_all_poles = true;
 };
 
 /// Integrates spectra that are computed together, times the weighted colour-matching functions,

@@ -265,6 +265,7 @@ private:
         bool is_first = follows;
         if (has_fits()) known.index_effects = smooth_.effects(on_path_, incidence, scratch.effects);
         known.branch_points = branch_points_at(incidence, scratch);
+        known.has_all_poles = scratch.kernel->spread_layers() == 0;
         // at normal incidence one polarization stands for both
         const bool with_s = needs_.s;
         const bool with_p = needs_.p && !(with_s && incidence.cos == 1);

@@ -251,6 +251,26 @@ TEST_CASE("a narrow resonance passes kinks of the observer while the thickness v
     }
 }
 
+TEST_CASE("mean spectra have their error where other thicknesses resonate more narrowly",
+          "[color][regression]") {
+    // the poles at the mean thickness are far; the error was up to 43 times the stated one
+    StackBuilder b;
+    const Element high = b.layer(2.2189927, 68.161355), low = b.layer(1.4117177, 107.138663);
+    b.add(StackBuilder::group(6, {high, low}));
+    b.add(oracle::spread(b.layer(2.5908756, 71.968805), 26));
+    b.add(StackBuilder::group(6, {low, high}));
+    const Stack stack = b.over(1.5);
+    ColorRequest request{.light = Light::s, .tolerance = 1e-10};
+    const StackColor exact = by_spectra(stack, 7.225, request);
+    for (const double tolerance : {1e-5, 1e-7, 1e-8}) {
+        request.tolerance = tolerance;
+        const StackColor found = by_spectra(stack, 7.225, request);
+        CAPTURE(tolerance);
+        CHECK(found.error <= tolerance);
+        CHECK(largest_difference(found.xyz, exact.xyz) <= found.error + exact.error);
+    }
+}
+
 TEST_CASE("spreads that colours cannot average are left to spectra", "[color]") {
     StackBuilder b;
     b.add(b.layer({1.5, -0.01}, 200));
