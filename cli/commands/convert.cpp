@@ -188,7 +188,7 @@ void add_format_options(CLI::App& command, ConvertCommand& typed) {
     command
         .add_option("--coating", typed.reading.coating,
                     "which coating of a COATING.DAT or filter of a project with several")
-        ->type_name("NAME");
+        ->type_name("COATING");
     command
         .add_option("--primary", typed.primary,
                     "wavelength of thicknesses in waves (COATING.DAT) or quarter waves\n"

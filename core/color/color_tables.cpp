@@ -72,7 +72,13 @@ std::shared_ptr<const QuadratureRule> ColorTables::rule(WavelengthRange panel,
     auto rule = std::make_shared<const QuadratureRule>(sensitivity_, panel, degree);
     const std::scoped_lock guard(lock_);
     const std::size_t numbers = 4 * rule->weights.size();
-    if (numbers_ + numbers <= kMostNumbers && rules_.emplace(key, rule).second) numbers_ += numbers;
+    if (numbers > kMostNumbers) return rule;
+    if (numbers_ + numbers > kMostNumbers) {
+        // one mirror of very many fringes would fill the cache for all stacks after it
+        rules_.clear();
+        numbers_ = 0;
+    }
+    if (rules_.emplace(key, rule).second) numbers_ += numbers;
     return rule;
 }
 

@@ -37,7 +37,8 @@ public:
     /// channel_points() of the sensitivity.
     const std::array<ChannelPoints, 3>& channel_points() const;
 
-    /// Quadrature rule of a panel; rules with up to kMostNumbers numbers in total are cached.
+    /// Quadrature rule of a panel. Cached are the rules since these last had more than kMostNumbers
+    /// numbers in total.
     std::shared_ptr<const QuadratureRule> rule(WavelengthRange panel, std::size_t degree) const;
 
     /// equal_rule() of the sensitivity.

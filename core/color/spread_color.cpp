@@ -44,7 +44,7 @@ constexpr double kForNine = 0.67, kForAny = 12;
 constexpr double kRoundTrips = 4, kRoundTripsOfTwo = 2, kOfGaussian = 10;
 
 /// Colours for one: the finest rules of two layers.
-constexpr std::size_t kMostNodes = 129 * 129;
+constexpr std::size_t kMostNodes = 257 * 257;
 
 constexpr std::size_t kMostLayers = 2;
 
@@ -65,7 +65,7 @@ constexpr std::array kNine{
     RuleNode{2.86127957605705812, 0.00799632547089353277},
     RuleNode{4.18495601767273186, 0.0000942694575565174894},
 };
-constexpr std::array<std::size_t, 4> kIntervals{16, 32, 64, 128};
+constexpr std::array<std::size_t, 5> kIntervals{16, 32, 64, 128, 256};
 
 /// Levels of a spread: nine points, then one for each of kIntervals.
 constexpr std::size_t kGaussLevels = 1, kLevels = kGaussLevels + kIntervals.size();

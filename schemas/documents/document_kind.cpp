@@ -37,9 +37,13 @@ bool is_stack(const json& document) {
     return has_any(document, {"layers", "incident", "substrate"});
 }
 
-/// The "materials" of a stack, which name its media, are an object.
+/// The "materials" of a stack are an object, of the media that its layers name.
 bool is_scene(const json& document) {
-    return has_array(document, "materials");
+    if (!document.contains("materials")) return false;
+    const json& materials = document["materials"];
+    return !materials.is_object() || std::ranges::any_of(materials, [](const json& material) {
+        return material.is_object() && has_any(material, {"stack", "surface"});
+    });
 }
 
 bool is_plan(const json& document) {

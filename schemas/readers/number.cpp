@@ -18,7 +18,7 @@ std::optional<double> parse_number(std::string_view text) {
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc{} || rest != end || !std::isfinite(value)) return std::nullopt;
-    return value + 0.0;  // no negative zero
+    return value + 0.0;
 }
 
 std::string in_quotes(std::string_view text) {

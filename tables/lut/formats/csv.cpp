@@ -116,12 +116,13 @@ public:
     double number() {
         if (is_cut_) fail("has too few numbers");
         const std::size_t end = rest_.find(',');
-        const std::string_view token = rest_.substr(0, end);
+        const std::string_view token = schemas::trimmed(rest_.substr(0, end));
         is_cut_ = end == std::string_view::npos;
         if (!is_cut_) rest_.remove_prefix(end + 1);
-        const std::optional<double> value = schemas::parse_number(schemas::trimmed(token));
+        const std::optional<double> value = schemas::parse_number(token);
         if (!value) fail(schemas::in_quotes(token) + " is not a finite number");
-        return *value;
+        // the sign of a -0 is kept, as in the other formats
+        return std::copysign(*value, token.starts_with('-') ? -1.0 : 1.0);
     }
     bool is_at_end() const { return is_cut_; }
 

@@ -178,7 +178,7 @@ TEST_CASE("shards of a simulation are joined", "[cli][brdf]") {
 TEST_CASE("shards that were altered or computed otherwise are refused", "[cli][brdf]") {
     const TemporaryFolder folder;
     write_text(folder / "lamp.csv", "nm,power\n380,1\n780,2\n");
-    write_text(folder / "pale.json", read_file(kPale));
+    write_text(folder / "pale.json", read_file(IRIDO_SOURCE_DIR "/" + kPale));
     const auto shard = [&](const std::string& number, const std::string& name,
                            const std::vector<std::string>& more) {
         std::vector<std::string> arguments{
