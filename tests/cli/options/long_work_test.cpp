@@ -85,8 +85,8 @@ public:
         CHECK(std::ranges::count(err, '\n') == 1);
     }
 
-    /// The output of a command in its first seconds.
-    std::string begun(const std::string& command, const std::string& tries = "100") const {
+    /// The output of a command until it says something, or for so many times 20 ms.
+    std::string begun(const std::string& command, const std::string& tries = "500") const {
         run_shell("rm -f said\n\"$IRIDO\" " + command + " > out 2> said &\np=$!\nfor i in $(seq " +
                       tries + "); do [ -s said ] && break; sleep 0.02; done\nkill -9 $p",
                   folder_.path());
