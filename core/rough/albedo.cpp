@@ -36,7 +36,8 @@
 // > 0 wherever c_o > 0, since x = (cos ti + c_o)/(2 cos td).
 //
 // As functions of psi, D has a pole at psi = 2 i artanh(sqrt(P-/M-)) with filter.hpp's P- and M-,
-// and G2 has branch points where c_o = +-i alpha / s and where c_o = -cos ti. As a function of td,
+// and G2 has branch points where c_o = +-i alpha / s and where c_o = -cos ti. The variable is t =
+// tan(psi/4), of which sin(psi/2) and dpsi/dt are rational functions. As a function of td,
 // W has a peak of width alpha at td = ti, and near both ends of its second part it behaves as the
 // power 3/2 of the distance; it is smooth in phi with td = t0 + (t1 - t0) sin^2 phi.
 
@@ -48,13 +49,17 @@ namespace {
 /// as narrow a range.
 constexpr double kNarrowest = 1e-6;
 
-/// Error of E due to the nodes alone: 1e-12 measured at grazing, less elsewhere.
-constexpr double kNodesError = 1e-11;
+/// A cosine above 0.
+constexpr double kSmallest = 1e-300;
+
+/// Error of E due to the nodes alone: 1e-12 measured at grazing, less elsewhere, and with few nodes
+/// 7e-8, for tolerances from kForFew on.
+constexpr double kNodesError = 1e-11, kFewNodesError = 1e-7, kForFew = 1e-6;
 
 }  // namespace
 
-AlbedoNodes::AlbedoNodes(double alpha, double theta_i_deg)
-    : alpha_(alpha), theta_i_deg_(theta_i_deg) {
+AlbedoNodes::AlbedoNodes(double alpha, double theta_i_deg, double tolerance)
+    : alpha_(alpha), theta_i_deg_(theta_i_deg), are_few_(tolerance >= kForFew) {
     require_in_range("alpha", alpha, kSmoothest, kRoughest);
     require_in_range("theta_i_deg", theta_i_deg, 0, 90);
     s_ = std::sqrt((1 - alpha) * (1 + alpha));
@@ -91,31 +96,32 @@ double AlbedoNodes::weight(double theta_d_deg) const {
     const double c_first = sin_deg(90 + theta_i_deg_ - 2 * theta_d_deg);
     if (c_first <= 0) return 0;
     const bool is_whole = c_last >= 0;
-    const double psi_max = is_whole ? kPi : 2 * std::atan2(std::sqrt(c_first), std::sqrt(-c_last));
+    // t at psi_max, and sin psi_max
+    const double root_first = std::sqrt(c_first), root_last = std::sqrt(std::max(-c_last, 0.0));
+    const double t_max = is_whole ? 1 : root_first / (root_last + std::sqrt(c_first - c_last));
+    const double sine_max = is_whole ? 0 : 2 * root_first * root_last / (c_first - c_last);
 
     // where D and G2 vary
-    const double peak = swing > 0 ? 2 * std::atanh(std::sqrt(P / (P + swing))) : kPi;
+    const double peak = swing > 0 ? std::sqrt(P) / (std::sqrt(P + swing) + std::sqrt(swing)) : 1;
     const double low = std::min(alpha_, std::max(ci_, kNarrowest)) + std::max(c_last, 0.0);
-    const double tilt = 0.5 * b * std::sin(psi_max);
-    const double foot = b > 0 ? 2 * low / (tilt + std::sqrt(tilt * tilt + b * low)) : kPi;
-    const std::array<Feature, 2> features{Feature{0, std::min(peak, kPi)},
-                                          Feature{psi_max, std::min(foot, kPi)}};
+    const double tilt = 0.5 * b * sine_max;
+    const double foot =
+        b > 0 ? 0.5 * (1 + t_max * t_max) * low / (tilt + std::sqrt(tilt * tilt + b * low)) : 1;
+    const std::array<Feature, 2> features{Feature{0, peak}, Feature{t_max, std::min(foot, 1.0)}};
+    const std::vector<double> ends = graded_panels(0, t_max, features);
     double sum = 0;
-    double begin = 0;
-    for (const double end : graded_panels(0, psi_max, features)) {
-        double part = 0;
-        for (const GaussNode& node : gauss_legendre<10>()) {
-            const double sine = std::sin(0.25 * ((begin + end) + (end - begin) * node.x));
-            const double drop = sine * sine;
-            const double c_o = c_first - b * drop;
-            if (c_o <= 0) continue;  // rounding
-            const double near = P + swing * drop, spread = near * (2 - near);
-            const double seen_o = std::sqrt(alpha_ * alpha_ + s_ * s_ * c_o * c_o);
-            part += node.weight * c_o / ((c_o * seen_i_ + ci_ * seen_o) * spread * spread);
-        }
-        sum += 0.5 * (end - begin) * part;
-        begin = end;
-    }
+    const auto add = [&](double t, double weight) {
+        const double slope = 4 / (1 + t * t);              // of psi
+        const double drop = 0.25 * t * t * slope * slope;  // sin^2(psi/2)
+        const double c_o = std::max(c_first - b * drop, kSmallest);
+        const double near = P + swing * drop, spread = near * (2 - near);
+        const double seen_o = std::sqrt(alpha_ * alpha_ + s_ * s_ * c_o * c_o);
+        sum += weight * slope * c_o / ((c_o * seen_i_ + ci_ * seen_o) * spread * spread);
+    };
+    if (are_few_)
+        for_each_node<6>(ends, 0, t_max, add);
+    else
+        for_each_node<10>(ends, 0, t_max, add);
     // D = alpha^2 / (pi spread^2), G2/cos ti = 2 c_o / (...)
     return 4 * cd * sd * alpha_ * alpha_ / kPi * sum;
 }
@@ -126,13 +132,20 @@ WeightedAngles AlbedoNodes::operator()(double begin_deg, double end_deg) const {
         nodes.theta_deg.push_back(theta);
         nodes.weight.push_back(kDegree * weight_deg * weight(theta));
     };
-    for_each_node(before_, begin_deg, end_deg, add);
+    const auto over = [&](const std::vector<double>& ends, double begin, double end,
+                          const auto& visit) {
+        if (are_few_)
+            for_each_node<10>(ends, begin, end, visit);
+        else
+            for_each_node<16>(ends, begin, end, visit);
+    };
+    over(before_, begin_deg, end_deg, add);
     const auto phi_of = [&](double theta) {
         const double part = (theta - whole_deg_) / theta_i_deg_;
         return std::asin(std::sqrt(std::clamp(part, 0.0, 1.0)));
     };
     if (behind_.empty()) return nodes;
-    for_each_node(behind_, phi_of(begin_deg), phi_of(end_deg), [&](double phi, double weight_phi) {
+    over(behind_, phi_of(begin_deg), phi_of(end_deg), [&](double phi, double weight_phi) {
         const double sine = std::sin(phi);
         add(whole_deg_ + theta_i_deg_ * sine * sine,
             2 * theta_i_deg_ * sine * std::cos(phi) * weight_phi);
@@ -142,7 +155,7 @@ WeightedAngles AlbedoNodes::operator()(double begin_deg, double end_deg) const {
 
 RoughAlbedo::RoughAlbedo(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
                          unsigned threads)
-    : colors_([&] {
+    : tolerance_(request.tolerance), colors_([&] {
           // the series cannot be more accurate than its colours
           ColorRequest exactly = request;
           exactly.sides = {Side::reflected};
@@ -170,6 +183,7 @@ RoughAlbedo::RoughAlbedo(const ColorTables& tables, const Stack& stack, const Co
 
 std::vector<RoughAlbedo::Value> RoughAlbedo::operator()(double alpha,
                                                         std::span<const double> cos_theta_i) const {
+    const double nodes_error = tolerance_ >= kForFew ? kFewNodesError : kNodesError;
     std::vector<Value> values;
     for (const double cosine : cos_theta_i) {
         require_in_range("cos_theta_i", cosine, 0, 1);
@@ -181,12 +195,12 @@ std::vector<RoughAlbedo::Value> RoughAlbedo::operator()(double alpha,
             value.error = color_error_ + colors_.error_at(theta_deg);
             continue;
         }
-        AngleMoments moments(AlbedoNodes(alpha, std::min(theta_deg, 90.0)));
+        AngleMoments moments(AlbedoNodes(alpha, std::min(theta_deg, 90.0), tolerance_));
         for (std::size_t c = 0; c < 3; ++c) {
             const AngleMoments::Integral integral = moments(colors_, c);
             value.xyz[c] = std::max(0.0, integral.value);
             value.error = std::max(value.error,
-                                   integral.error + color_error_ * integral.weight + kNodesError);
+                                   integral.error + color_error_ * integral.weight + nodes_error);
         }
     }
     return values;

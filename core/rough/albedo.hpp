@@ -15,10 +15,11 @@ namespace irido {
 /// perfect mirrors, leaves after this one reflection. W_alpha is derived in albedo.cpp.
 class AlbedoNodes {
 public:
-    /// alpha in [1e-4, 1], theta_i_deg in [0, 90], else DomainError.
-    AlbedoNodes(double alpha, double theta_i_deg);
+    /// alpha in [1e-4, 1], theta_i_deg in [0, 90], else DomainError. From a tolerance of 1e-6 on,
+    /// relative to a function's largest value, there are fewer nodes.
+    AlbedoNodes(double alpha, double theta_i_deg, double tolerance = 0);
 
-    /// Nodes of 16-point Gauss rules between two angles, with weights W_alpha dtheta_d.
+    /// Nodes of Gauss rules between two angles, with weights W_alpha dtheta_d.
     WeightedAngles operator()(double begin_deg, double end_deg) const;
 
     /// W_alpha(theta_i, theta_d) per radian, theta_d in (0, 90) degrees.
@@ -27,6 +28,7 @@ public:
 private:
     double alpha_, s_, rest_;  ///< s = sqrt(1 - alpha^2), rest = 1 - s
     double theta_i_deg_, ci_, si_, seen_i_;
+    bool are_few_;
     double whole_deg_, end_deg_;  ///< psi reaches pi up to the first; W = 0 beyond the second
     std::vector<double> before_, behind_;  ///< panel boundaries: theta_d, and the angle phi
 };
@@ -57,7 +59,7 @@ public:
     std::vector<Value> operator()(double alpha, std::span<const double> cos_theta_i) const;
 
 private:
-    double color_error_ = 0;
+    double tolerance_, color_error_ = 0;
     AngleSeries colors_;
 };
 

@@ -113,7 +113,7 @@ AngleSeries::AngleSeries(
 }
 
 double AngleSeries::error(std::size_t panel, std::size_t function) const {
-    return last_of(coefficients(panel, function));
+    return 2 * last_of(coefficients(panel, function));
 }
 
 std::size_t AngleSeries::panel_of(double theta_deg) const {

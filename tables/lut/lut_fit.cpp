@@ -205,14 +205,30 @@ private:
     void grow() {
         double before = std::numeric_limits<double>::infinity();
         int idle = 0;  // steps without improvement
+        bool was_in_corner = false;
         for (InterpolationError error = error_now(); error.value > tolerance_;
              error = error_now()) {
             idle = error.value > kHelpful * before ? idle + 1 : 0;
             before = error.value;
-            if (idle == kMostIdle || !has_grown(error) ||
+            // where the cells of a corner become smaller and the error does not, the function is
+            // the same on any scale there
+            const bool is_hopeless = idle > 0 && was_in_corner && is_in_corner(error);
+            was_in_corner = is_in_corner(error);
+            if (is_hopeless || idle == kMostIdle || !has_grown(error) ||
                 size_of(lut_.axes, 0, lut_.axes.size()) > kMostFitted)
                 give_up(error);
         }
+    }
+
+    /// Whether a place is in the first or the last cell along every axis.
+    bool is_in_corner(const InterpolationError& error) const {
+        for (std::size_t a = 0; a < lut_.axes.size(); ++a) {
+            const std::vector<double>& values = lut_.axes[a].values;
+            if (is_free(a) && values.size() > 2 && error.at[a] > values[1] &&
+                error.at[a] < values[values.size() - 2])
+                return false;
+        }
+        return true;
     }
 
     /// Enlarges the axes that contribute most to the error, if possible.

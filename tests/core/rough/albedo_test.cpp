@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/math/constants.hpp"
 #include "core/math/gauss.hpp"
+#include "core/math/random.hpp"
 #include "core/rough/ggx.hpp"
 #include "schemas/documents/stack_document.hpp"
 
@@ -19,9 +20,10 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 /// The albedo of perfectly reflecting facets, by AlbedoNodes.
-double mirror(double alpha, double theta_i_deg) {
+double mirror(double alpha, double theta_i_deg, double tolerance = 0) {
     double sum = 0;
-    for (const double weight : AlbedoNodes(alpha, theta_i_deg)(0, 90).weight) sum += weight;
+    for (const double weight : AlbedoNodes(alpha, theta_i_deg, tolerance)(0, 90).weight)
+        sum += weight;
     return sum;
 }
 
@@ -153,6 +155,33 @@ TEST_CASE("the error of an albedo falls with its tolerance", "[rough]") {
         CHECK(b[i].error < 3e-9);
         for (std::size_t c = 0; c < 3; ++c)
             CHECK_THAT(a[i].xyz[c], WithinAbs(b[i].xyz[c], a[i].error));
+    }
+}
+
+TEST_CASE("fewer nodes serve loose tolerances", "[rough]") {
+    Random random(31);
+    for (int i = 0; i < 500; ++i) {
+        const double alpha = random.log_uniform(1e-4, 1);
+        const double beside = random.log_uniform(1e-6, 90);
+        const double theta = i % 2 == 0 ? beside : 90 - beside;
+        CAPTURE(alpha, theta);
+        CHECK_THAT(mirror(alpha, theta, 1e-6), WithinAbs(mirror(alpha, theta), 1e-7));
+    }
+}
+
+TEST_CASE("albedos of narrow resonances have their error", "[rough][regression]") {
+    const Stack stack = stack_of("1 | Ag@30 | 1.5@1500 | Ag@30 | 1.5");
+    ColorRequest fine;
+    fine.tolerance = 1e-10;
+    const RoughAlbedo exact(light().tables, stack, fine, 1), albedo(light().tables, stack, {}, 1);
+    Random random(32);
+    for (int i = 0; i < 150; ++i) {
+        const double alpha = i % 2 == 0 ? random.log_uniform(1e-4, 1) : random.uniform(0.05, 1);
+        const std::vector<double> cosine{random.uniform(0, 1)};
+        const auto found = albedo(alpha, cosine)[0], truth = exact(alpha, cosine)[0];
+        CAPTURE(alpha, cosine, found.error);
+        for (std::size_t c = 0; c < 3; ++c)
+            CHECK_THAT(found.xyz[c], WithinAbs(truth.xyz[c], found.error + truth.error));
     }
 }
 

@@ -150,6 +150,18 @@ TEST_CASE("a size that cannot be met is seen early", "[lut]") {
     CHECK(samples < 5000);
 }
 
+TEST_CASE("a corner that is the same on any scale is seen early", "[lut]") {
+    std::size_t samples = 0;
+    LutPlan ratio = plan_of([&](double x, double y) {
+        ++samples;
+        return x > 0 ? 2 * x * y / (x * x + y * y) : 0;
+    });
+    LutMaking making = with_tolerance(0.02);
+    making.threads = 1;
+    CHECK_THROWS_AS(make_lut(kKind, ratio, making), ToleranceError);
+    CHECK(samples < 50000);
+}
+
 TEST_CASE("trials go by rough values, what is written does not", "[lut]") {
     const auto f = [](double x, double y) { return x * x + 3 * y; };
     LutPlan plan = plan_of(f);
