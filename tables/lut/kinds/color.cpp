@@ -33,6 +33,9 @@ void for_each_combination(std::span<const LutAxis> axes,
     }
 }
 
+/// Samples that an axis has at least where a tolerance or a size decides.
+constexpr std::size_t kFewSamples = 32;
+
 double remap_width(const LutRequest& request) {
     return request.has("remap-index") ? request.number("remap-index") : 0;
 }
@@ -177,7 +180,8 @@ LutPlan plan(const LutRequest& request) {
     std::size_t colors = 1;
     for (AxisPlan& axis : result.axes) {
         axis.fixed = axis.fixed || !axis.axis.is_linear();
-        colors *= axis.axis.count();
+        // a range may be sampled more finely than its list says
+        colors *= std::max(axis.axis.count(), axis.fixed ? 1 : kFewSamples);
     }
     result.channels = color_channels(request);
     const auto tables = std::make_shared<const ColorTables>(*request.sensitivity);
