@@ -59,10 +59,12 @@ double tried_seconds(double units, double first,
     constexpr double kTold_s = 0.1, kLittle = 0.05;
     double all = 0;
     try {
-        for (double tried = first; tried <= kLittle * units; tried *= 2) {
+        double tried = first;
+        while (tried <= kLittle * units) {
             const double seconds = seconds_of(tried);
             all = seconds * units / tried;
             if (seconds >= kTold_s || (seconds > 0 && all < long_s)) break;
+            tried *= 2;
         }
     } catch (const std::exception&) {
         return 0;

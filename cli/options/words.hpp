@@ -53,6 +53,7 @@ void offer(const CLI::App& command, std::string_view option, const char* words,
 template <class Values>
 std::vector<std::string_view> names_of(const Values& values) {
     std::vector<std::string_view> names;
+    names.reserve(std::size(values));
     for (const auto value : values) names.push_back(name_of(value));
     return names;
 }

@@ -214,7 +214,7 @@ public:
              Shift shift = Shift::none())
         : shift_(shift) {
         using std::sin;
-        const R pi = boost::math::constants::pi<R>();
+        const R& pi = boost::math::constants::pi<R>();
         k0_ = 2 * pi / shift_.down(R(wavelength_nm));
         const R cosine = shift_.up(R(sin((90 - R(angle_deg)) * pi / 180)));
         std::vector<std::array<R, 2>> index;

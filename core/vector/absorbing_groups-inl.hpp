@@ -115,8 +115,8 @@ HWY_INLINE LossyTraceless traceless_of(const LossyPeriod& m, Cx sine2) {
 }
 
 /// The fields above `repeat` periods, as power() of period.cpp has it.
-HWY_NOINLINE void through_lossy_periods(Fields& f, const LossyPeriod& m, const LossyPhase& phase,
-                                        double repeat) {
+HWY_NOINLINE inline void through_lossy_periods(Fields& f, const LossyPeriod& m,
+                                               const LossyPhase& phase, double repeat) {
     const V n = constant(repeat), one = constant(1), two = constant(2), zero = constant(0);
     const Mask flip = hn::Lt(norm(phase.cos2), norm(phase.sin2));
     const Cx small = choose(flip, phase.cos2, phase.sin2), larger = one_minus(small);

@@ -17,11 +17,11 @@ namespace {
 /// Slots of an absorbing layer at one vector of points: what it absorbs in the units of the fields
 /// above it, and their logarithm.
 enum AbsorbedSlot { kAbsorbedS = 0, kAbsorbedP = 2, kAbsorbedSlots = 4 };
-constexpr std::size_t kAbsorbed = kAbsorbedSlots * kMostLanes;
+inline constexpr std::size_t kAbsorbed = kAbsorbedSlots * kMostLanes;
 
 /// Slots of a shared layer's forms.
 enum FormSlot { kFormS = 0, kFormP = 4, kFormSlots = 8 };
-constexpr std::size_t kForms = kFormSlots * kMostLanes;
+inline constexpr std::size_t kForms = kFormSlots * kMostLanes;
 
 /// Light on its way up through a LayerProgram.
 class AbsorptionRun : PowersRun {

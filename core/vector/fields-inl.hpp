@@ -35,25 +35,25 @@ using hn::Store;
 using hn::Sub;
 
 /// Stands in for an exact zero of kz, so that sin(k0 d kz)/kz becomes k0 d.
-constexpr double kTinyIndex = 1e-140;
+inline constexpr double kTinyIndex = 1e-140;
 
 /// Fields above this are made smaller, a number of layers below what could overflow, and fields
 /// below its inverse larger.
-constexpr double kLargeField = 1e60, kLittleField = 1e-60, kShrink = 0x1p-200,
-                 kShrinkLog = 200 * 0.693147180559945309417;
-constexpr std::uint32_t kLayersBetweenChecks = 8;
+inline constexpr double kLargeField = 1e60, kLittleField = 1e-60, kShrink = 0x1p-200,
+                        kShrinkLog = 200 * 0.693147180559945309417;
+inline constexpr std::uint32_t kLayersBetweenChecks = 8;
 
 /// Past this logarithm its square could underflow before the fields make up for it.
-constexpr double kDeepLogScale = 200;
+inline constexpr double kDeepLogScale = 200;
 
 /// Layers whose sines are computed side by side: more would not fit the registers.
-constexpr std::uint32_t kSideBySide = 4, kAbsorbingSideBySide = 2;
+inline constexpr std::uint32_t kSideBySide = 4, kAbsorbingSideBySide = 2;
 
 /// A half period with a larger exponent is left to the plain kernel.
-constexpr double kLargestHalfExponent = 150;
+inline constexpr double kLargestHalfExponent = 150;
 
 /// A thin layer, |delta|^2, whose depth integrals are summed as series.
-constexpr double kThinSquare = 0.25;
+inline constexpr double kThinSquare = 0.25;
 
 HWY_INLINE Mask no_lanes() {
     return hn::Lt(constant(0), constant(0));
@@ -127,7 +127,7 @@ enum AbsorbingSlot {
     kLossW = 20,
     kAbsorbingSlots
 };
-constexpr std::size_t kRecord = kAbsorbingSlots * kMostLanes;
+inline constexpr std::size_t kRecord = kAbsorbingSlots * kMostLanes;
 /// Slots of a shared layer: its matrix for s and for p, and what belongs to it.
 enum SharedTransparent { kCos, kBetaS, kGammaS, kBetaP, kGammaP, kExponent };
 enum SharedAbsorbing {
@@ -140,7 +140,7 @@ enum SharedAbsorbing {
     kTurn,
     kSharedAbsorbing
 };
-constexpr std::size_t kShared = kSharedAbsorbing * kMostLanes;
+inline constexpr std::size_t kShared = kSharedAbsorbing * kMostLanes;
 
 HWY_INLINE V slot(const double* record, int index) {
     return Load(Lanes(), record + static_cast<std::size_t>(index) * kMostLanes);
@@ -161,7 +161,7 @@ HWY_INLINE V at(const Stream& stream, std::size_t point) {
 }
 
 /// Room for `count` numbers that starts where a vector may start.
-double* aligned_room(std::vector<double>& memory, std::size_t count) {
+inline double* aligned_room(std::vector<double>& memory, std::size_t count) {
     memory.resize(count + kMostLanes);
     const auto past = reinterpret_cast<std::uintptr_t>(memory.data()) % (8 * kMostLanes);
     return memory.data() + (past == 0 ? 0 : kMostLanes - past / 8);
@@ -178,7 +178,7 @@ HWY_INLINE Turn turn_of(V phase) {
 }
 
 /// Where sign < 0: cosh and sinh, both times exp(-exponent).
-HWY_NOINLINE Turn evanescent_turn(V phase, V sign) {
+HWY_NOINLINE inline Turn evanescent_turn(V phase, V sign) {
     const Mask evanescent = hn::Lt(sign, constant(0));
     const SinCos t = sin_cos(IfThenElse(evanescent, constant(0), phase));
     const V x = IfThenElseZero(evanescent, phase);
@@ -264,7 +264,8 @@ HWY_INLINE Period product(const Period& u, const Period& l) {
 ///     M^N = cos(N K) I + sin(N K)/sin(K) (M - cos(K) I)
 /// by the half angle's squares, as power() in period.hpp has it; K is real in bands and imaginary
 /// (+ pi) in gaps.
-HWY_NOINLINE void through_periods(Fields& f, const Period& m, V sin2, V cos2, double repeat) {
+HWY_NOINLINE inline void through_periods(Fields& f, const Period& m, V sin2, V cos2,
+                                         double repeat) {
     const V n = constant(repeat), one = constant(1), two = constant(2);
     const Mask flip = hn::Lt(cos2, sin2);  // by sign in gaps, where one of them is negative
     const V small = IfThenElse(flip, cos2, sin2);
@@ -333,7 +334,7 @@ struct DepthIntegrals {
 };
 
 /// 2 sum_{m>=1} h_{m-1}(u, v)/(2m+1)! as sine_square_series() of layer.cpp.
-HWY_NOINLINE V sine_square_series(V a, V b) {
+HWY_NOINLINE inline V sine_square_series(V a, V b) {
     const V u = Mul(constant(4), Mul(b, b)), v = Mul(constant(-4), Mul(a, a));
     V h = constant(1), v_power = constant(1), sum = constant(1.0 / 6);
     double factorial = 6;

@@ -15,7 +15,7 @@ namespace irido::HWY_NAMESPACE {
 namespace {
 
 /// Logarithm of about kLargeField.
-constexpr double kLargestLog = 138;
+inline constexpr double kLargestLog = 138;
 
 /// Admittances of the two layers in one polarization: with q that of the other layer over the
 /// host's, the other layer's beta and gamma are 1/q and q times its sine. All of them are real for

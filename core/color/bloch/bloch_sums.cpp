@@ -108,7 +108,7 @@ HWY_INLINE BandPoint in_band(const PointV& at) {
 }
 
 /// T in a band, all of it.
-HWY_INLINE V whole_T(const Constants& k, const BandPoint& at, std::uint64_t repeat) {
+HWY_INLINE V whole_transmittance(const Constants& k, const BandPoint& at, std::uint64_t repeat) {
     const ComplexV z = whole_power({hn::Sub(at.cos2, at.sin2), at.sine}, repeat);
     const V p = hn::Mul(constant(k.P), at.sine);
     const V down = hn::MulAdd(p, z.re, hn::Mul(at.u, z.im)), across = hn::Mul(at.v, z.im);
@@ -116,14 +116,14 @@ HWY_INLINE V whole_T(const Constants& k, const BandPoint& at, std::uint64_t repe
     return hn::Div(hn::Mul(constant(k.four_Y), hn::Mul(at.sine, at.sine)), size);
 }
 
-HWY_INLINE V average_T(const Constants& k, const BandPoint& at) {
+HWY_INLINE V average_transmittance(const Constants& k, const BandPoint& at) {
     return hn::Div(hn::Mul(constant(k.four_Y / k.P), at.sine), at.v);
 }
 
 /// The average and the harmonics 1 .. terms - 1: with b the bounce
 /// average (1 + 2 Re (b - b^terms) / (1 - b)).
-HWY_INLINE V some_T(const Constants& k, const BandPoint& at, std::uint64_t repeat,
-                    std::uint64_t terms) {
+HWY_INLINE V some_transmittance(const Constants& k, const BandPoint& at, std::uint64_t repeat,
+                                std::uint64_t terms) {
     const V p = hn::Mul(constant(k.P), at.sine), p2 = hn::Mul(p, p);
     const V rest = hn::MulAdd(at.u, at.u, hn::Mul(at.v, at.v)), half = constant(0.5);
     const V A = hn::Mul(half, hn::Add(p2, rest));
@@ -138,10 +138,10 @@ HWY_INLINE V some_T(const Constants& k, const BandPoint& at, std::uint64_t repea
     const V product =
         hn::NegMulAdd(hn::Sub(b.im, last.im), b.im, hn::Mul(hn::Sub(b.re, last.re), re));
     const V sum = hn::Div(product, size);
-    return hn::Mul(average_T(k, at), hn::MulAdd(constant(2), sum, constant(1)));
+    return hn::Mul(average_transmittance(k, at), hn::MulAdd(constant(2), sum, constant(1)));
 }
 
-HWY_INLINE V gap_T(const Constants& k, const PointV& at, bool is_odd, double repeat) {
+HWY_INLINE V gap_transmittance(const Constants& k, const PointV& at, bool is_odd, double repeat) {
     const V x = hn::Max(hn::Neg(is_odd ? at.cos2 : at.sin2), constant(1e-290));
     const V one = constant(1);
     const V kappa = hn::Mul(constant(2), asinh(hn::Sqrt(x)));
@@ -219,14 +219,17 @@ Triple vector_bloch_sum(const BlochMirror& mirror, const BlochRange& range, std:
     };
     if (range.is_gap) {
         fill_with([&](V omega) {
-            return gap_T(k, point(k, omega), range.is_odd, static_cast<double>(repeat));
+            return gap_transmittance(k, point(k, omega), range.is_odd, static_cast<double>(repeat));
         });
     } else if (terms == 0) {
-        fill_with([&](V omega) { return whole_T(k, in_band(point(k, omega)), repeat); });
+        fill_with(
+            [&](V omega) { return whole_transmittance(k, in_band(point(k, omega)), repeat); });
     } else if (terms == 1) {
-        fill_with([&](V omega) { return average_T(k, in_band(point(k, omega))); });
+        fill_with([&](V omega) { return average_transmittance(k, in_band(point(k, omega))); });
     } else {
-        fill_with([&](V omega) { return some_T(k, in_band(point(k, omega)), repeat, terms); });
+        fill_with([&](V omega) {
+            return some_transmittance(k, in_band(point(k, omega)), repeat, terms);
+        });
     }
     return sum_of(nodes.n + 1, nodes.x.size(), memory, sensitivity.rows().data());
 }
@@ -240,8 +243,8 @@ namespace irido {
 
 namespace {
 
-double plain_T(const BlochMirror& mirror, const BlochRange& range, std::uint64_t terms,
-               double omega) {
+double plain_transmittance(const BlochMirror& mirror, const BlochRange& range, std::uint64_t terms,
+                           double omega) {
     if (range.is_gap || terms == 0) return bloch_transmittance(mirror, omega);
     const BlochSeries series = bloch_series(mirror, omega);
     double sum = 1;
@@ -257,7 +260,7 @@ Triple plain_bloch_sum(const BlochMirror& mirror, const BlochRange& range, std::
     Triple sum{};
     for (std::size_t j = 0; j <= nodes.n; ++j) {
         const double omega = middle + half * nodes.x[j];
-        const double T = plain_T(mirror, range, terms, omega) * rule[j];
+        const double T = plain_transmittance(mirror, range, terms, omega) * rule[j];
         const Triple s = sensitivity.at(omega / (2 * std::numbers::pi));
         for (std::size_t c = 0; c < 3; ++c) sum[c] += T * s[c];
     }

@@ -35,9 +35,10 @@ LutAxis slit_axis(const LutRequest& request) {
         axis.values = request.list("u");
         return axis;
     }
-    const double count = request.number("u-count");
+    const auto count = static_cast<std::size_t>(request.number("u-count"));
     axis.half_at = half_of(request);
-    for (double i = 0; i < count; ++i) axis.values.push_back(axis.at_place(i / count));
+    for (std::size_t i = 0; i < count; ++i)
+        axis.values.push_back(axis.at_place(static_cast<double>(i) / static_cast<double>(count)));
     return axis;
 }
 
@@ -200,7 +201,8 @@ std::vector<std::string> scratch_channels(const LutRequest& request, const Scrat
                                                     : std::array<std::string, 3>{"r", "g", "b"};
     std::vector<std::string> channels;
     const auto add = [&](const std::string& before, const std::string& after) {
-        for (const std::string& name : names) channels.push_back(before + name + after);
+        for (const std::string& name : names)
+            channels.emplace_back(before).append(name).append(after);
     };
     const std::string before = form.place ? "d" : "", after = form.place ? "_dx" : "";
     if (form.carrier) {

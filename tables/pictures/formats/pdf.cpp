@@ -270,7 +270,7 @@ private:
     }
 
     std::string opacity_state(double opacity) {
-        const std::string name = "O" + std::to_string(std::lround(opacity * 1000));
+        std::string name = "O" + std::to_string(std::lround(opacity * 1000));
         if (states_.find("/" + name + "<<") == std::string::npos)
             states_ += "/" + name + "<</ca " + number(opacity) + ">>";
         return name;

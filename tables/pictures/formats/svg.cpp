@@ -125,8 +125,9 @@ std::string rectangles(const Cells& cells) {
                  height = box.height() / static_cast<double>(cells.rows);
     std::string out = "<g shape-rendering=\"crispEdges\">\n";
     for (std::size_t i = 0; i < cells.inks.size(); ++i) {
-        const double left = box.left + width * static_cast<double>(i % cells.columns),
-                     top = box.top + height * static_cast<double>(i / cells.columns);
+        const std::size_t row = i / cells.columns, column = i % cells.columns;
+        const double left = box.left + width * static_cast<double>(column),
+                     top = box.top + height * static_cast<double>(row);
         out += "<rect" + attribute("x", left) + attribute("y", top) +
                attribute("width", std::min(2 * width, box.right - left)) +
                attribute("height", std::min(2 * height, box.bottom - top)) + " fill=\"" +
