@@ -114,7 +114,7 @@ private:
             lead();
             FieldPoint point = first.at(z_nm);
             if (other) point = mean_of(point, other->at(z_nm));
-            add_numbers({z_nm, static_cast<double>(point.medium), point.square(), point.Ex2,
+            add_numbers({z_nm, static_cast<double>(point.medium), point.intensity(), point.Ex2,
                          point.Ey2, point.Ez2, point.absorbed_per_nm, point.flux});
         }
     }

@@ -110,10 +110,10 @@ FieldPoint FieldProfile::at(double z_nm) const {
 }
 
 /// |E|^2 in a layer at a height above its lower face, or at the top of the substrate.
-double FieldProfile::square_in(std::size_t number, double up_nm) const {
+double FieldProfile::intensity_in(std::size_t number, double up_nm) const {
     const bool is_last = number > layers_.size();
     return point(number, above(at_faces_[is_last ? number - 1 : number], medium(number), up_nm))
-        .square();
+        .intensity();
 }
 
 double FieldProfile::absorbed_in(std::size_t number) const {
@@ -150,8 +150,8 @@ LayerProfile FieldProfile::part(std::size_t number, const FieldProfile* other) c
         return other ? (own + of_other(*other)) / 2 : own;
     };
     const auto field = [&](double up_nm) {
-        return mean(square_in(number, up_nm),
-                    [&](const FieldProfile& p) { return p.square_in(number, up_nm); });
+        return mean(intensity_in(number, up_nm),
+                    [&](const FieldProfile& p) { return p.intensity_in(number, up_nm); });
     };
     const Complex q = square_root(medium(number).q2);
     LayerProfile result;

@@ -18,7 +18,7 @@ struct FieldPoint {
     double absorbed_per_nm = 0;        ///< of the incident power; gain is negative
     double flux = 0;                   ///< along z, of the incident power
 
-    double square() const { return Ex2 + Ey2 + Ez2; }
+    double intensity() const { return Ex2 + Ey2 + Ez2; }
 };
 
 /// Absorption, penetration depth and peak field of one layer, or of the substrate (the last one).
@@ -74,7 +74,7 @@ private:
     /// The medium that is listed for one of the parts, or the substrate.
     std::size_t listed(std::size_t number) const;
     LayerProfile part(std::size_t number, const FieldProfile* other) const;
-    double square_in(std::size_t number, double up_nm) const;
+    double intensity_in(std::size_t number, double up_nm) const;
     double absorbed_in(std::size_t number) const;
     /// By `depth_nm` up from fields at the lower face of a medium.
     Fields above(const Fields& below, const Medium& m, double depth_nm) const;
