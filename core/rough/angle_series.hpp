@@ -50,8 +50,8 @@ public:
     const Coefficients& coefficients(std::size_t panel, std::size_t function) const {
         return coefficients_[panel * functions_ + function];
     }
-    /// Error estimate of a function's series on a panel: twice its last three coefficients, as those
-    /// behind them are aliased into the series.
+    /// Error estimate of a function's series on a panel: twice its last three coefficients, as
+    /// those behind them are aliased into the series.
     double error(std::size_t panel, std::size_t function) const;
     double value(std::size_t function, double theta_deg) const;
     /// Values of all functions.
