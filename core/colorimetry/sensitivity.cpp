@@ -120,6 +120,9 @@ void add_samples(const Sensitivity& sensitivity, const PanelMap& map, double fir
 Samples moment_samples(const Sensitivity& sensitivity, const PanelMap& map, std::size_t degree) {
     const std::vector<double> cells = sensitivity.cells(map.panel);
     Samples samples;
+    const std::size_t about = 4 * cells.size() + 2 * degree;
+    samples.x.reserve(about);
+    for (std::vector<double>& weight : samples.weight) weight.reserve(about);
     double first = cells.front(), phi_first = 0;
     for (std::size_t i = 1; i < cells.size(); ++i) {
         const double phi_last =
@@ -167,6 +170,8 @@ void integrate_moments(const Samples& samples, std::size_t degree, PanelRule& ru
 PanelRule panel_rule(const Sensitivity& sensitivity, WavelengthRange panel, std::size_t degree) {
     const PanelMap map(panel);
     PanelRule rule;
+    rule.x.reserve(degree + 1);
+    rule.wavelength_nm.reserve(degree + 1);
     for (std::size_t j = 0; j <= degree; ++j) {
         rule.x.push_back(
             std::cos(std::numbers::pi * static_cast<double>(j) / static_cast<double>(degree)));

@@ -38,6 +38,11 @@ constexpr double kSampleDoubt = 2;
 /// Points computed at once.
 constexpr std::size_t kBatch = 4096;
 
+/// Where the error is at most so many tolerances, some more points will do: up to so many times the
+/// limit.
+constexpr double kNear = 16;
+constexpr std::size_t kPointsIfNear = 8;
+
 /// Ranges are refined whose error is above this part of the largest.
 constexpr double kRefined = 0.2;
 
@@ -242,11 +247,13 @@ void sample(const Sensitivity& sensitivity, std::span<const double> ends, const 
         return error;
     };
     while (total() > limits.tolerance) {
+        const bool is_near = total() <= kNear * limits.tolerance;
+        const std::size_t most = limits.evaluations * (is_near ? kPointsIfNear : 1);
         const double largest = std::ranges::max_element(ranges, {}, &Range::error)->error();
         bool is_refined = false;
         for (Range& range : ranges) {
             if (range.error() < kRefined * largest) continue;
-            if (evaluations + range.intervals() > limits.evaluations) continue;
+            if (evaluations + range.intervals() > most) continue;
             evaluations += range.refine(sensitivity, rows, values);
             is_refined = true;
         }

@@ -20,8 +20,10 @@ struct SampledSum {
 
 struct SampleLimits {
     double tolerance = 1e-6;
-    std::size_t evaluations = 1U << 22;  ///< per spectrum; past it the error is larger
-    double path_nm = 0;                  ///< of the fringes sampled, there and back
+    /// Per spectrum, and eight times as many where that probably suffices; past it the error is
+    /// larger.
+    std::size_t evaluations = 1U << 22;
+    double path_nm = 0;  ///< of the fringes sampled, there and back
 };
 
 /// What is sampled: the mean over polarizations.

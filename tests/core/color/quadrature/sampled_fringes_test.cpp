@@ -37,9 +37,10 @@ Stack nested(Random& random, std::uint64_t inside, std::uint64_t outside) {
 }
 
 std::vector<SampledSum> sums_of(const Stack& stack, double angle_deg,
-                                std::span<const std::size_t> fast, double path_nm) {
+                                std::span<const std::size_t> fast, double path_nm,
+                                std::size_t evaluations = 1U << 21) {
     return sampled_fringes(d65(), {stack, stack, incident_angle(angle_deg), kBoth, fast}, kSides,
-                           {1e-6, 1U << 21, path_nm});
+                           {1e-6, evaluations, path_nm});
 }
 
 double largest_error(const Triple& a, const Triple& b) {
@@ -66,6 +67,20 @@ TEST_CASE("sampled fringes are those that panels resolve") {
             CHECK(largest_error(sums[side].xyz, exact[side].xyz) < sums[side].error + 1e-8);
         }
     }
+}
+
+TEST_CASE("a limit of points is passed where few more suffice") {
+    Random random(8);
+    const Stack stack = nested(random, 30, 4);
+    const SampledSum enough = sums_of(stack, 40, {}, 1e5)[0];
+    REQUIRE(enough.error <= 1e-6);
+    const SampledSum near = sums_of(stack, 40, {}, 1e5, enough.evaluations / 4)[0];
+    CHECK(near.error <= 1e-6);
+    CHECK(near.evaluations > enough.evaluations / 2);
+    const Stack longer = nested(random, 300, 40);
+    const SampledSum few = sums_of(longer, 40, {}, 100, 1)[0];
+    CHECK(few.error > 16e-6);
+    CHECK(sums_of(longer, 40, {}, 100, few.evaluations / 2)[0].evaluations == few.evaluations);
 }
 
 TEST_CASE("sampled means over the longest element are the sampled fringes", "[slow]") {
