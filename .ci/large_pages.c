@@ -1,4 +1,4 @@
-// Loaded into the compiler by ./dev: its memory lies in large pages.
+// Preloaded by ./dev, so that the memory of compilers lies in large pages.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <sys/mman.h>
