@@ -43,9 +43,6 @@ constexpr double kForNine = 0.67, kForAny = 12;
 /// blurs the fringes of the other, and intervals that the Gaussian takes itself.
 constexpr double kRoundTrips = 4, kRoundTripsOfTwo = 2, kOfGaussian = 10;
 
-/// Colours for one: the finest rules of two layers.
-constexpr std::size_t kMostNodes = 257 * 257;
-
 constexpr std::size_t kMostLayers = 2;
 
 /// Below it count the fringes of very many round trips, which fall slowly: the observer has kinks.
@@ -293,12 +290,8 @@ public:
         for (std::size_t s = 0; s < layers.size(); ++s) levels.push_back(first_level(layers[s], s));
         for (; !open.empty() && std::ranges::max(levels) < kLevels; next(levels)) {
             std::vector<Nodes> nodes;
-            std::size_t count = 1;
-            for (std::size_t s = 0; s < layers.size(); ++s) {
+            for (std::size_t s = 0; s < layers.size(); ++s)
                 nodes.push_back(nodes_of(layers[s], levels[s], reach_));
-                count *= nodes.back().weight.size();
-            }
-            if (count > kMostNodes) return;
             add_up(plain, nodes, angles_deg, open, known, colors);
             std::erase_if(open, [&](std::size_t angle) {
                 return std::ranges::all_of(

@@ -52,9 +52,18 @@ constexpr double kNarrowest = 1e-6;
 /// A cosine above 0.
 constexpr double kSmallest = 1e-300;
 
-/// Error of E due to the nodes alone: 1e-12 measured at grazing, less elsewhere, and with few nodes
-/// 7e-8, for tolerances from kForFew on.
-constexpr double kNodesError = 1e-11, kFewNodesError = 1e-7, kForFew = 1e-6;
+/// Tolerance from which on there are few nodes.
+constexpr double kForFew = 1e-6;
+
+/// for_each_node() over all of the panels or a part, of a rule of few or many points each.
+template <int few, int many, class Add>
+void for_each_node_of(bool are_few, std::span<const double> ends, double begin, double end,
+                      const Add& add) {
+    if (are_few)
+        for_each_node<few>(ends, begin, end, add);
+    else
+        for_each_node<many>(ends, begin, end, add);
+}
 
 }  // namespace
 
@@ -118,10 +127,7 @@ double AlbedoNodes::weight(double theta_d_deg) const {
         const double seen_o = std::sqrt(alpha_ * alpha_ + s_ * s_ * c_o * c_o);
         sum += weight * slope * c_o / ((c_o * seen_i_ + ci_ * seen_o) * spread * spread);
     };
-    if (are_few_)
-        for_each_node<6>(ends, 0, t_max, add);
-    else
-        for_each_node<10>(ends, 0, t_max, add);
+    for_each_node_of<6, 10>(are_few_, ends, 0, t_max, add);
     // D = alpha^2 / (pi spread^2), G2/cos ti = 2 c_o / (...)
     return 4 * cd * sd * alpha_ * alpha_ / kPi * sum;
 }
@@ -132,25 +138,23 @@ WeightedAngles AlbedoNodes::operator()(double begin_deg, double end_deg) const {
         nodes.theta_deg.push_back(theta);
         nodes.weight.push_back(kDegree * weight_deg * weight(theta));
     };
-    const auto over = [&](const std::vector<double>& ends, double begin, double end,
-                          const auto& visit) {
-        if (are_few_)
-            for_each_node<10>(ends, begin, end, visit);
-        else
-            for_each_node<16>(ends, begin, end, visit);
-    };
-    over(before_, begin_deg, end_deg, add);
+    for_each_node_of<10, 16>(are_few_, before_, begin_deg, end_deg, add);
     const auto phi_of = [&](double theta) {
         const double part = (theta - whole_deg_) / theta_i_deg_;
         return std::asin(std::sqrt(std::clamp(part, 0.0, 1.0)));
     };
     if (behind_.empty()) return nodes;
-    over(behind_, phi_of(begin_deg), phi_of(end_deg), [&](double phi, double weight_phi) {
+    const auto add_behind = [&](double phi, double weight_phi) {
         const double sine = std::sin(phi);
         add(whole_deg_ + theta_i_deg_ * sine * sine,
             2 * theta_i_deg_ * sine * std::cos(phi) * weight_phi);
-    });
+    };
+    for_each_node_of<10, 16>(are_few_, behind_, phi_of(begin_deg), phi_of(end_deg), add_behind);
     return nodes;
+}
+
+double AlbedoNodes::error() const {
+    return are_few_ ? 1e-7 : 1e-11;  // measured: 7e-8, and at grazing 1e-12
 }
 
 RoughAlbedo::RoughAlbedo(const ColorTables& tables, const Stack& stack, const ColorRequest& request,
@@ -183,7 +187,6 @@ RoughAlbedo::RoughAlbedo(const ColorTables& tables, const Stack& stack, const Co
 
 std::vector<RoughAlbedo::Value> RoughAlbedo::operator()(double alpha,
                                                         std::span<const double> cos_theta_i) const {
-    const double nodes_error = tolerance_ >= kForFew ? kFewNodesError : kNodesError;
     std::vector<Value> values;
     for (const double cosine : cos_theta_i) {
         require_in_range("cos_theta_i", cosine, 0, 1);
@@ -195,12 +198,13 @@ std::vector<RoughAlbedo::Value> RoughAlbedo::operator()(double alpha,
             value.error = color_error_ + colors_.error_at(theta_deg);
             continue;
         }
-        AngleMoments moments(AlbedoNodes(alpha, std::min(theta_deg, 90.0), tolerance_));
+        const AlbedoNodes nodes(alpha, std::min(theta_deg, 90.0), tolerance_);
+        AngleMoments moments(nodes);
         for (std::size_t c = 0; c < 3; ++c) {
             const AngleMoments::Integral integral = moments(colors_, c);
             value.xyz[c] = std::max(0.0, integral.value);
             value.error = std::max(value.error,
-                                   integral.error + color_error_ * integral.weight + nodes_error);
+                                   integral.error + color_error_ * integral.weight + nodes.error());
         }
     }
     return values;

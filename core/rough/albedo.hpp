@@ -22,6 +22,9 @@ public:
     /// Nodes of Gauss rules between two angles, with weights W_alpha dtheta_d.
     WeightedAngles operator()(double begin_deg, double end_deg) const;
 
+    /// Error due to the nodes of the integral of a function that is 1 at its largest.
+    double error() const;
+
     /// W_alpha(theta_i, theta_d) per radian, theta_d in (0, 90) degrees.
     double weight(double theta_d_deg) const;
 

@@ -212,8 +212,9 @@ private:
             before = error.value;
             // where the cells of a corner become smaller and the error does not, the function is
             // the same on any scale there
-            const bool is_hopeless = idle > 0 && was_in_corner && is_in_corner(error);
-            was_in_corner = is_in_corner(error);
+            const bool in_corner = is_in_corner(error);
+            const bool is_hopeless = idle > 0 && was_in_corner && in_corner;
+            was_in_corner = in_corner;
             if (is_hopeless || idle == kMostIdle || !has_grown(error) ||
                 size_of(lut_.axes, 0, lut_.axes.size()) > kMostFitted)
                 give_up(error);

@@ -246,8 +246,8 @@ void sample(const Sensitivity& sensitivity, std::span<const double> ends, const 
         for (const Range& range : ranges) error += range.error();
         return error;
     };
-    while (total() > limits.tolerance) {
-        const bool is_near = total() <= kNear * limits.tolerance;
+    for (double error = total(); error > limits.tolerance; error = total()) {
+        const bool is_near = error <= kNear * limits.tolerance;
         const std::size_t most = limits.evaluations * (is_near ? kPointsIfNear : 1);
         const double largest = std::ranges::max_element(ranges, {}, &Range::error)->error();
         bool is_refined = false;
